@@ -1,0 +1,22 @@
+# SPDX-FileCopyrightText: The Hooke authors
+# SPDX-License-Identifier: MIT
+
+# Flags that every target of Hooke's own is built with.
+add_library(hooke_compiler_flags INTERFACE)
+target_compile_options(hooke_compiler_flags INTERFACE
+  # Contraction off: a * b + c must be rounded twice on every machine, or the same scene gives other bits
+  # where the processor has fused multiply-add (docs/determinism.md).
+  -ffp-contract=off
+  # sqrt sets no errno and no trap is looked at: lets the compiler use the instruction; changes no value.
+  -fno-math-errno -fno-trapping-math
+  -Wall -Wextra -Wconversion -Wshadow
+  $<$<BOOL:${HOOKE_WARNINGS_AS_ERRORS}>:-Werror>)
+
+if(HOOKE_SANITIZE_ADDRESS)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+if(HOOKE_SANITIZE_THREAD)
+  add_compile_options(-fsanitize=thread -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=thread)
+endif()

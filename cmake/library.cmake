@@ -1,0 +1,27 @@
+# SPDX-FileCopyrightText: The Hooke authors
+# SPDX-License-Identifier: MIT
+
+# hooke_library(NAME [INTERFACE] [SOURCES ...] [LINKS ...] [PRIVATE_LINKS ...])
+# One static (or header-only) library of src/, exported as hooke::NAME. LINKS may only name libraries below it:
+# tests/layering checks includes and links.
+set_property(GLOBAL PROPERTY HOOKE_LIBRARIES)
+function(hooke_library name)
+  cmake_parse_arguments(ARG "INTERFACE" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  set(target hooke_${name})
+  if(ARG_INTERFACE)
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  else()
+    add_library(${target} STATIC ${ARG_SOURCES})
+    set(scope PUBLIC)
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:hooke_compiler_flags> ${ARG_PRIVATE_LINKS})
+  endif()
+  add_library(hooke::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+                                                $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(${target} ${scope} cxx_std_20)
+  target_link_libraries(${target} ${scope} ${ARG_LINKS})
+  set_property(GLOBAL APPEND PROPERTY HOOKE_LIBRARIES ${target})
+endfunction()

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "hooke/base/exact_sum.h"
+#include "hooke/base/expected.h"
+#include "hooke/core/particles.h"
+#include "hooke/core/scene.h"
+
+namespace hooke {
+
+/// What a back end found wrong while it worked, with the particles concerned. Devices set it, the step
+/// reads it once, Simulation words it.
+struct Condition {
+  enum class Kind { good, not_finite, grid_overflow, approach_too_fast, wall_approach_too_fast };
+  Kind kind = Kind::good;
+  std::uint64_t particle = 0;  ///< id
+  std::uint64_t partner = 0;   ///< id of the other one, for approach_too_fast
+  double speed = 0;            ///< approach speed, m/s
+
+  bool good() const { return kind == Kind::good; }
+};
+
+/// What steps leave behind beside the particles: sums over all steps so far, the same bits for any number
+/// of threads and across a restart, because each step's sum is exact before it is added.
+struct Ledger {
+  double dissipated = 0;               ///< by the dashpots of contacts between particles, and by drag, J
+  double wall_work = 0;                ///< done by walls on particles, springs and dashpots, J
+  Vec3d wall_impulse{0, 0, 0};         ///< given by walls to particles, N s
+  Vec3d drag_impulse{0, 0, 0};         ///< given by drag, N s
+  Vec3d gravity_impulse{0, 0, 0};      ///< given by gravity, N s
+  Vec3d removed_momentum{0, 0, 0};     ///< taken along by particles that left, kg m/s
+  double removed_energy = 0;           ///< kinetic and potential, taken along likewise, J
+  std::uint64_t removed = 0;           ///< particles that left through open faces
+
+  friend bool operator==(const Ledger&, const Ledger&) = default;
+};
+
+/// Figures of one instant. Sums are exact before one last rounding.
+struct Measurements {
+  std::uint64_t particles = 0;
+  std::uint64_t contacts = 0;             ///< touching pairs of particles, each counted once
+  std::uint64_t wall_contacts = 0;
+  double kinetic_energy = 0;              ///< J
+  double potential_energy = 0;            ///< -sum m g.x, J
+  double elastic_energy = 0;              ///< in the springs between particles, J
+  double wall_elastic_energy = 0;         ///< in the springs of walls, J
+  Vec3d momentum{0, 0, 0};                ///< kg m/s
+  Vec3d centre_of_mass{0, 0, 0};          ///< m
+  double momentum_scale = 0;              ///< sum of m |v|, kg m/s: what rounding of the momentum is relative to
+  double max_speed = 0;                   ///< m/s
+  double max_overlap_ratio = 0;           ///< deepest pair: overlap / (r_i + r_p)
+  double mean_overlap_ratio = 0;          ///< mean over touching pairs
+  Vec3d min{0, 0, 0}, max{0, 0, 0};       ///< box around the centres, m; 0 where there is none
+  Vec3d wall_force{0, 0, 0};              ///< by walls on particles at this instant, N
+};
+
+/// What a back end is and holds.
+struct BackendInfo {
+  std::string device;  ///< "cpu", "reference"
+  std::string isa;     ///< instruction set of the force loop, e.g. "avx512"
+  Precision precision = Precision::double_precision;
+  int threads = 1;
+};
+
+/// Cost and quality of the neighbour search so far.
+struct NeighbourStatistics {
+  std::uint64_t rebuilds = 0;
+  double slots_per_particle = 0;  ///< list entries read a particle and step, padding included
+};
+
+/// Where particles live and step: reference (all pairs, the specification), cpu, and others to come. A back
+/// end owns the particles' state in its own layout and order; everything that comes out is by id. Stages
+/// are coarse: fusing inside one is its own affair. core/step.cpp says in which order they run.
+class Backend {
+ public:
+  virtual ~Backend() = default;
+
+  virtual BackendInfo info() const = 0;
+
+  /// Takes the rules. Before particles, and again when a material changes; particles stay.
+  virtual void configure(const Scene& scene) = 0;
+
+  /// Replaces all particles. Those with an id >= `first_new_id` have no acceleration of a last step yet:
+  /// under velocity Verlet it is evaluated here, a(x, v), before anything moves. The neighbour list is stale after.
+  /// `ledger` continues.
+  virtual Condition upload(const ParticleSet& particles, std::uint64_t first_new_id, const Ledger& ledger) = 0;
+
+  /// All particles, by id. `out.acceleration` is filled under velocity Verlet only.
+  virtual void download(ParticleSet& out) const = 0;
+
+  /// First half of velocity Verlet: v += dt/2 a; x += dt v; then the domain's boundaries (periodic
+  /// coordinates wrap, particles outside open faces are removed).
+  virtual void half_kick_and_drift() = 0;
+
+  /// Whether a pair not on the neighbour list could touch now. Always right; never depends on an old speed.
+  virtual bool neighbours_stale() const = 0;
+
+  /// Sorts particles into cells and lists who may touch whom until the next time this is stale.
+  virtual Condition build_neighbours() = 0;
+
+  /// The heart: all forces, and in the same pass what the integrator does with them.
+  ///   symplectic Euler   v += dt a; x += dt v; then the domain's boundaries
+  ///   velocity Verlet    v += dt/2 a
+  virtual Condition apply_forces() = 0;
+
+  virtual std::uint64_t particle_count() const = 0;
+  virtual const Ledger& ledger() const = 0;
+
+  /// Sum over the particles of a mix of id and of the bits of position and velocity, modulo 2^64: in the
+  /// precision of this back end, in no order.
+  virtual std::uint64_t particles_hash() const = 0;
+
+  /// Figures of this instant; makes the neighbour list fresh first if it must.
+  virtual Expected<Measurements> measure() = 0;
+
+  virtual NeighbourStatistics neighbour_statistics() const = 0;
+};
+
+}  // namespace hooke

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hooke/physics/contact.h"
+
+namespace hooke {
+
+/// What particles are made of.
+struct Material {
+  std::string name;
+  double radius = 0.5;  ///< r, m, > 0
+  double mass = 1;      ///< m, kg, > 0, of one particle
+  ContactCoefficients<double> contact;  ///< against its own kind, and against walls without an entry
+  double drag = 0;                      ///< k_d, kg/s, >= 0
+  std::string color;                    ///< "#rrggbb", or empty
+};
+
+/// Coefficients of one pair of materials, or of one material and the walls, given in place of the mixed ones.
+struct ContactEntry {
+  static constexpr std::size_t kWall = static_cast<std::size_t>(-1);
+  std::size_t a = 0;  ///< index into the materials
+  std::size_t b = 0;  ///< index into the materials, or kWall
+  ContactCoefficients<double> coefficients;
+};
+
+/// The mixing rule for a pair without an entry (docs/theory.md eq. 8): stiffness 2 k1 k2/(k1 + k2), as of
+/// two springs in series, twice; shear and damping the arithmetic mean.
+ContactCoefficients<double> mix(const ContactCoefficients<double>& a, const ContactCoefficients<double>& b);
+
+/// The coefficients of every pair of materials and of every material against the walls.
+class ContactTable {
+ public:
+  ContactTable() = default;
+  ContactTable(std::span<const Material> materials, std::span<const ContactEntry> entries);
+
+  std::size_t material_count() const { return wall_.size(); }
+  const ContactCoefficients<double>& pair(std::size_t a, std::size_t b) const { return pairs_[a * wall_.size() + b]; }
+  const ContactCoefficients<double>& wall(std::size_t a) const { return wall_[a]; }
+
+ private:
+  std::vector<ContactCoefficients<double>> pairs_;  // material_count() squared, symmetric
+  std::vector<ContactCoefficients<double>> wall_;
+};
+
+}  // namespace hooke

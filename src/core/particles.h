@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hooke/base/vec3.h"
+
+namespace hooke {
+
+/// Particles on the host, one entry of every column a particle, in ascending order of id. Values that a
+/// single-precision back end holds are exact in these doubles.
+struct ParticleSet {
+  std::vector<std::uint64_t> id;        ///< unique, ascending, never used again after a removal
+  std::vector<std::uint16_t> material;  ///< index into Scene::materials
+  std::vector<Vec3d> position;          ///< m
+  std::vector<Vec3d> velocity;          ///< m/s; the full-step velocity
+  std::vector<Vec3d> acceleration;      ///< m/s^2 of the last step: part of the state of velocity Verlet; else empty
+
+  std::size_t size() const { return id.size(); }
+  bool empty() const { return id.empty(); }
+  void reserve(std::size_t n);
+  void resize(std::size_t n);
+  void clear();
+  /// Puts the columns into ascending order of id (a stable permutation).
+  void sort_by_id();
+  /// Index of the particle of this id, or size() where there is none. O(log n).
+  std::size_t find(std::uint64_t particle_id) const;
+};
+
+}  // namespace hooke

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hooke/base/expected.h"
+#include "hooke/base/vec3.h"
+#include "hooke/core/materials.h"
+
+namespace hooke {
+
+/// How positions and velocities advance (docs/theory.md section 3).
+enum class Integrator {
+  symplectic_euler,  ///< a(x_n, v_n); v += dt a; x += dt v
+  velocity_verlet,   ///< v += dt/2 a; x += dt v; a = f(x_new, v_half); v += dt/2 a
+};
+
+/// The number type that a back end computes in. The reference back end is double whatever is asked.
+enum class Precision { single_precision, double_precision };
+
+/// What the two faces across one axis do.
+enum class Boundary {
+  spring,    ///< walls that push back by the contact law
+  open,      ///< particles whose centre leaves are removed and counted
+  periodic,  ///< what leaves on one side comes in on the other
+};
+
+/// The simulated box.
+struct Domain {
+  Vec3d min{0, 0, 0};  ///< m
+  Vec3d max{1, 1, 1};  ///< m, above min on every axis
+  std::array<Boundary, 3> boundary{Boundary::spring, Boundary::spring, Boundary::spring};
+
+  double length(int axis) const { return component(max, axis) - component(min, axis); }
+};
+
+/// When a run writes: the first step at or after each multiple of `seconds`, or every `steps`.
+struct OutputCadence {
+  double seconds = 0;      ///< > 0, or 0 where `steps` rules
+  std::int64_t steps = 0;  ///< >= 1, or 0 where `seconds` rules
+
+  /// Whether the state after `step` steps of `dt` (s) is to be written. Step 0 always is.
+  bool is_due(std::int64_t step, double dt) const;
+};
+
+/// Everything that rules a simulation but the particles themselves: plain data with default values.
+/// A scene file fills it, or code does. SI units.
+struct Scene {
+  std::string name;
+  double time_step = 0.005;  ///< dt, s, > 0
+  std::int64_t steps = 0;    ///< how long a run lasts, in steps from the start, >= 0
+  Integrator integrator = Integrator::symplectic_euler;
+  Precision precision = Precision::single_precision;
+  Vec3d gravity{0, -9.8, 0};  ///< m/s^2
+  Domain domain;
+  std::vector<Material> materials;        ///< at most 65,535
+  std::vector<ContactEntry> contacts;     ///< pairs that do not follow the mixing rule
+  OutputCadence output;
+};
+
+/// What makes `scene` unusable, if anything: values that are not finite, signs, empty domains, twins of a
+/// name or of a pair. Empty where all is well. Paths are those of the scene file.
+std::vector<Finding> validate(const Scene& scene);
+
+}  // namespace hooke

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hooke/base/expected.h"
+#include "hooke/core/backend.h"
+#include "hooke/core/particles.h"
+#include "hooke/core/scene.h"
+
+namespace hooke {
+
+/// Everything that a run needs to go on with the same bits: what a checkpoint stores.
+struct SimulationState {
+  ParticleSet particles;      ///< with accelerations under velocity Verlet
+  std::int64_t step = 0;      ///< steps done
+  std::uint64_t next_id = 1;  ///< id of the next particle to be added
+  Ledger ledger;
+  double initial_energy = 0;  ///< kinetic, potential and elastic at step 0, J
+  Vec3d initial_momentum{0, 0, 0};
+};
+
+/// A particle to be added.
+struct NewParticle {
+  std::size_t material = 0;  ///< index into Scene::materials
+  Vec3d position{0, 0, 0};   ///< m
+  Vec3d velocity{0, 0, 0};   ///< m/s
+};
+
+/// One simulation: a scene's rules, its particles, and a back end that steps them.
+///
+///     auto sim = hooke::Simulation::create(scene, particles, hooke::make_cpu_backend());
+///     if (!sim) return complain(sim.error());
+///     sim->step(100);
+///     for (hooke::Vec3d x : sim->positions()) draw(x);
+///
+/// Nothing here throws, prints or exits; what can fail returns Expected. Not thread-safe: one thread
+/// calls, the back end uses as many as it was given.
+class Simulation {
+ public:
+  /// Checks scene and particles (ids unique and ascending, materials known, everything finite) and hands
+  /// them to the back end. Error::Kind::bad_input with every finding otherwise.
+  static Expected<Simulation> create(Scene scene, ParticleSet particles, std::unique_ptr<Backend> backend);
+
+  /// Goes on from a saved state: the same bits as if it had never stopped.
+  static Expected<Simulation> resume(Scene scene, SimulationState state, std::unique_ptr<Backend> backend);
+
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  /// Takes `count` steps of Scene::time_step. Error::Kind::run_failed, with the step, the particles and the likely
+  /// cause, when the run goes bad; the simulation then stays as it is and takes no more steps.
+  Expected<void> step(std::int64_t count = 1);
+
+  const Scene& scene() const;
+  std::int64_t step_count() const;  ///< steps done since the start
+  double time() const;              ///< step_count * time_step, s
+  std::uint64_t particle_count() const;
+  std::uint64_t next_id() const;
+  BackendInfo backend_info() const;
+  NeighbourStatistics neighbour_statistics() const;
+
+  /// The particles now, by ascending id. Valid until the next call that steps or changes something.
+  /// The first look after a step copies them from the back end.
+  const ParticleSet& particles() const;
+  std::span<const std::uint64_t> ids() const;
+  std::span<const Vec3d> positions() const;   ///< m
+  std::span<const Vec3d> velocities() const;  ///< m/s
+
+  /// Adds particles; their ids, in order. Materials must exist, values be finite, positions inside the domain.
+  Expected<std::vector<std::uint64_t>> add_particles(std::span<const NewParticle> particles);
+  /// Removes particles by id; none of them is removed where one is unknown.
+  Expected<void> remove_particles(std::span<const std::uint64_t> ids);
+  /// v += impulse / m (N s) of one particle.
+  Expected<void> apply_impulse(std::uint64_t id, const Vec3d& impulse);
+  /// Moves one particle and sets its velocity (m, m/s): for what is led by hand.
+  Expected<void> set_particle(std::uint64_t id, const Vec3d& position, const Vec3d& velocity);
+  /// Replaces the material of the same name, from the next step on.
+  Expected<void> set_material(const Material& material);
+
+  /// The complete state, and back to one: the same bits follow.
+  SimulationState snapshot() const;
+  Expected<void> restore(SimulationState state);
+
+  /// 64 bits that are equal only where every id, position and velocity, the clock and the id counter are
+  /// (docs/determinism.md).
+  std::uint64_t state_hash() const;
+
+  /// Figures of this instant.
+  Expected<Measurements> measure() const;
+  /// Sums over all steps so far.
+  const Ledger& ledger() const;
+  /// Kinetic, potential and elastic energy at step 0, J, and momentum, kg m/s: what drifts are measured from.
+  double initial_energy() const;
+  const Vec3d& initial_momentum() const;
+
+ private:
+  struct Impl;
+  explicit Simulation(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// |momentum - what gravity, walls, drag and departures account for| over the sum of m |v| and of those impulses.
+/// Rounding alone leaves about 1e-7 in single precision.
+double momentum_drift(const Measurements& now, const Ledger& ledger, const Vec3d& initial_momentum);
+
+/// The largest stable step of the scene's stiffest and lightest materials, s (docs/theory.md eq. 9), and
+/// which coefficient limits it.
+struct StableStep {
+  double seconds = 0;   ///< infinite where nothing can oscillate
+  std::string limit;    ///< e.g. "stiffness and damping of water - water"
+};
+StableStep stable_step(const Scene& scene);
+
+}  // namespace hooke

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "hooke/base/vec3.h"
+
+namespace hooke {
+
+/// Components along a periodic axis of length L (m). A displacement between particles is
+/// (x_i - x_p) - s L with a whole number s, the periodic image of p (docs/theory.md eq. 5).
+template <class R>
+HOOKE_HD R image_displacement(const R& x_i, const R& x_p, const R& s, const R& length) {
+  return (x_i - x_p) - s * length;
+}
+
+/// The s in {-1, 0, 1} that brings p's image nearest to i, for x_i and x_p inside the domain. Where
+/// the axis is at least two contact distances long, no other image can touch.
+template <class R>
+HOOKE_HD R nearest_image(const R& x_i, const R& x_p, const R& length) {
+  const R half = R(0.5) * length;
+  const R d = x_i - x_p;
+  return select(d > half, R(1), select(d < -half, R(-1), R(0)));
+}
+
+/// `x` (m) brought back into [min, max) after a drift across a periodic face. A particle that moved by
+/// several lengths of the axis in one step comes back too; the result is never max itself, which the
+/// subtraction may round to.
+HOOKE_HD float wrap_coordinate(float x, float min, float max);
+HOOKE_HD double wrap_coordinate(double x, double min, double max);
+
+namespace detail {
+template <class R>
+HOOKE_HD R wrap(R x, R min, R max) {
+  const R length = max - min;
+  if (x >= min && x < max) return x;
+  const R turns = (x - min) / length;
+  if (!(turns > R(-1e9) && turns < R(1e9))) return x;  // NaN or lost: reported by the step, not hidden
+  auto whole = static_cast<long long>(turns);
+  if (turns < R(0)) --whole;
+  x = x - static_cast<R>(whole) * length;
+  if (x < min) x = x + length;
+  if (x >= max) x = min;
+  return x;
+}
+}  // namespace detail
+
+HOOKE_HD float wrap_coordinate(float x, float min, float max) { return detail::wrap(x, min, max); }
+HOOKE_HD double wrap_coordinate(double x, double min, double max) { return detail::wrap(x, min, max); }
+
+}  // namespace hooke

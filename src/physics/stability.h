@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+
+namespace hooke {
+
+/// m_i m_p / (m_i + m_p), kg. A partner of infinite mass gives the other's mass.
+inline double effective_mass(double mass_i, double mass_p) {
+  if (std::isinf(mass_i)) return mass_p;
+  if (std::isinf(mass_p)) return mass_i;
+  return mass_i * mass_p / (mass_i + mass_p);
+}
+
+/// c / (2 sqrt(k m_eff)): 1 is critical damping; 0 where there is no spring.
+inline double damping_ratio(double damping, double stiffness, double m_eff) {
+  return stiffness > 0 ? damping / (2 * std::sqrt(stiffness * m_eff)) : 0;
+}
+
+/// Largest eigenvalues of the springs and of the dashpots of a pile, as multiples of k/m and c/m
+/// (docs/theory.md section 4: 8 for the springs of an fcc lattice, 16 for its dashpots, which act on
+/// the whole relative velocity; the upper ends hold for random packings).
+inline constexpr double kPileSpringFactor = 10;
+inline constexpr double kPileDampingFactor = 24;
+
+/// Largest step (s) for which symplectic Euler is stable on x'' = -omega2 x - gamma x':
+/// omega2 dt^2 + 2 gamma dt = 4 (docs/theory.md eq. 9). Infinite where both are 0.
+inline double critical_step(double omega2, double gamma) {
+  if (omega2 <= 0) return gamma > 0 ? 2 / gamma : INFINITY;
+  // 4 / (gamma + sqrt(gamma^2 + 4 omega2)) is the positive root without cancellation.
+  return 4 / (gamma + std::sqrt(gamma * gamma + 4 * omega2));
+}
+
+}  // namespace hooke
