@@ -1,0 +1,56 @@
+# SPDX-FileCopyrightText: The Hooke authors
+# SPDX-License-Identifier: MIT
+#
+# Short names for CMake's presets; each target first installs the Debian packages that it needs.
+
+PREFIX ?= /usr/local
+JOBS ?= $(shell nproc)
+# How make run and make bench call the program, e.g. make run RUN_ARGS="--steps 200"
+RUN_ARGS ?=
+BENCH_ARGS ?=
+
+.DEFAULT_GOAL := help
+.PHONY: help run test soak build bench format lint install clean setup setup-lint
+
+help:  ## this list
+	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
+
+run: build  ## build, and run the dam break of 512,000 particles into out/water
+	@echo "Running scenes/water.json: a dam break of 512,000 particles (Ctrl-C stops it cleanly)."
+	build/hooke run scenes/water.json -o out/water --overwrite $(RUN_ARGS)
+	@echo "In out/water:"
+	@echo "  particles.vtkhdf  every snapshot; open it in ParaView 5.12 or later"
+	@echo "  series.csv        energy, momentum, overlap over time"
+	@echo "  report.json       what happened; log.txt: how; checkpoint.h5: its end, to go on from"
+	@build/hooke info out/water
+
+test: setup  ## build with assertions and sanitizers, run every test but the long ones
+	tools/test.sh
+
+soak: setup  ## the long tests
+	tools/test.sh soak
+
+build: setup  ## release build: build/hooke
+	@cmake --preset release >/dev/null
+	@cmake --build --preset release -j $(JOBS)
+
+bench: build  ## speed of the dam break
+	build/hooke bench scenes/water.json $(BENCH_ARGS)
+
+format: setup-lint  ## format all sources
+	tools/lint.sh format
+
+lint: setup-lint  ## check the format, clang-tidy, and a build with Clang 19
+	tools/lint.sh
+
+install: build  ## install program, library, headers and scenes below PREFIX
+	cmake --install build --prefix $(DESTDIR)$(PREFIX)
+
+clean:  ## remove every build folder
+	rm -rf build build-dev build-clang build-asan build-tsan
+
+setup:
+	@tools/setup.sh
+
+setup-lint:
+	@tools/setup.sh lint

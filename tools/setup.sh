@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Hooke authors
+# SPDX-License-Identifier: MIT
+#
+# Installs what Hooke needs from Debian's own packages; says nothing when all of it is there.
+#   tools/setup.sh          to build, run and test
+#   tools/setup.sh lint     also to format and to lint
+set -euo pipefail
+
+build_packages=(
+  build-essential cmake ninja-build ccache
+  libtbb-dev libexpected-dev nlohmann-json3-dev libvalijson-dev libcli11-dev libfmt-dev libspdlog-dev libhdf5-dev
+  libgtest-dev libbenchmark-dev
+  python3)
+lint_packages=(clang-19 clang-format-19 clang-tidy-19)
+
+packages=("${build_packages[@]}")
+if [[ "${1:-}" == lint ]]; then packages+=("${lint_packages[@]}"); fi
+
+if ! command -v dpkg-query >/dev/null; then
+  echo "Not a Debian system: install the likes of ${packages[*]} yourself." >&2
+  exit 0
+fi
+
+installed=$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "${packages[@]}" 2>/dev/null | sort -u || true)
+missing=()
+for package in "${packages[@]}"; do
+  grep -qx "installed $package" <<<"$installed" || missing+=("$package")
+done
+if ((${#missing[@]} == 0)); then exit 0; fi
+
+as_root=()
+if ((EUID != 0)); then as_root=(sudo); fi
+echo "Installing ${missing[*]}"
+export DEBIAN_FRONTEND=noninteractive
+quietly() {
+  local log
+  log=$(mktemp)
+  if ! "$@" >"$log" 2>&1 </dev/null; then
+    cat "$log" >&2
+    rm -f "$log"
+    return 1
+  fi
+  rm -f "$log"
+}
+quietly "${as_root[@]}" apt-get -o Acquire::Retries=3 update
+quietly "${as_root[@]}" apt-get -o Acquire::Retries=3 install -y --no-install-recommends "${missing[@]}"
