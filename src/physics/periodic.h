@@ -22,29 +22,20 @@ HOOKE_HD R nearest_image(const R& x_i, const R& x_p, const R& length) {
   return select(d > half, R(1), select(d < -half, R(-1), R(0)));
 }
 
-/// `x` (m) brought back into [min, max) after a drift across a periodic face. A particle that moved by
-/// several lengths of the axis in one step comes back too; the result is never max itself, which the
-/// subtraction may round to.
-HOOKE_HD float wrap_coordinate(float x, float min, float max);
-HOOKE_HD double wrap_coordinate(double x, double min, double max);
-
-namespace detail {
+/// `x` (m) brought back into [min, max) after a drift across a periodic face. A particle that moved by several
+/// lengths of the axis in one step comes back too. The result is never max itself, which the subtraction may round
+/// to. NaN, and what is a billion lengths away, stay as they are: the step reports them.
 template <class R>
-HOOKE_HD R wrap(R x, R min, R max) {
-  const R length = max - min;
+HOOKE_HD R wrap_coordinate(R x, R min, R max) {
   if (x >= min && x < max) return x;
+  const R length = max - min;
   const R turns = (x - min) / length;
-  if (!(turns > R(-1e9) && turns < R(1e9))) return x;  // NaN or lost: reported by the step, not hidden
+  if (!(turns > R(-1e9) && turns < R(1e9))) return x;
   auto whole = static_cast<long long>(turns);
   if (turns < R(0)) --whole;
   x = x - static_cast<R>(whole) * length;
   if (x < min) x = x + length;
-  if (x >= max) x = min;
-  return x;
+  return x >= max ? min : x;
 }
-}  // namespace detail
-
-HOOKE_HD float wrap_coordinate(float x, float min, float max) { return detail::wrap(x, min, max); }
-HOOKE_HD double wrap_coordinate(double x, double min, double max) { return detail::wrap(x, min, max); }
 
 }  // namespace hooke

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/core/particles.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace hooke {
+namespace {
+
+template <class T>
+void permute(std::vector<T>& column, const std::vector<std::size_t>& order) {
+  if (column.empty()) return;
+  std::vector<T> sorted(column.size());
+  for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = column[order[i]];
+  column = std::move(sorted);
+}
+
+}  // namespace
+
+void ParticleSet::reserve(std::size_t n) {
+  id.reserve(n);
+  material.reserve(n);
+  position.reserve(n);
+  velocity.reserve(n);
+}
+
+void ParticleSet::resize(std::size_t n) {
+  id.resize(n);
+  material.resize(n);
+  position.resize(n);
+  velocity.resize(n);
+  if (!acceleration.empty()) acceleration.resize(n);
+}
+
+void ParticleSet::clear() { *this = ParticleSet{}; }
+
+void ParticleSet::sort_by_id() {
+  if (std::is_sorted(id.begin(), id.end())) return;
+  std::vector<std::size_t> order(size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [this](std::size_t a, std::size_t b) { return id[a] < id[b]; });
+  permute(id, order);
+  permute(material, order);
+  permute(position, order);
+  permute(velocity, order);
+  permute(acceleration, order);
+}
+
+std::size_t ParticleSet::find(std::uint64_t particle_id) const {
+  const auto found = std::lower_bound(id.begin(), id.end(), particle_id);
+  return found != id.end() && *found == particle_id ? static_cast<std::size_t>(found - id.begin()) : size();
+}
+
+}  // namespace hooke

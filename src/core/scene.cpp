@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/core/scene.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace hooke {
+namespace {
+
+constexpr const char* kAxisName[3] = {"x", "y", "z"};
+
+// Collects what is wrong; `single` also asks that a value survive the rounding to float.
+class Checker {
+ public:
+  explicit Checker(bool single) : single_(single) {}
+
+  void finite(const std::string& where, double value) {
+    if (!std::isfinite(value)) {
+      add(where, fmt::format("{} is not a finite number", value));
+    } else if (single_ && !std::isfinite(static_cast<float>(value))) {
+      add(where, fmt::format("{} is beyond single precision (up to 3.4e38)", value));
+    }
+  }
+  void positive(const std::string& where, double value) {
+    finite(where, value);
+    if (std::isfinite(value) && !(value > 0)) {
+      add(where, fmt::format("{} must be greater than 0", value));
+    } else if (std::isfinite(value) && single_ && !(static_cast<float>(value) > 0)) {
+      add(where, fmt::format("{} is 0 in single precision", value));
+    }
+  }
+  void not_negative(const std::string& where, double value) {
+    finite(where, value);
+    if (std::isfinite(value) && value < 0) add(where, fmt::format("{} must be 0 or more", value));
+  }
+  void coefficients(const std::string& where, const ContactCoefficients<double>& c) {
+    not_negative(where + ".stiffness", c.stiffness);
+    not_negative(where + ".shear", c.shear);
+    not_negative(where + ".damping", c.damping);
+  }
+  void add(std::string where, std::string message) { findings.push_back({std::move(where), std::move(message)}); }
+
+  std::vector<Finding> findings;
+
+ private:
+  bool single_;
+};
+
+void check_domain(const Domain& domain, bool single, Checker& check) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = component(domain.min, axis);
+    const double high = component(domain.max, axis);
+    check.finite(fmt::format("domain.min[{}]", axis), low);
+    check.finite(fmt::format("domain.max[{}]", axis), high);
+    if (!std::isfinite(low) || !std::isfinite(high)) continue;
+    const bool empty = single ? !(static_cast<float>(low) < static_cast<float>(high)) : !(low < high);
+    if (empty) {
+      check.add(fmt::format("domain.max[{}]", axis),
+                fmt::format("{} must be greater than domain.min[{}] = {} ({} axis){}", high, axis, low, kAxisName[axis],
+                            low < high ? ", also after rounding to single precision" : ""));
+    }
+  }
+}
+
+void check_materials(const Scene& scene, Checker& check) {
+  constexpr std::size_t kMost = std::numeric_limits<std::uint16_t>::max();
+  if (scene.materials.size() > kMost) {
+    check.add("materials", fmt::format("{} materials, at most {} are possible", scene.materials.size(), kMost));
+  }
+  std::set<std::string> names;
+  for (const Material& m : scene.materials) {
+    const std::string where = "materials." + m.name;
+    if (m.name == "wall") check.add(where, "\"wall\" is reserved for the domain's walls; choose another name");
+    if (!names.insert(m.name).second) check.add(where, "a second material of this name");
+    check.positive(where + ".radius", m.radius);
+    check.positive(where + ".mass", m.mass);
+    check.coefficients(where, m.contact);
+    check.not_negative(where + ".drag", m.drag);
+  }
+}
+
+void check_contacts(const Scene& scene, Checker& check) {
+  std::set<std::pair<std::size_t, std::size_t>> seen;
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    const ContactEntry& entry = scene.contacts[i];
+    const std::string where = fmt::format("contacts[{}]", i);
+    const bool known = entry.a < scene.materials.size() &&
+                       (entry.b < scene.materials.size() || entry.b == ContactEntry::kWall);
+    if (!known) check.add(where + ".between", "names a material that does not exist");
+    const auto pair = entry.b == ContactEntry::kWall ? std::pair{entry.a, entry.b} : std::minmax(entry.a, entry.b);
+    if (!seen.insert(pair).second) check.add(where + ".between", "a second entry for the same pair");
+    check.coefficients(where, entry.coefficients);
+  }
+}
+
+}  // namespace
+
+bool OutputCadence::is_due(std::int64_t step, double dt) const {
+  if (step == 0) return true;
+  if (steps > 0) return step % steps == 0;
+  if (!(seconds > 0)) return false;
+  // Which multiple of `seconds` the state at t = step dt has reached. The relative 1e-9 keeps a multiple that falls
+  // on a step there, although neither number need be exact in binary.
+  const auto reached = [&](std::int64_t n) {
+    const double multiples = static_cast<double>(n) * dt / seconds;
+    return std::floor(multiples * (1 + 1e-9) + 1e-9);
+  };
+  return reached(step) > reached(step - 1);
+}
+
+std::vector<Finding> validate(const Scene& scene) {
+  const bool single = scene.precision == Precision::single_precision;
+  Checker check(single);
+  check.positive("time.step", scene.time_step);
+  if (scene.steps < 0) check.add("time.steps", fmt::format("{} must be 0 or more", scene.steps));
+  for (int axis = 0; axis < 3; ++axis) check.finite(fmt::format("gravity[{}]", axis), component(scene.gravity, axis));
+  check_domain(scene.domain, single, check);
+  check_materials(scene, check);
+  check_contacts(scene, check);
+  check.not_negative("output.every", scene.output.seconds);
+  if (scene.output.steps < 0) check.add("output.every_steps", fmt::format("{} must be 1 or more", scene.output.steps));
+  return check.findings;
+}
+
+}  // namespace hooke

@@ -1,0 +1,375 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/core/simulation.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <new>
+
+#include "hooke/base/hash.h"
+#include "hooke/core/step.h"
+
+namespace hooke {
+namespace {
+
+constexpr std::size_t kMostFindings = 20;  // of one kind: a set of a million bad particles makes its point sooner
+
+bool is_finite(const Vec3d& a, bool single) {
+  const auto ok = [single](double v) { return single ? std::isfinite(static_cast<float>(v)) : std::isfinite(v); };
+  return ok(a.x) && ok(a.y) && ok(a.z);
+}
+
+bool is_inside(const Domain& domain, const Vec3d& x) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double value = component(x, axis);
+    if (!(value >= component(domain.min, axis) && value <= component(domain.max, axis))) return false;
+  }
+  return true;
+}
+
+std::string shown(const Vec3d& a) { return fmt::format("({}, {}, {})", a.x, a.y, a.z); }
+
+// What is wrong with one particle that is about to enter `scene`; empty where nothing is.
+std::string particle_fault(const Scene& scene, std::size_t material, const Vec3d& x, const Vec3d& v) {
+  const bool single = scene.precision == Precision::single_precision;
+  if (material >= scene.materials.size()) {
+    return fmt::format("material {} does not exist; there are {}", material, scene.materials.size());
+  }
+  if (!is_finite(x, single)) return "position " + shown(x) + " is not finite";
+  if (!is_finite(v, single)) return "velocity " + shown(v) + " is not finite";
+  if (!is_inside(scene.domain, x)) {
+    return fmt::format("position {} is outside the domain {} to {}", shown(x), shown(scene.domain.min),
+                       shown(scene.domain.max));
+  }
+  return {};
+}
+
+std::vector<Finding> check_columns(const ParticleSet& p, bool with_acceleration) {
+  const std::size_t n = p.size();
+  if (p.material.size() != n || p.position.size() != n || p.velocity.size() != n ||
+      (with_acceleration && p.acceleration.size() != n)) {
+    return {{"particles", fmt::format("columns of different length: {} ids, {} materials, {} positions, {} velocities, "
+                                      "{} accelerations",
+                                      n, p.material.size(), p.position.size(), p.velocity.size(), p.acceleration.size())}};
+  }
+  return {};
+}
+
+std::vector<Finding> check_ids(const ParticleSet& p) {
+  for (std::size_t i = 1; i < p.size(); ++i) {
+    if (p.id[i - 1] >= p.id[i]) {
+      return {{"particles", fmt::format("ids must be unique and ascending: {} follows {}", p.id[i], p.id[i - 1])}};
+    }
+  }
+  if (!p.empty() && p.id.back() == ~std::uint64_t{0}) return {{"particles", "the largest 64-bit id is reserved"}};
+  return {};
+}
+
+std::vector<Finding> check_particles(const Scene& scene, const ParticleSet& p, bool restored) {
+  std::vector<Finding> findings =
+      check_columns(p, restored && scene.integrator == Integrator::velocity_verlet);
+  if (!findings.empty()) return findings;
+  findings = check_ids(p);
+  for (std::size_t i = 0; i < p.size() && findings.size() < kMostFindings; ++i) {
+    std::string fault = particle_fault(scene, p.material[i], p.position[i], p.velocity[i]);
+    // A particle that presses against a wall may stand outside when a state is saved; it comes back.
+    if (restored && fault.find("outside the domain") != std::string::npos) continue;
+    if (!fault.empty()) findings.push_back({fmt::format("particle {}", p.id[i]), std::move(fault)});
+  }
+  return findings;
+}
+
+}  // namespace
+
+struct Simulation::Impl {
+  Scene scene;
+  std::unique_ptr<Backend> backend;
+  std::int64_t step = 0;
+  std::uint64_t next_id = 1;
+  double initial_energy = 0;
+  Vec3d initial_momentum{0, 0, 0};
+
+  // The host's copy of the particles: made on the first look after a step; what is changed in it goes
+  // back before anything else happens.
+  ParticleSet host;
+  bool host_current = false;
+  bool host_edited = false;
+  std::uint64_t first_new_id = 0;
+
+  bool failed = false;
+  Error failure;
+
+  bool verlet() const { return scene.integrator == Integrator::velocity_verlet; }
+
+  const ParticleSet& particles() {
+    if (!host_current) {
+      backend->download(host);
+      host_current = true;
+    }
+    return host;
+  }
+
+  ParticleSet& edit() {
+    particles();
+    if (!host_edited) first_new_id = next_id;
+    host_edited = true;
+    return host;
+  }
+
+  // Hands what was edited to the back end.
+  Expected<void> flush() {
+    if (failed) return fail(failure);
+    if (!host_edited) return {};
+    const Ledger ledger = backend->ledger();
+    host_edited = false;
+    host_current = false;
+    return check(backend->upload(host, first_new_id, ledger));
+  }
+
+  Expected<void> check(const Condition& condition) {
+    if (condition.good()) return {};
+    failed = true;
+    failure = Error{Error::Kind::run_failed, {{fmt::format("step {} (t = {:.6g} s)", step, static_cast<double>(step) * scene.time_step),
+                                               describe(condition)}}};
+    return fail(failure);
+  }
+
+  std::string describe(const Condition& condition) const {
+    const double moved = condition.speed * scene.time_step;
+    switch (condition.kind) {
+      case Condition::Kind::good: break;
+      case Condition::Kind::not_finite:
+        return fmt::format("particle {} is no longer at a finite position; {}", condition.particle, likely_cause());
+      case Condition::Kind::grid_overflow:
+        return fmt::format("particle {} is too far away for the cell grid; {}", condition.particle, likely_cause());
+      case Condition::Kind::approach_too_fast:
+        return fmt::format("particles {} and {} approach at {:.6g} m/s, {:.3g} m in one step: more than the smaller radius; {}",
+                           condition.particle, condition.partner, condition.speed, moved, likely_cause());
+      case Condition::Kind::wall_approach_too_fast:
+        return fmt::format("particle {} approaches a wall at {:.6g} m/s, {:.3g} m in one step: more than its radius; {}",
+                           condition.particle, condition.speed, moved, likely_cause());
+    }
+    return {};
+  }
+
+  std::string likely_cause() const {
+    const StableStep stable = stable_step(scene);
+    const double ratio = scene.time_step / stable.seconds;
+    if (ratio > 1) {
+      return fmt::format("time.step {:.6g} s is {:.3g} times the stable step {:.6g} s, which the {} sets", scene.time_step,
+                         ratio, stable.seconds, stable.limit);
+    }
+    return fmt::format("time.step {:.6g} s is below the stable step {:.6g} s, so look at the start (overlaps, speeds) or "
+                       "take a smaller step",
+                       scene.time_step, stable.seconds);
+  }
+
+  Expected<void> start(const ParticleSet& particles, std::uint64_t first_new, const Ledger& ledger) {
+    try {
+      backend->configure(scene);
+      return check(backend->upload(particles, first_new, ledger));
+    } catch (const std::bad_alloc&) {
+      return fail(Error::Kind::bad_input, "particles", fmt::format("{} particles do not fit into memory", particles.size()));
+    }
+  }
+};
+
+Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+Expected<Simulation> Simulation::create(Scene scene, ParticleSet particles, std::unique_ptr<Backend> backend) {
+  std::vector<Finding> findings = validate(scene);
+  if (findings.empty()) findings = check_particles(scene, particles, false);
+  if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});
+
+  auto impl = std::make_unique<Impl>();
+  impl->scene = std::move(scene);
+  impl->backend = std::move(backend);
+  impl->next_id = particles.empty() ? 1 : particles.id.back() + 1;
+  if (auto started = impl->start(particles, 0, Ledger{}); !started) return fail(started.error());
+  particles = ParticleSet{};  // the back end has them now; measuring may need the room
+  const auto now = impl->backend->measure();
+  if (!now) return fail(now.error());
+  impl->initial_energy = now->kinetic_energy + now->potential_energy + now->elastic_energy;
+  impl->initial_momentum = now->momentum;
+  return Simulation(std::move(impl));
+}
+
+Expected<Simulation> Simulation::resume(Scene scene, SimulationState state, std::unique_ptr<Backend> backend) {
+  std::vector<Finding> findings = validate(scene);
+  if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});
+  auto impl = std::make_unique<Impl>();
+  impl->scene = std::move(scene);
+  impl->backend = std::move(backend);
+  Simulation simulation(std::move(impl));
+  if (auto restored = simulation.restore(std::move(state)); !restored) return fail(restored.error());
+  return simulation;
+}
+
+Expected<void> Simulation::step(std::int64_t count) {
+  Impl& s = *impl_;
+  try {
+    if (auto flushed = s.flush(); !flushed) return flushed;
+    for (std::int64_t i = 0; i < count; ++i) {
+      s.host_current = false;
+      if (auto taken = s.check(take_step(*s.backend, s.scene.integrator)); !taken) return taken;
+      ++s.step;
+    }
+    return {};
+  } catch (const std::bad_alloc&) {
+    s.failed = true;
+    s.failure = Error{Error::Kind::run_failed, {{fmt::format("step {}", s.step), "out of memory"}}};
+    return fail(s.failure);
+  }
+}
+
+const Scene& Simulation::scene() const { return impl_->scene; }
+std::int64_t Simulation::step_count() const { return impl_->step; }
+double Simulation::time() const { return static_cast<double>(impl_->step) * impl_->scene.time_step; }
+std::uint64_t Simulation::particle_count() const {
+  return impl_->host_edited ? impl_->host.size() : impl_->backend->particle_count();
+}
+std::uint64_t Simulation::next_id() const { return impl_->next_id; }
+BackendInfo Simulation::backend_info() const { return impl_->backend->info(); }
+NeighbourStatistics Simulation::neighbour_statistics() const { return impl_->backend->neighbour_statistics(); }
+
+const ParticleSet& Simulation::particles() const { return impl_->particles(); }
+std::span<const std::uint64_t> Simulation::ids() const { return particles().id; }
+std::span<const Vec3d> Simulation::positions() const { return particles().position; }
+std::span<const Vec3d> Simulation::velocities() const { return particles().velocity; }
+
+Expected<std::vector<std::uint64_t>> Simulation::add_particles(std::span<const NewParticle> particles) {
+  Impl& s = *impl_;
+  std::vector<Finding> findings;
+  for (std::size_t i = 0; i < particles.size() && findings.size() < kMostFindings; ++i) {
+    const NewParticle& p = particles[i];
+    std::string fault = particle_fault(s.scene, p.material, p.position, p.velocity);
+    if (!fault.empty()) findings.push_back({fmt::format("new particle {}", i), std::move(fault)});
+  }
+  if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});
+
+  ParticleSet& host = s.edit();
+  std::vector<std::uint64_t> ids;
+  ids.reserve(particles.size());
+  for (const NewParticle& p : particles) {
+    ids.push_back(s.next_id);
+    host.id.push_back(s.next_id++);
+    host.material.push_back(static_cast<std::uint16_t>(p.material));
+    host.position.push_back(p.position);
+    host.velocity.push_back(p.velocity);
+    if (s.verlet()) host.acceleration.push_back({0, 0, 0});
+    s.initial_momentum += s.scene.materials[p.material].mass * p.velocity;
+  }
+  return ids;
+}
+
+Expected<void> Simulation::remove_particles(std::span<const std::uint64_t> ids) {
+  Impl& s = *impl_;
+  const ParticleSet& now = s.particles();
+  std::vector<char> gone(now.size(), 0);
+  for (const std::uint64_t id : ids) {
+    const std::size_t i = now.find(id);
+    if (i == now.size()) return fail(Error::Kind::bad_input, fmt::format("particle {}", id), "there is none of this id");
+    gone[i] = 1;
+  }
+  ParticleSet& host = s.edit();
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < gone.size(); ++i) {
+    if (gone[i] != 0) {
+      s.initial_momentum -= s.scene.materials[host.material[i]].mass * host.velocity[i];
+      continue;
+    }
+    host.id[kept] = host.id[i];
+    host.material[kept] = host.material[i];
+    host.position[kept] = host.position[i];
+    host.velocity[kept] = host.velocity[i];
+    if (s.verlet()) host.acceleration[kept] = host.acceleration[i];
+    ++kept;
+  }
+  host.resize(kept);
+  return {};
+}
+
+Expected<void> Simulation::apply_impulse(std::uint64_t id, const Vec3d& impulse) {
+  Impl& s = *impl_;
+  const std::size_t i = s.particles().find(id);
+  if (i == s.host.size()) return fail(Error::Kind::bad_input, fmt::format("particle {}", id), "there is none of this id");
+  const double mass = s.scene.materials[s.host.material[i]].mass;
+  return set_particle(id, s.host.position[i], s.host.velocity[i] + (1 / mass) * impulse);
+}
+
+Expected<void> Simulation::set_particle(std::uint64_t id, const Vec3d& position, const Vec3d& velocity) {
+  Impl& s = *impl_;
+  const std::size_t i = s.particles().find(id);
+  if (i == s.host.size()) return fail(Error::Kind::bad_input, fmt::format("particle {}", id), "there is none of this id");
+  std::string fault = particle_fault(s.scene, s.host.material[i], position, velocity);
+  if (!fault.empty()) return fail(Error::Kind::bad_input, fmt::format("particle {}", id), std::move(fault));
+  ParticleSet& host = s.edit();
+  s.initial_momentum += s.scene.materials[host.material[i]].mass * (velocity - host.velocity[i]);
+  host.position[i] = position;
+  host.velocity[i] = velocity;
+  return {};
+}
+
+Expected<void> Simulation::set_material(const Material& material) {
+  Impl& s = *impl_;
+  Scene changed = s.scene;
+  for (Material& m : changed.materials) {
+    if (m.name != material.name) continue;
+    m = material;
+    if (std::vector<Finding> findings = validate(changed); !findings.empty()) {
+      return fail(Error{Error::Kind::bad_input, std::move(findings)});
+    }
+    if (auto flushed = s.flush(); !flushed) return flushed;
+    s.scene = std::move(changed);
+    s.backend->configure(s.scene);
+    return {};
+  }
+  return fail(Error::Kind::bad_input, "materials." + material.name, "there is no material of this name");
+}
+
+SimulationState Simulation::snapshot() const {
+  Impl& s = *impl_;
+  (void)s.flush();  // evaluates the accelerations of particles just added; a failure is the next step's to report
+  return {particles(), s.step, s.next_id, s.backend->ledger(), s.initial_energy, s.initial_momentum};
+}
+
+Expected<void> Simulation::restore(SimulationState state) {
+  Impl& s = *impl_;
+  std::vector<Finding> findings = check_particles(s.scene, state.particles, true);
+  if (state.step < 0) findings.push_back({"step", fmt::format("{} must be 0 or more", state.step)});
+  if (!state.particles.empty() && state.particles.id.back() >= state.next_id) {
+    findings.push_back({"next_id", fmt::format("{} is not above the largest id {}", state.next_id, state.particles.id.back())});
+  }
+  if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});
+  s.step = state.step;
+  s.next_id = state.next_id;
+  s.initial_energy = state.initial_energy;
+  s.initial_momentum = state.initial_momentum;
+  s.host_current = false;
+  s.host_edited = false;
+  s.failed = false;
+  return s.start(state.particles, state.next_id, state.ledger);
+}
+
+std::uint64_t Simulation::state_hash() const {
+  Impl& s = *impl_;
+  if (auto flushed = s.flush(); !flushed) return 0;
+  const auto clock = combine64(mix64(static_cast<std::uint64_t>(s.step)), s.next_id);
+  return s.backend->particles_hash() + clock;
+}
+
+Expected<Measurements> Simulation::measure() const {
+  if (auto flushed = impl_->flush(); !flushed) return fail(flushed.error());
+  return impl_->backend->measure();
+}
+
+const Ledger& Simulation::ledger() const { return impl_->backend->ledger(); }
+double Simulation::initial_energy() const { return impl_->initial_energy; }
+const Vec3d& Simulation::initial_momentum() const { return impl_->initial_momentum; }
+
+}  // namespace hooke

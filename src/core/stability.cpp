@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/physics/stability.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "hooke/core/simulation.h"
+
+namespace hooke {
+namespace {
+
+// The step at which a pile with these coefficients, of particles of `mass`, becomes unstable.
+double pile_step(const ContactCoefficients<double>& c, double mass) {
+  return critical_step(kPileSpringFactor * c.stiffness / mass, kPileDampingFactor * (c.shear + c.damping) / mass);
+}
+
+std::string limiting(const ContactCoefficients<double>& c, double mass, const std::string& pair) {
+  const double by_spring = critical_step(kPileSpringFactor * c.stiffness / mass, 0);
+  const double by_dashpots = critical_step(0, kPileDampingFactor * (c.shear + c.damping) / mass);
+  const char* which = by_spring < by_dashpots / 4 ? "stiffness" : by_dashpots < by_spring / 4 ? "shear and damping"
+                                                                                              : "stiffness, shear and damping";
+  return fmt::format("{} of {}", which, pair);
+}
+
+}  // namespace
+
+StableStep stable_step(const Scene& scene) {
+  const ContactTable table(scene.materials, scene.contacts);
+  StableStep best{INFINITY, "nothing"};
+  const auto consider = [&](const ContactCoefficients<double>& c, double mass, const std::string& pair) {
+    const double seconds = pile_step(c, mass);
+    if (seconds < best.seconds) best = {seconds, limiting(c, mass, pair)};
+  };
+  for (std::size_t a = 0; a < scene.materials.size(); ++a) {
+    const Material& m = scene.materials[a];
+    for (std::size_t b = a; b < scene.materials.size(); ++b) {
+      const Material& n = scene.materials[b];
+      consider(table.pair(a, b), std::min(m.mass, n.mass), m.name + " - " + n.name);
+    }
+    // A wall is one partner that does not move, where a pile has a dozen that do.
+    const ContactCoefficients<double>& wall = table.wall(a);
+    const double seconds = critical_step(wall.stiffness / m.mass, (wall.shear + wall.damping) / m.mass);
+    if (seconds < best.seconds) best = {seconds, fmt::format("stiffness and damping of {} - wall", m.name)};
+  }
+  return best;
+}
+
+double momentum_drift(const Measurements& now, const Ledger& ledger, const Vec3d& initial_momentum) {
+  const Vec3d given = ledger.wall_impulse + ledger.drag_impulse + ledger.gravity_impulse;
+  const Vec3d unexplained = now.momentum + ledger.removed_momentum - initial_momentum - given;
+  const auto norm = [](const Vec3d& a) { return std::sqrt(dot(a, a)); };
+  const double scale = now.momentum_scale + norm(initial_momentum) + norm(ledger.wall_impulse) +
+                       norm(ledger.drag_impulse) + norm(ledger.gravity_impulse) + norm(ledger.removed_momentum);
+  return scale > 0 ? norm(unexplained) / scale : 0;
+}
+
+}  // namespace hooke
