@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "hooke/base/expected.h"
+#include "hooke/core/backend.h"
+#include "hooke/core/simulation.h"
+
+namespace hooke {
+
+/// What came out of a run: the object that report.json, --report and `bench --json` hold.
+struct RunReport {
+  std::string scene;              ///< its name
+  std::uint64_t particles = 0;    ///< at the end
+  std::int64_t steps = 0;         ///< taken by this program; resumed steps are not counted
+  std::int64_t step = 0;          ///< reached, from the start of the simulation
+  double time = 0;                ///< reached, s
+  double seconds = 0;             ///< wall time of those steps
+  std::string device, isa;
+  Precision precision = Precision::double_precision;
+  int threads = 1;
+  std::uint64_t peak_bytes = 0;   ///< largest resident memory so far
+  std::uint64_t state_hash = 0;
+  Measurements measurements;
+  Ledger ledger;
+  double initial_energy = 0;      ///< kinetic, potential and elastic at step 0, J
+  double momentum_drift = 0;      ///< beyond what gravity, walls, drag and departures account for, relative
+  NeighbourStatistics neighbours;
+
+  double steps_per_second() const { return seconds > 0 ? static_cast<double>(steps) / seconds : 0; }
+  double particle_steps_per_second() const { return steps_per_second() * static_cast<double>(particles); }
+  double contacts_per_particle() const;  ///< 2 contacts / particles
+  double energy_balance() const;         ///< what the ledger leaves unexplained of the change of energy, J
+};
+
+/// Everything but `steps` and `seconds`, which the caller has timed.
+RunReport make_report(const Simulation& simulation, const Measurements& measurements);
+
+/// One JSON object, indented, with a line feed at the end. Numbers that are not finite become null.
+std::string to_json(const RunReport& report);
+
+/// Writes text beside `file` and renames: at any moment the old text or the new one is there, whole.
+Expected<void> write_text_file(const std::filesystem::path& file, const std::string& text);
+
+/// Largest resident memory of this process so far, bytes.
+std::uint64_t peak_resident_bytes();
+
+}  // namespace hooke

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "hooke/core/backend.h"
+#include "hooke/core/simulation.h"
+
+namespace hooke {
+
+/// One row of series.csv: the physical figures of one instant.
+struct SeriesRow {
+  std::int64_t step = 0;
+  double time = 0;  ///< s
+  Measurements measurements;
+  Ledger ledger;
+  std::uint64_t rebuilds = 0;  ///< of the neighbour list, since the program started
+};
+
+/// The row of this instant. `measurements` are those of Simulation::measure() now.
+SeriesRow make_series_row(const Simulation& simulation, const Measurements& measurements);
+
+/// The first line of series.csv, and a row as text, both without a line feed. Columns are in SI units; front_x is the
+/// largest x of a centre. Numbers are the shortest that read back to the same double.
+std::string series_header();
+std::string to_csv(const SeriesRow& row);
+
+}  // namespace hooke

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hooke/core/particles.h"
+#include "hooke/core/scene.h"
+#include "hooke/core/simulation.h"
+
+namespace hooke {
+
+/// What files keep of a material.
+struct MaterialInfo {
+  std::string name;
+  double radius = 0;  ///< m
+  double mass = 0;    ///< kg
+
+  friend bool operator==(const MaterialInfo&, const MaterialInfo&) = default;
+};
+
+/// What every file of a run says about the run it belongs to.
+struct RunInfo {
+  std::string scene;      ///< Scene::name
+  double time_step = 0;   ///< dt, s
+  Integrator integrator = Integrator::symplectic_euler;
+  Precision precision = Precision::single_precision;  ///< that the back end computed in
+  std::vector<MaterialInfo> materials;                ///< ParticleSet::material counts in these
+
+  friend bool operator==(const RunInfo&, const RunInfo&) = default;
+};
+
+/// The particles at one instant: state for output. Accelerations are left out.
+struct Snapshot {
+  std::int64_t step = 0;
+  double time = 0;  ///< step * dt, s
+  ParticleSet particles;
+};
+
+/// What files will say about a run of `scene` in this precision (that of BackendInfo).
+RunInfo describe_run(const Scene& scene, Precision precision);
+RunInfo describe_run(const Simulation& simulation);
+
+/// A copy of the particles as they are now.
+Snapshot take_snapshot(const Simulation& simulation);
+
+/// "single" and "double", as in scene files; "symplectic-euler" and "velocity-verlet".
+const char* to_string(Precision precision);
+const char* to_string(Integrator integrator);
+
+}  // namespace hooke
