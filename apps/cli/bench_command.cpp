@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <vector>
+
+#include "commands.h"
+#include "hooke/io/report.h"
+#include "hooke/io/snapshot.h"
+#include "log.h"
+#include "open_simulation.h"
+#include "progress.h"
+
+namespace hooke::cli {
+namespace {
+
+// Momentum that nothing accounts for, relative: far above rounding, far below any fault.
+constexpr double kDriftSingle = 1e-4;
+constexpr double kDriftDouble = 1e-10;
+
+double largest_radius(const Scene& scene) {
+  double radius = 0;
+  for (const Material& material : scene.materials) radius = std::max(radius, material.radius);
+  return radius;
+}
+
+void check_domain(const Scene& scene, const Measurements& now, std::vector<Finding>& faults) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const Boundary boundary = scene.domain.boundary[static_cast<std::size_t>(axis)];
+    if (now.particles == 0 || boundary == Boundary::open) continue;
+    // Walls are springs: a centre may stand behind one, but by less than a radius.
+    const double room = boundary == Boundary::spring ? largest_radius(scene) : 0;
+    const double low = component(now.min, axis);
+    const double high = component(now.max, axis);
+    if (low < component(scene.domain.min, axis) - room || high > component(scene.domain.max, axis) + room) {
+      faults.push_back({"escaped", fmt::format("particles at {:.6g} to {:.6g} m along {}, outside the domain's {:.6g} "
+                                               "to {:.6g} m",
+                                               low, high, "xyz"[axis], component(scene.domain.min, axis),
+                                               component(scene.domain.max, axis))});
+    }
+  }
+}
+
+// What makes the figures of a run worthless: a speed is only worth printing for steps that were right.
+std::vector<Finding> find_faults(const Simulation& simulation, const RunReport& report, std::uint64_t particles_before,
+                                 std::uint64_t removed_before) {
+  std::vector<Finding> faults;
+  const Measurements& now = report.measurements;
+  const Scene& scene = simulation.scene();
+  for (const double figure : {now.kinetic_energy, now.potential_energy, now.elastic_energy, now.momentum.x,
+                              now.momentum.y, now.momentum.z, now.max_speed, now.max_overlap_ratio}) {
+    if (std::isfinite(figure)) continue;
+    faults.push_back({"NaN", "energy, momentum, speed or overlap is not a finite number"});
+    break;
+  }
+  check_domain(scene, now, faults);
+  const std::uint64_t removed = report.ledger.removed - removed_before;
+  const bool has_open_face = std::ranges::find(scene.domain.boundary, Boundary::open) != scene.domain.boundary.end();
+  if (report.particles + removed != particles_before || (removed > 0 && !has_open_face)) {
+    faults.push_back({"escaped", fmt::format("of {} particles {} are left, and {} left through open faces",
+                                             particles_before, report.particles, removed)});
+  }
+  const double allowed = report.precision == Precision::single_precision ? kDriftSingle : kDriftDouble;
+  if (!(report.momentum_drift <= allowed)) {
+    faults.push_back(
+        {"momentum", fmt::format("drifted by {:.3g} of its scale beyond what gravity, walls and drag gave; "
+                                 "rounding explains up to {:.3g}",
+                                 report.momentum_drift, allowed)});
+  }
+  return faults;
+}
+
+void print_table(const RunReport& report) {
+  const auto row = [](const char* name, const std::string& value) { fmt::print("{:<24}{}\n", name, value); };
+  row("scene", report.scene);
+  row("particles", with_commas(report.particles));
+  row("steps", fmt::format("{} in {:.3f} s", report.steps, report.seconds));
+  row("steps/s", fmt::format("{:.2f}", report.steps_per_second()));
+  row("particle-steps/s", fmt::format("{:.2f} M", report.particle_steps_per_second() * 1e-6));
+  row("contacts per particle", fmt::format("{:.2f}", report.contacts_per_particle()));
+  row("rebuilds", fmt::format("{}", report.neighbours.rebuilds));
+  row("list slots per particle", fmt::format("{:.1f}", report.neighbours.slots_per_particle));
+  row("bytes per particle",
+      report.particles == 0 ? std::string("-") : fmt::format("{}", report.peak_bytes / report.particles));
+  row("device", fmt::format("{} ({}), {} threads, {} precision", report.device, report.isa, report.threads,
+                            to_string(report.precision)));
+  row("momentum drift", fmt::format("{:.2g}", report.momentum_drift));
+  row("state hash", fmt::format("{:016x}", report.state_hash));
+}
+
+// Steps with progress shown where somebody looks.
+Expected<void> advance(Simulation& simulation, std::int64_t steps, bool show) {
+  const std::int64_t last = simulation.step_count() + steps;
+  Progress progress(simulation.step_count(), last, simulation.scene().time_step, show);
+  // Large enough that looking at the clock costs nothing, small enough that the line moves.
+  const std::int64_t batch = std::max<std::int64_t>(1, steps / 100);
+  while (simulation.step_count() < last) {
+    if (auto stepped = simulation.step(std::min(batch, last - simulation.step_count())); !stepped) return stepped;
+    progress.update(simulation.step_count(), simulation.particle_count());
+  }
+  return {};
+}
+
+}  // namespace
+
+ExitStatus bench_command(const BenchArguments& arguments) {
+  auto opened = open_simulation(arguments.scene, arguments.device, arguments.resume);
+  if (!opened) return report_error(opened.error());
+  for (const Finding& warning : opened->warnings) spdlog::warn("{}: {}", warning.where, warning.message);
+  Simulation& simulation = opened->simulation;
+  const std::uint64_t particles_before = simulation.particle_count();
+  const std::uint64_t removed_before = simulation.ledger().removed;
+
+  if (auto warmed = advance(simulation, arguments.warmup, !arguments.json); !warmed) {
+    return report_error(warmed.error(), true);
+  }
+  const auto rebuilds_before = simulation.neighbour_statistics().rebuilds;
+  const auto start = std::chrono::steady_clock::now();
+  if (auto stepped = advance(simulation, arguments.steps, !arguments.json); !stepped) {
+    return report_error(stepped.error(), true);
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+  const auto measurements = simulation.measure();
+  if (!measurements) return report_error(measurements.error(), true);
+  RunReport report = make_report(simulation, *measurements);
+  report.steps = arguments.steps;
+  report.seconds = seconds;
+  report.neighbours.rebuilds -= rebuilds_before;
+  if (auto faults = find_faults(simulation, report, particles_before, removed_before); !faults.empty()) {
+    return report_error({Error::Kind::run_failed, std::move(faults)}, true);
+  }
+  if (arguments.json) {
+    fmt::print("{}", to_json(report));
+  } else {
+    print_table(report);
+  }
+  return kDone;
+}
+
+}  // namespace hooke::cli

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "commands.h"
+#include "log.h"
+#include "open_simulation.h"
+#include "progress.h"
+
+namespace hooke::cli {
+namespace {
+
+// Single precision resolves positions no finer than this part of a radius without loss that shows (docs/theory.md).
+constexpr double kFinestSpacing = 1e-4;
+
+// Distance between neighbouring floats at the coordinate of the domain that is farthest from 0, m.
+double float_spacing(const Domain& domain) {
+  double farthest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    farthest = std::max({farthest, std::abs(component(domain.min, axis)), std::abs(component(domain.max, axis))});
+  }
+  const auto edge = static_cast<float>(farthest);
+  return static_cast<double>(std::nextafter(edge, INFINITY)) - static_cast<double>(edge);
+}
+
+double smallest_radius(const Scene& scene) {
+  double radius = INFINITY;
+  for (const Material& material : scene.materials) radius = std::min(radius, material.radius);
+  return radius;
+}
+
+void print_step(const Scene& scene) {
+  const StableStep stable = stable_step(scene);
+  if (std::isinf(stable.seconds)) {
+    fmt::print("  step       {:.6g} s; nothing in the scene limits it\n", scene.time_step);
+  } else {
+    fmt::print("  step       {:.6g} s, {:.3g} of the stable step {:.6g} s, which the {} sets\n", scene.time_step,
+               scene.time_step / stable.seconds, stable.seconds, stable.limit);
+  }
+}
+
+void print_overlaps(const Measurements& now) {
+  if (now.contacts == 0) {
+    fmt::print("  overlaps   none at the start\n");
+  } else {
+    fmt::print("  overlaps   {} pairs touch at the start, the deepest overlaps by {:.3g} % of the sum of its radii\n",
+               with_commas(now.contacts), 100 * now.max_overlap_ratio);
+  }
+}
+
+void print_precision(const Scene& scene) {
+  if (scene.precision == Precision::double_precision || scene.materials.empty()) {
+    fmt::print("  precision  double\n");
+    return;
+  }
+  const double spacing = float_spacing(scene.domain);
+  const double parts = spacing / smallest_radius(scene);
+  fmt::print("  precision  single; positions at the domain's edge are {:.3g} m apart, {:.3g} radii\n", spacing, parts);
+  if (parts > kFinestSpacing) {
+    spdlog::warn(
+        "domain: single precision resolves only {:.3g} radii at its edge ({} is fine): move it nearer to 0, or "
+        "set precision to double",
+        parts, kFinestSpacing);
+  }
+}
+
+}  // namespace
+
+ExitStatus check_command(const CheckArguments& arguments) {
+  const auto opened = open_simulation(arguments.scene, DeviceArguments{}, {});
+  if (!opened) return report_error(opened.error());
+  const Simulation& simulation = opened->simulation;
+  const Scene& scene = simulation.scene();
+  const auto now = simulation.measure();
+  if (!now) return report_error(now.error());
+
+  for (const Finding& warning : opened->warnings) spdlog::warn("{}: {}", warning.where, warning.message);
+  const auto particles = simulation.particle_count();
+  fmt::print("{}: {}\n", arguments.scene.file.string(), scene.name);
+  fmt::print("  particles  {}\n", with_commas(particles));
+  fmt::print("  memory     about {:.1f} MB\n", static_cast<double>(particles * 200) * 1e-6);
+  fmt::print("  duration   {} steps, {:.6g} s\n", scene.steps, static_cast<double>(scene.steps) * scene.time_step);
+  print_step(scene);
+  print_overlaps(*now);
+  print_precision(scene);
+
+  if (const std::string unstable = unstable_step(scene); !unstable.empty()) {
+    if (arguments.strict) return report_error({Error::Kind::bad_input, {{"", unstable}}});
+    spdlog::warn(unstable);
+  }
+  return kDone;
+}
+
+}  // namespace hooke::cli

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hooke::cli {
+
+/// What the program says to the shell.
+enum ExitStatus : int {
+  kDone = 0,
+  kBadInput = 2,       ///< bad input or usage; nothing was written
+  kRunFailed = 3,      ///< the run went bad or could not be written; the last good state is kept
+  kInterrupted = 130,  ///< stopped by a signal; the checkpoint is written
+};
+
+/// Which scene, and how it is read.
+struct SceneArguments {
+  std::filesystem::path file;
+  std::vector<std::string> overrides;  ///< PATH=VALUE
+  bool allow_outside = false;
+};
+
+/// Which back end.
+struct DeviceArguments {
+  std::string device = "cpu";
+  int threads = 0;  ///< 0: as many as the machine has
+};
+
+struct RunArguments {
+  SceneArguments scene;
+  DeviceArguments device;
+  std::filesystem::path output;  ///< empty: named after the scene file
+  bool overwrite = false;
+  std::filesystem::path resume;           ///< a checkpoint, or empty
+  std::optional<double> checkpoint_every; ///< simulated seconds
+  std::filesystem::path report;           ///< empty: only the run folder's
+  bool quiet = false;
+};
+
+struct CheckArguments {
+  SceneArguments scene;
+  bool strict = false;
+};
+
+struct BenchArguments {
+  SceneArguments scene;
+  DeviceArguments device;
+  std::int64_t steps = 200;
+  std::int64_t warmup = 50;
+  std::filesystem::path resume;
+  bool json = false;
+};
+
+struct ExportArguments {
+  std::filesystem::path run;
+  std::filesystem::path output;
+  std::optional<std::int64_t> step;
+  std::optional<double> time;
+  bool all = false;
+};
+
+// One command each; they print, and return the exit status.
+ExitStatus run_command(const RunArguments& arguments);
+ExitStatus check_command(const CheckArguments& arguments);
+ExitStatus bench_command(const BenchArguments& arguments);
+ExitStatus export_command(const ExportArguments& arguments);
+ExitStatus info_command(const std::filesystem::path& file);
+ExitStatus scenes_command();
+ExitStatus schema_command();
+
+}  // namespace hooke::cli

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include <fmt/format.h>
+
+#include <numeric>
+#include <vector>
+
+#include "commands.h"
+#include "hooke/io/export.h"
+#include "log.h"
+#include "output_file.h"
+
+namespace hooke::cli {
+namespace {
+
+// Which snapshots the options pick; the last one without any.
+Expected<std::vector<std::size_t>> pick(const RunReader& run, const ExportArguments& arguments) {
+  if (run.size() == 0) return fail(Error::Kind::bad_input, arguments.run.string(), "holds no snapshot yet");
+  if (arguments.all) {
+    std::vector<std::size_t> indices(run.size());
+    std::iota(indices.begin(), indices.end(), std::size_t{0});
+    return indices;
+  }
+  if (arguments.time) return std::vector{run.find_time(*arguments.time).value_or(0)};
+  if (!arguments.step) return std::vector{run.size() - 1};
+  if (const auto index = run.find_step(*arguments.step)) return std::vector{*index};
+  const std::size_t nearest = run.find_time(static_cast<double>(*arguments.step) * run.info().time_step).value_or(0);
+  return fail(Error::Kind::bad_input, "--step",
+              fmt::format("there is no snapshot of step {}; they go from step {} to {}, the nearest is {}",
+                          *arguments.step, run.steps().front(), run.steps().back(), run.steps()[nearest]));
+}
+
+}  // namespace
+
+ExitStatus export_command(const ExportArguments& arguments) {
+  if (auto writable = check_output_file(arguments.output, "--output"); !writable) return report_error(writable.error());
+  const auto run = RunReader::open(arguments.run);
+  if (!run) return report_error(run.error());
+  const auto indices = pick(*run, arguments);
+  if (!indices) return report_error(indices.error());
+  const auto files = export_run(*run, *indices, arguments.output);
+  if (!files) return report_error(files.error(), true);
+  fmt::print("{} snapshot{} in {}\n", indices->size(), indices->size() == 1 ? "" : "s", files->front().string());
+  return kDone;
+}
+
+}  // namespace hooke::cli

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace hooke::cli {
+
+/// While one of these lives, SIGINT, SIGTERM and SIGHUP only ask to stop. A second one ends the program at once,
+/// as it would have without this.
+class Interrupt {
+ public:
+  Interrupt();
+  ~Interrupt();
+  Interrupt(const Interrupt&) = delete;
+  Interrupt& operator=(const Interrupt&) = delete;
+
+  /// Whether a signal has asked to stop.
+  bool requested() const;
+};
+
+}  // namespace hooke::cli

@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <new>
+
+#include "commands.h"
+#include "log.h"
+
+namespace hooke::cli {
+namespace {
+
+constexpr int kMostThreads = 1024;
+
+/// What the command line says; `command` is set by the one that was given.
+struct CommandLine {
+  RunArguments run;
+  CheckArguments check;
+  BenchArguments bench;
+  ExportArguments exports;
+  std::filesystem::path info;
+  std::optional<std::int64_t> steps;
+  std::optional<double> end;
+  std::function<ExitStatus()> command;
+};
+
+void add_scene_options(CLI::App& command, SceneArguments& scene) {
+  command.add_option("SCENE", scene.file, "scene file (JSON)")->required();
+  command
+      .add_option("--set", scene.overrides,
+                  "replace a value of the scene, e.g. materials.water.radius=0.1; may be repeated")
+      ->option_text("PATH=VALUE")
+      ->allow_extra_args(false);
+  command.add_flag("--allow-outside", scene.allow_outside, "let paths in the scene lead out of its folder");
+}
+
+void add_device_options(CLI::App& command, DeviceArguments& device) {
+  command.add_option("--threads", device.threads, "threads to use (default: all)")
+      ->option_text("N")
+      ->check(CLI::Range(1, kMostThreads));
+  command
+      .add_option("--device", device.device,
+                  "cpu (default), reference (all pairs, double), cuda, or auto: the best there is")
+      ->option_text("DEVICE")
+      ->check(CLI::IsMember({"cpu", "reference", "cuda", "auto"}));
+}
+
+void add_run(CLI::App& app, CommandLine& line) {
+  CLI::App& command =
+      *app.add_subcommand("run", "run a scene and write a folder with its snapshots, series and checkpoint");
+  RunArguments& run = line.run;
+  add_scene_options(command, run.scene);
+  command.add_option("-o,--output", run.output, "folder to write (default: named after the scene file)")
+      ->option_text("DIR");
+  command.add_flag("--overwrite", run.overwrite, "replace the run that the folder holds");
+  CLI::Option* steps =
+      command.add_option("--steps", line.steps, "end after this many steps from the start of the simulation")
+          ->option_text("N")
+          ->check(CLI::NonNegativeNumber);
+  command.add_option("--end", line.end, "end at this time, in simulated seconds")
+      ->option_text("T")
+      ->check(CLI::NonNegativeNumber)
+      ->excludes(steps);
+  add_device_options(command, run.device);
+  command.add_option("--resume", run.resume, "go on from a checkpoint; into its own folder, appends")
+      ->option_text("CHECKPOINT");
+  command
+      .add_option("--checkpoint-every", run.checkpoint_every,
+                  "simulated seconds between checkpoints (default: ten a run)")
+      ->option_text("T")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--report", run.report, "write the report to this file too")->option_text("FILE");
+  command.add_flag("-q,--quiet", run.quiet, "print nothing but errors");
+  command.callback([&line] {
+    // As overrides they are checked, and written into the resolved scene, like any other value.
+    if (line.steps) line.run.scene.overrides.push_back(fmt::format("time.steps={}", *line.steps));
+    if (line.end) line.run.scene.overrides.push_back(fmt::format("time.end={}", *line.end));
+    line.command = [&line] {
+      start_log(line.run.quiet);
+      return run_command(line.run);
+    };
+  });
+}
+
+void add_check(CLI::App& app, CommandLine& line) {
+  CLI::App& command =
+      *app.add_subcommand("check", "validate a scene; its size, step against stability, overlaps at the start");
+  add_scene_options(command, line.check.scene);
+  command.add_flag("--strict", line.check.strict, "exit with status 2 where the step is unstable");
+  command.callback([&line] { line.command = [&line] { return check_command(line.check); }; });
+}
+
+void add_bench(CLI::App& app, CommandLine& line) {
+  CLI::App& command =
+      *app.add_subcommand("bench", "time a scene's steps; prints a speed only if the physics was right");
+  BenchArguments& bench = line.bench;
+  add_scene_options(command, bench.scene);
+  command.add_option("--steps", bench.steps, "steps to time")
+      ->option_text("N")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command.add_option("--warmup", bench.warmup, "steps before them")
+      ->option_text("N")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--resume", bench.resume, "start from a checkpoint of the scene")->option_text("CHECKPOINT");
+  add_device_options(command, bench.device);
+  command.add_flag("--json", bench.json, "print one JSON object");
+  command.callback([&line] { line.command = [&line] { return bench_command(line.bench); }; });
+}
+
+void add_export(CLI::App& app, CommandLine& line) {
+  CLI::App& command =
+      *app.add_subcommand("export", "write snapshots of a run in another format, by the file's extension");
+  ExportArguments& exports = line.exports;
+  command.add_option("RUN", exports.run, "run folder")->required();
+  command.add_option("-o,--output", exports.output, "file to write: .csv, .vtp, .pvd")->option_text("FILE")->required();
+  CLI::Option* step =
+      command.add_option("--step", exports.step, "the snapshot of this step (default: the last)")->option_text("N");
+  CLI::Option* time = command.add_option("--time", exports.time, "the snapshot nearest to this time, s")
+                          ->option_text("T")
+                          ->excludes(step);
+  command.add_flag("--all", exports.all, "all snapshots")->excludes(step)->excludes(time);
+  command.callback([&line] { line.command = [&line] { return export_command(line.exports); }; });
+}
+
+void add_others(CLI::App& app, CommandLine& line) {
+  CLI::App& info = *app.add_subcommand("info", "say what a run folder, snapshot file or checkpoint holds");
+  info.add_option("FILE", line.info, "run folder or file of one")->required();
+  info.callback([&line] { line.command = [&line] { return info_command(line.info); }; });
+  app.add_subcommand("scenes", "list the scenes that come with Hooke")->callback([&line] {
+    line.command = scenes_command;
+  });
+  app.add_subcommand("schema", "print the JSON Schema of scene files")->callback([&line] {
+    line.command = schema_command;
+  });
+}
+
+ExitStatus parse_and_run(int argc, char** argv) {
+  CommandLine line;
+  CLI::App app("Hooke, a real-time spring-mass particle engine", "hooke");
+  app.set_version_flag("--version", "hooke " HOOKE_VERSION);
+  app.require_subcommand(0, 1);
+  add_run(app, line);
+  add_check(app, line);
+  add_bench(app, line);
+  add_export(app, line);
+  add_others(app, line);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // Help and the version arrive as errors of status 0; everything else is wrong usage, whatever CLI11's number.
+    return app.exit(error) == 0 ? kDone : kBadInput;
+  }
+  if (!line.command) {
+    fmt::print("{}", app.help());
+    return kBadInput;
+  }
+  const ExitStatus status = line.command();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    spdlog::error("standard output can't be written");
+    return status == kDone ? kRunFailed : status;
+  }
+  return status;
+}
+
+}  // namespace
+}  // namespace hooke::cli
+
+int main(int argc, char** argv) {
+  // A limit on file sizes is then an error of the write that meets it, like a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
+  hooke::cli::start_log(false);
+  try {
+    return hooke::cli::parse_and_run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    spdlog::error("out of memory");
+  } catch (const std::exception& error) {
+    spdlog::error("unexpected: {}", error.what());
+  }
+  return hooke::cli::kRunFailed;
+}

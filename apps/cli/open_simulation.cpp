@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "open_simulation.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <utility>
+
+#include "hooke/backends/cpu/cpu_backend.h"
+#include "hooke/backends/reference/reference_backend.h"
+#include "hooke/io/checkpoint.h"
+#include "hooke/scene/load_scene.h"
+
+namespace hooke::cli {
+
+Expected<std::unique_ptr<Backend>> make_backend(const DeviceArguments& arguments) {
+  if (arguments.device == "cuda") {
+    return fail(Error::Kind::bad_input, "--device", "cuda is not in this build; cpu and reference are");
+  }
+  if (arguments.device == "reference") return make_reference_backend();
+  CpuOptions options;
+  options.threads = arguments.threads;
+  if (const char* isa = std::getenv("HOOKE_ISA"); isa != nullptr) options.isa = isa;
+  return make_cpu_backend(options);
+}
+
+Expected<OpenedSimulation> open_simulation(const SceneArguments& scene, const DeviceArguments& device,
+                                           const std::filesystem::path& resume) {
+  LoadOptions options;
+  options.overrides = scene.overrides;
+  options.allow_outside = scene.allow_outside;
+  options.with_particles = resume.empty();
+  auto loaded = load_scene(scene.file, options);
+  if (!loaded) return fail(std::move(loaded).error());
+  auto backend = make_backend(device);
+  if (!backend) return fail(std::move(backend).error());
+
+  auto simulation = [&]() -> Expected<Simulation> {
+    if (resume.empty()) {
+      return Simulation::create(std::move(loaded->scene), std::move(loaded->particles), std::move(*backend));
+    }
+    auto checkpoint = read_checkpoint(resume);
+    if (!checkpoint) return fail(std::move(checkpoint).error());
+    // The back end knows its precision only once it has seen the scene.
+    (*backend)->configure(loaded->scene);
+    const RunInfo info = describe_run(loaded->scene, (*backend)->info().precision);
+    if (auto findings = check_resumable(checkpoint->info, info); !findings.empty()) {
+      return fail(Error{Error::Kind::bad_input, std::move(findings)});
+    }
+    return Simulation::resume(std::move(loaded->scene), std::move(checkpoint->state), std::move(*backend));
+  }();
+  if (!simulation) return fail(std::move(simulation).error());
+  return OpenedSimulation{std::move(*simulation), std::move(loaded->resolved), std::move(loaded->warnings)};
+}
+
+std::string unstable_step(const Scene& scene) {
+  const StableStep stable = stable_step(scene);
+  if (scene.time_step <= stable.seconds) return {};
+  return fmt::format("time.step: {:.6g} s is {:.3g} times the stable step {:.6g} s, which the {} sets", scene.time_step,
+                     scene.time_step / stable.seconds, stable.seconds, stable.limit);
+}
+
+}  // namespace hooke::cli

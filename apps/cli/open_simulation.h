@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "hooke/base/expected.h"
+#include "hooke/core/backend.h"
+#include "hooke/core/simulation.h"
+
+namespace hooke::cli {
+
+/// A scene that is ready to step.
+struct OpenedSimulation {
+  Simulation simulation;
+  std::string resolved;           ///< the scene as it was understood, JSON
+  std::vector<Finding> warnings;  ///< of the loader
+};
+
+/// The back end that --device and --threads ask for; HOOKE_ISA in the environment picks the instruction set.
+Expected<std::unique_ptr<Backend>> make_backend(const DeviceArguments& arguments);
+
+/// Loads the scene and puts its particles, or those of the checkpoint `resume`, into a back end.
+Expected<OpenedSimulation> open_simulation(const SceneArguments& scene, const DeviceArguments& device,
+                                           const std::filesystem::path& resume);
+
+/// A sentence about a time step that is too long for the scene; empty where it is not.
+std::string unstable_step(const Scene& scene);
+
+}  // namespace hooke::cli

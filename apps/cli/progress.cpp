@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace hooke::cli {
+namespace {
+
+constexpr std::chrono::milliseconds kTerminalInterval{200};
+constexpr std::chrono::seconds kPipeInterval{10};
+constexpr std::chrono::seconds kRateWindow{5};
+
+}  // namespace
+
+Progress::Progress(std::int64_t first, std::int64_t last, double time_step, bool wanted)
+    : last_(last),
+      time_step_(time_step),
+      wanted_(wanted),
+      terminal_(isatty(STDOUT_FILENO) != 0),
+      printed_(Clock::now()),
+      recent_{{printed_, first}} {}
+
+Progress::~Progress() { clear(); }
+
+void Progress::update(std::int64_t step, std::uint64_t particles) {
+  if (!wanted_) return;
+  const Clock::time_point now = Clock::now();
+  recent_.push_back({now, step});
+  while (recent_.size() > 2 && now - recent_[1].at > kRateWindow) recent_.pop_front();
+  if (now - printed_ < (terminal_ ? Clock::duration(kTerminalInterval) : Clock::duration(kPipeInterval))) return;
+  printed_ = now;
+  fmt::print(terminal_ ? "\r\x1b[K{}" : "{}\n", line(step, particles));
+  std::fflush(stdout);
+  shown_ = terminal_;
+}
+
+void Progress::clear() {
+  if (!shown_) return;
+  fmt::print("\r\x1b[K");
+  std::fflush(stdout);
+  shown_ = false;
+}
+
+std::string Progress::line(std::int64_t step, std::uint64_t particles) const {
+  const double seconds = std::chrono::duration<double>(recent_.back().at - recent_.front().at).count();
+  const double rate = seconds > 0 ? static_cast<double>(step - recent_.front().step) / seconds : 0;
+  const double now = static_cast<double>(step) * time_step_;
+  const double end = static_cast<double>(last_) * time_step_;
+  std::string text = fmt::format("t {:.3f} of {:.3f} s   {:.1f} steps/s   {:.2f} M particle-steps/s", now, end, rate,
+                                 rate * static_cast<double>(particles) * 1e-6);
+  if (rate > 0) text += "   left " + clock_time(static_cast<double>(last_ - step) / rate);
+  return text;
+}
+
+std::string with_commas(std::uint64_t number) {
+  std::string digits = std::to_string(number);
+  for (std::size_t at = digits.size(); at > 3;) {
+    at -= 3;
+    digits.insert(at, ",");
+  }
+  return digits;
+}
+
+std::string clock_time(double seconds) {
+  const auto whole = static_cast<std::int64_t>(std::llround(std::clamp(seconds, 0.0, 1e9)));
+  const std::int64_t hours = whole / 3600;
+  const std::int64_t minutes = whole / 60 % 60;
+  return hours > 0 ? fmt::format("{}:{:02}:{:02}", hours, minutes, whole % 60)
+                   : fmt::format("{}:{:02}", minutes, whole % 60);
+}
+
+}  // namespace hooke::cli

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <string>
+
+namespace hooke::cli {
+
+/// Tells how far a run is: on a terminal one line that is rewritten, on a pipe a plain line every ten seconds.
+class Progress {
+ public:
+  /// A run from step `first` to step `last` of `time_step` seconds each. Silent unless `wanted`.
+  Progress(std::int64_t first, std::int64_t last, double time_step, bool wanted);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// `step` steps are done and `particles` are there. Cheap: prints only when it is time to.
+  void update(std::int64_t step, std::uint64_t particles);
+
+  /// Takes the line off the terminal, so that something else can be printed.
+  void clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Sample {
+    Clock::time_point at;
+    std::int64_t step;
+  };
+
+  std::string line(std::int64_t step, std::uint64_t particles) const;
+
+  std::int64_t last_;
+  double time_step_;
+  bool wanted_;
+  bool terminal_;
+  bool shown_ = false;
+  Clock::time_point printed_;
+  std::deque<Sample> recent_;  // of the last seconds: what the rate is taken from
+};
+
+/// "512,000": a whole number with its thousands apart.
+std::string with_commas(std::uint64_t number);
+/// "1:02:03" or "2:03".
+std::string clock_time(double seconds);
+
+}  // namespace hooke::cli

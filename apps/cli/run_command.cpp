@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <system_error>
+#include <utility>
+
+#include "commands.h"
+#include "hooke/io/describe_file.h"
+#include "hooke/io/run_folder.h"
+#include "interrupt.h"
+#include "log.h"
+#include "open_simulation.h"
+#include "output_file.h"
+#include "progress.h"
+
+namespace hooke::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Steps a simulation to its end and writes its folder on the way.
+class Run {
+ public:
+  /// `in_place`: the folder holds what this run has written up to the step that it goes on from.
+  Run(Simulation& simulation, RunWriter& writer, const OutputCadence& checkpoints, bool in_place, bool quiet)
+      : simulation_(simulation),
+        writer_(writer),
+        checkpoints_(checkpoints),
+        new_folder_(!in_place),
+        first_(simulation.step_count()),
+        last_(simulation.scene().steps),
+        progress_(first_, last_, simulation.scene().time_step, !quiet) {}
+
+  /// True where the end was reached, false where a signal came first; both leave a snapshot and a checkpoint of the
+  /// last step.
+  Expected<bool> to_the_end() {
+    const Interrupt interrupt;
+    if (auto written = write_outputs(false); !written) return fail(std::move(written).error());
+    while (simulation_.step_count() < last_ && !interrupt.requested()) {
+      if (auto advanced = advance(); !advanced) return fail(std::move(advanced).error());
+    }
+    progress_.clear();
+    if (auto written = write_outputs(true); !written) return fail(std::move(written).error());
+    if (auto flushed = writer_.flush(); !flushed) return fail(std::move(flushed).error());
+    return simulation_.step_count() == last_;
+  }
+
+  std::int64_t steps_taken() const { return simulation_.step_count() - first_; }
+  double stepping_seconds() const { return stepping_seconds_; }
+
+ private:
+  bool output_due(std::int64_t step) const {
+    return simulation_.scene().output.is_due(step, simulation_.scene().time_step);
+  }
+  bool checkpoint_due(std::int64_t step) const { return checkpoints_.is_due(step, simulation_.scene().time_step); }
+
+  // Steps up to the next output, but for no longer than a fraction of a second: signals and progress wait meanwhile.
+  Expected<void> advance() {
+    const std::int64_t now = simulation_.step_count();
+    const std::int64_t most = std::min(last_, now + batch_);
+    std::int64_t target = now + 1;
+    while (target < most && !output_due(target) && !checkpoint_due(target)) ++target;
+
+    const Clock::time_point start = Clock::now();
+    if (auto stepped = simulation_.step(target - now); !stepped) return stepped;
+    const double seconds = seconds_since(start);
+    stepping_seconds_ += seconds;
+    const double a_step = seconds / static_cast<double>(target - now);
+    batch_ = static_cast<std::int64_t>(std::clamp(kBatchSeconds / std::max(a_step, 1e-9), 1.0, 1e6));
+
+    progress_.update(target, simulation_.particle_count());
+    if (target == last_) return {};  // to_the_end() writes this one
+    return write_outputs(false);
+  }
+
+  // What is due at this step; at the end of the run, everything.
+  Expected<void> write_outputs(bool at_end) {
+    const std::int64_t step = simulation_.step_count();
+    const bool must = at_end || (step == first_ && new_folder_);
+    if (must || output_due(step)) {
+      const auto measurements = simulation_.measure();
+      if (!measurements) return fail(measurements.error());
+      if (auto written = writer_.write_series(make_series_row(simulation_, *measurements)); !written) return written;
+      if (auto written = writer_.write_snapshot(take_snapshot(simulation_)); !written) return written;
+    }
+    const bool have_checkpoint = step == checkpoint_step_ || (step == first_ && !new_folder_);
+    if ((must || checkpoint_due(step)) && !have_checkpoint) {
+      if (auto written = writer_.write_checkpoint(simulation_.snapshot()); !written) return written;
+      spdlog::info("checkpoint of step {}", step);
+      checkpoint_step_ = step;
+    }
+    return {};
+  }
+
+  static constexpr double kBatchSeconds = 0.1;
+
+  Simulation& simulation_;
+  RunWriter& writer_;
+  OutputCadence checkpoints_;
+  bool new_folder_;
+  std::int64_t first_;
+  std::int64_t last_;
+  std::int64_t batch_ = 1;
+  std::int64_t checkpoint_step_ = -1;  // of the last one written
+  double stepping_seconds_ = 0;
+  Progress progress_;
+};
+
+// Ten checkpoints a run, unless told otherwise.
+OutputCadence checkpoint_cadence(const std::optional<double>& seconds, std::int64_t steps) {
+  OutputCadence cadence;
+  if (seconds) {
+    cadence.seconds = *seconds;
+  } else {
+    cadence.steps = std::max<std::int64_t>(1, (steps + 9) / 10);
+  }
+  return cadence;
+}
+
+std::filesystem::path output_folder(const RunArguments& arguments) {
+  return arguments.output.empty() ? arguments.scene.file.stem() : arguments.output;
+}
+
+// Whether the checkpoint is the one in the output folder, so that the run goes on where it is.
+bool resumes_in_place(const RunArguments& arguments) {
+  std::error_code ignored;
+  const std::filesystem::path& checkpoint = arguments.resume;
+  const bool is_folder = std::filesystem::is_directory(checkpoint, ignored);
+  const std::filesystem::path home = is_folder                      ? checkpoint
+                                     : checkpoint.has_parent_path() ? checkpoint.parent_path()
+                                                                    : std::filesystem::path(".");
+  return !checkpoint.empty() && std::filesystem::equivalent(home, output_folder(arguments), ignored);
+}
+
+Expected<RunWriter> open_writer(const RunArguments& arguments, const OpenedSimulation& opened) {
+  const Simulation& simulation = opened.simulation;
+  const RunInfo info = describe_run(simulation);
+  if (resumes_in_place(arguments)) {
+    return RunWriter::resume(output_folder(arguments), info, opened.resolved, simulation.step_count(),
+                             simulation.scene().output);
+  }
+  return RunWriter::create(output_folder(arguments), info, opened.resolved, {.overwrite = arguments.overwrite});
+}
+
+void log_start(const OpenedSimulation& opened) {
+  const Simulation& simulation = opened.simulation;
+  const BackendInfo back_end = simulation.backend_info();
+  spdlog::info("hooke {}: {}, {} particles, step {} to {} of {} s, {} ({}), {} precision, {} threads", HOOKE_VERSION,
+               simulation.scene().name, simulation.particle_count(), simulation.step_count(), simulation.scene().steps,
+               simulation.scene().time_step, back_end.device, back_end.isa, to_string(back_end.precision),
+               back_end.threads);
+  for (const Finding& warning : opened.warnings) spdlog::warn("{}: {}", warning.where, warning.message);
+  if (const std::string unstable = unstable_step(simulation.scene()); !unstable.empty()) spdlog::warn(unstable);
+}
+
+Expected<RunReport> write_reports(const Run& run, const Simulation& simulation, RunWriter& writer,
+                                  const RunArguments& arguments) {
+  const auto measurements = simulation.measure();
+  if (!measurements) return fail(measurements.error());
+  RunReport report = make_report(simulation, *measurements);
+  report.steps = run.steps_taken();
+  report.seconds = run.stepping_seconds();
+  if (auto written = writer.write_report(report); !written) return fail(std::move(written).error());
+  if (!arguments.report.empty()) {
+    if (auto written = write_text_file(arguments.report, to_json(report)); !written) {
+      return fail(std::move(written).error());
+    }
+  }
+  if (auto finished = writer.finish(); !finished) return fail(std::move(finished).error());
+  return report;
+}
+
+void print_summary(const RunReport& report, const RunWriter& writer) {
+  const Measurements& m = report.measurements;
+  fmt::print("{} particles, {} steps in {} ({:.1f} steps/s, {:.2f} M particle-steps/s), t = {:.6g} s\n",
+             with_commas(report.particles), report.steps, clock_time(report.seconds), report.steps_per_second(),
+             report.particle_steps_per_second() * 1e-6, report.time);
+  fmt::print("kinetic energy {:.6g} J, fastest {:.3g} m/s, deepest overlap {:.3g} %, removed {}, state {:016x}\n",
+             m.kinetic_energy, m.max_speed, 100 * m.max_overlap_ratio, report.ledger.removed, report.state_hash);
+  fmt::print("written to {}\n", writer.folder().string());
+}
+
+// A run that failed keeps its last good state; says which.
+ExitStatus report_failure(const Error& error, RunWriter& writer) {
+  const ExitStatus status = report_error(error, true);
+  (void)writer.flush();  // fails where `error` says so; either way the file is now what it stays
+  if (const auto checkpoint = describe_file(writer.checkpoint_path())) {
+    spdlog::error("the last good checkpoint is of step {}: {}", checkpoint->steps.front(),
+                  writer.checkpoint_path().string());
+  }
+  return status;
+}
+
+}  // namespace
+
+ExitStatus run_command(const RunArguments& arguments) {
+  if (!arguments.report.empty()) {
+    if (auto writable = check_output_file(arguments.report, "--report"); !writable) {
+      return report_error(writable.error());
+    }
+  }
+  auto opened = open_simulation(arguments.scene, arguments.device, arguments.resume);
+  if (!opened) return report_error(opened.error());
+  Simulation& simulation = opened->simulation;
+  if (simulation.step_count() > simulation.scene().steps) {
+    return report_error(
+        {Error::Kind::bad_input,
+         {{arguments.resume.string(), fmt::format("is of step {}, after the end of the run at step {}",
+                                                  simulation.step_count(), simulation.scene().steps)}}});
+  }
+  auto writer = open_writer(arguments, *opened);
+  if (!writer) return report_error(writer.error());
+  if (auto logging = log_to_file(writer->log_path()); !logging) return report_error(logging.error(), true);
+  log_start(*opened);
+
+  Run run(simulation, *writer, checkpoint_cadence(arguments.checkpoint_every, simulation.scene().steps),
+          resumes_in_place(arguments), arguments.quiet);
+  const auto complete = run.to_the_end();
+  if (!complete) return report_failure(complete.error(), *writer);
+  const auto report = write_reports(run, simulation, *writer, arguments);
+  if (!report) return report_failure(report.error(), *writer);
+
+  spdlog::info("{} at step {}, {:.1f} steps/s, state {:016x}", *complete ? "done" : "interrupted", report->step,
+               report->steps_per_second(), report->state_hash);
+  if (!*complete) {
+    spdlog::warn("interrupted at step {} of {}; go on with --resume {}", report->step, simulation.scene().steps,
+                 writer->checkpoint_path().string());
+    return kInterrupted;
+  }
+  if (!arguments.quiet) print_summary(*report, *writer);
+  return kDone;
+}
+
+}  // namespace hooke::cli

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "commands.h"
+#include "hooke/scene/gallery.h"
+#include "hooke/scene/load_scene.h"
+#include "log.h"
+
+namespace hooke::cli {
+namespace {
+
+// The scenes installed beside this program, or those of the source that it was built from.
+std::filesystem::path scenes_folder() {
+  std::error_code ignored;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  const std::filesystem::path installed = (program.parent_path() / HOOKE_SCENES_FROM_PROGRAM).lexically_normal();
+  return std::filesystem::is_directory(installed, ignored) ? installed : HOOKE_SOURCE_SCENES;
+}
+
+}  // namespace
+
+ExitStatus scenes_command() {
+  const std::filesystem::path folder = scenes_folder();
+  const auto scenes = list_scenes(folder);
+  if (!scenes) return report_error(scenes.error());
+  fmt::print("In {}:\n", folder.string());
+  for (const GalleryScene& scene : *scenes) fmt::print("  {:<20} {}\n", scene.file.filename().string(), scene.name);
+  return kDone;
+}
+
+ExitStatus schema_command() {
+  fmt::print("{}", scene_schema());
+  return kDone;
+}
+
+}  // namespace hooke::cli
