@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "hooke/backends/cpu/particle_record.h"
+#include "hooke/base/vec3.h"
+
+namespace hooke {
+
+// The force pass as seen from outside: plain data in, plain data out. This header and what it includes are compiled with
+// the flags of every instruction set, so nothing in them may emit an inline function that the linker could share.
+
+/// Coefficients of one pair of materials, or of one material: eight numbers, laid out like a particle record so that a
+/// pack of rows loads like a pack of particles.
+template <class Real>
+struct alignas(8 * sizeof(Real)) PairRow {
+  Real stiffness, shear, damping;  // N/m, N s/m, N s/m
+  Real reach;                      // r_i + r_p, m
+  Real unused[4];
+};
+template <class Real>
+struct alignas(8 * sizeof(Real)) MaterialRow {
+  Real wall_stiffness, wall_shear, wall_damping;  // N/m, N s/m, N s/m
+  Real radius;                                    // m
+  Real inverse_mass;                              // 1/kg
+  Real drag;                                      // kg/s
+  Real unused[2];
+};
+
+enum class PeriodicKind {
+  none,
+  nearest,  // every periodic axis is at least two largest diameters long: only the nearest image can touch
+  images,   // shorter: look at all images
+};
+
+/// What every group of a pass needs.
+template <class Real>
+struct ForcePass {
+  const ParticleRecord<Real>* in = nullptr;   // state before
+  ParticleRecord<Real>* out = nullptr;        // state after
+  Vec3<Real>* acceleration = nullptr;         // velocity Verlet: where a goes; null under symplectic Euler
+  const Vec3<Real>* listed_at = nullptr;      // positions when the list was built, m
+  const PairRow<Real>* pairs = nullptr;       // material_count squared
+  const MaterialRow<Real>* materials = nullptr;
+  std::size_t material_count = 1;
+  Real dt{};                                  // s
+  Vec3<Real> gravity{};                       // m/s^2
+  Vec3<Real> min{}, max{}, length{};          // domain, m
+  bool wall[3]{};                             // spring walls across this axis
+  bool open_or_periodic[3]{};
+  bool periodic[3]{};
+  int images[3]{};                            // PeriodicKind::images: -n to n are looked at
+  PeriodicKind periodic_kind = PeriodicKind::none;
+  Real speed_limit{};                         // m/s: contacts that approach faster are looked at closely
+  Real stale_distance2{};                     // m^2: the list may miss a contact once a particle moved further
+};
+
+/// What a group has to say beside its new state.
+enum GroupNote : unsigned char {
+  kTouchesWall = 1,     // wall_force and wall_power hold something
+  kLeftDomain = 2,      // a particle is outside an open or periodic face, or at no number
+  kApproachTooFast = 4, // perhaps: look closely
+  kMovedFar = 8,        // the list is stale
+};
+
+/// The part of a pass that one thread does at a time: consecutive groups of 16 particles, their rows of the neighbour
+/// list, and where they report.
+template <class Real>
+struct SegmentWork {
+  std::size_t first = 0;                     // first particle
+  std::size_t group_count = 0;
+  const std::uint32_t* rows = nullptr;
+  const std::uint32_t* first_row = nullptr;  // group_count + 1
+  unsigned char* notes = nullptr;            // GroupNote bits, one entry a group
+  Real* dissipated = nullptr;                // W, one entry a particle: half of its contacts', and its drag's
+  Real* wall_power = nullptr;                // W, one entry a particle, where kTouchesWall
+  Real* wall_force[3] = {};                  // N, likewise
+};
+
+template <class Real>
+using ForcePassFunction = void (*)(const ForcePass<Real>&, const SegmentWork<Real>&);
+
+/// The entries of the neighbour list are offsets of records in units of 8 bytes.
+template <class Real>
+constexpr std::uint32_t record_offset(std::uint32_t index) {
+  return index * static_cast<std::uint32_t>(sizeof(ParticleRecord<Real>) / 8);
+}
+
+#define HOOKE_DECLARE_FORCE_PASS(isa)                                                  \
+  namespace isa {                                                                      \
+  void force_pass(const ForcePass<float>& pass, const SegmentWork<float>& work);       \
+  void force_pass(const ForcePass<double>& pass, const SegmentWork<double>& work);     \
+  }
+HOOKE_DECLARE_FORCE_PASS(portable)
+HOOKE_DECLARE_FORCE_PASS(avx2)
+HOOKE_DECLARE_FORCE_PASS(avx512)
+#undef HOOKE_DECLARE_FORCE_PASS
+
+}  // namespace hooke

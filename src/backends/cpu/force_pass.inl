@@ -1,0 +1,297 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+// The force pass, written once and compiled once for each instruction set (HOOKE_ISA): a pack of particles at a time,
+// their contacts row by row, walls, drag, gravity and the integrator, all in registers. What each lane computes is
+// exactly what ReferenceBackend spells out for one particle.
+
+#include "hooke/backends/cpu/force_pass.h"
+#include "hooke/backends/cpu/pack.h"
+#include "hooke/physics/contact.h"
+#include "hooke/physics/drag.h"
+#include "hooke/physics/integrate.h"
+#include "hooke/physics/periodic.h"
+#include "hooke/physics/wall.h"
+
+namespace hooke::HOOKE_ISA {
+namespace {
+
+// Some particles, one a lane.
+template <class Real>
+struct Lanes {
+  Vec3<Pack<Real>> x;
+  Pack<Real> material;
+  Vec3<Pack<Real>> v;
+  Pack<Real> rank;
+};
+
+template <class Real, class At>
+HOOKE_HD Lanes<Real> load_lanes(const At& at) {
+  const Quad<Real> position = load_quads(Real{}, at);
+  const Quad<Real> velocity = load_quads(Real{}, [&](int lane) { return at(lane) + 4; });
+  return {{position.a, position.b, position.c}, position.d, {velocity.a, velocity.b, velocity.c}, velocity.d};
+}
+
+// Lanes of the neighbour list's row at `row`.
+template <class Real>
+HOOKE_HD Lanes<Real> load_neighbours(const ParticleRecord<Real>* records, const std::uint32_t* row) {
+  const char* base = reinterpret_cast<const char*>(records);
+  return load_lanes<Real>([=](int lane) { return reinterpret_cast<const Real*>(base + std::size_t{row[lane]} * 8); });
+}
+
+// Quads of a table, one row a lane; `part` 0 or 1 is the first or second four numbers of a row.
+template <class Real, class Row>
+HOOKE_HD Quad<Real> load_rows(const Row* table, const Pack<Real>& index, int part) {
+  return load_quads(Real{}, [&](int lane) {
+    return reinterpret_cast<const Real*>(table + static_cast<std::size_t>(index.v[lane])) + 4 * part;
+  });
+}
+
+// What acts on the lanes' particles.
+template <class Real>
+struct Acting {
+  Vec3<Pack<Real>> force{Pack<Real>(0), Pack<Real>(0), Pack<Real>(0)};
+  Pack<Real> dissipated{Real(0)};
+  Mask<Real> too_fast{};
+
+  HOOKE_HD void add(const Mask<Real>& touching, const ContactForce<Pack<Real>>& contact) {
+    const Pack<Real> zero(Real(0));
+    force += Vec3<Pack<Real>>{select(touching, contact.force.x, zero), select(touching, contact.force.y, zero),
+                              select(touching, contact.force.z, zero)};
+    dissipated = dissipated + select(touching, contact.dissipation, zero);
+  }
+};
+
+// Contacts with particles in ascending order of id. The two template flags drop what a scene does not need.
+template <class Real, bool kOneMaterial, PeriodicKind kPeriodic>
+struct ContactLoop {
+  using P = Pack<Real>;
+  const ForcePass<Real>& pass;
+  const Lanes<Real>& own;
+
+  HOOKE_HD void one_image(const Lanes<Real>& other, const Vec3<P>& x_ip, const ContactCoefficients<P>& coefficients,
+                          const P& reach, const Mask<Real>& counts, Acting<Real>& acting) const {
+    const P distance = sqrt_of(dot(x_ip, x_ip));
+    const P overlap = reach - distance;
+    const Mask<Real> touching = counts & (overlap > P(Real(0)));
+    const P tie = select(own.rank > other.rank, P(Real(1)), P(Real(-1)));
+    const Vec3<P> normal = contact_normal(x_ip, distance, tie);
+    const Vec3<P> w = other.v - own.v;
+    acting.add(touching, contact_force(overlap, normal, w, coefficients));
+    acting.too_fast = acting.too_fast | (touching & (dot(w, normal) > P(pass.speed_limit)));
+  }
+
+  HOOKE_HD void neighbour(const Lanes<Real>& other, const ContactCoefficients<P>& coefficients, const P& reach,
+                          Acting<Real>& acting) const {
+    const Mask<Real> all = P(Real(0)) == P(Real(0));
+    if constexpr (kPeriodic == PeriodicKind::none) {
+      one_image(other, own.x - other.x, coefficients, reach, all, acting);
+    } else if constexpr (kPeriodic == PeriodicKind::nearest) {
+      const auto displacement = [&](const P& x_i, const P& x_p, bool periodic, Real length) {
+        if (!periodic) return x_i - x_p;
+        return image_displacement(x_i, x_p, nearest_image(x_i, x_p, P(length)), P(length));
+      };
+      const Vec3<P> x_ip{displacement(own.x.x, other.x.x, pass.periodic[0], pass.length.x),
+                         displacement(own.x.y, other.x.y, pass.periodic[1], pass.length.y),
+                         displacement(own.x.z, other.x.z, pass.periodic[2], pass.length.z)};
+      one_image(other, x_ip, coefficients, reach, all, acting);
+    } else {
+      const Mask<Real> another = !(own.rank == other.rank);
+      for (int sx = -pass.images[0]; sx <= pass.images[0]; ++sx) {
+        for (int sy = -pass.images[1]; sy <= pass.images[1]; ++sy) {
+          for (int sz = -pass.images[2]; sz <= pass.images[2]; ++sz) {
+            const Vec3<P> x_ip{image_displacement(own.x.x, other.x.x, P(static_cast<Real>(sx)), P(pass.length.x)),
+                               image_displacement(own.x.y, other.x.y, P(static_cast<Real>(sy)), P(pass.length.y)),
+                               image_displacement(own.x.z, other.x.z, P(static_cast<Real>(sz)), P(pass.length.z))};
+            const bool itself = sx == 0 && sy == 0 && sz == 0;
+            one_image(other, x_ip, coefficients, reach, itself ? another : all, acting);
+          }
+        }
+      }
+    }
+  }
+
+  HOOKE_HD Acting<Real> run(const std::uint32_t* row, const std::uint32_t* end) const {
+    Acting<Real> acting;
+    const auto coefficients_of = [](const Quad<Real>& q) { return ContactCoefficients<P>{q.a, q.b, q.c}; };
+    if constexpr (kOneMaterial) {
+      const PairRow<Real>& only = pass.pairs[0];
+      const ContactCoefficients<P> coefficients{P(only.stiffness), P(only.shear), P(only.damping)};
+      for (; row != end; row += 16) neighbour(load_neighbours(pass.in, row), coefficients, P(only.reach), acting);
+    } else {
+      const P row_start = own.material * P(static_cast<Real>(pass.material_count));
+      for (; row != end; row += 16) {
+        const Lanes<Real> other = load_neighbours(pass.in, row);
+        const Quad<Real> pair = load_rows(pass.pairs, row_start + other.material, 0);
+        neighbour(other, coefficients_of(pair), pair.d, acting);
+      }
+    }
+    return acting;
+  }
+};
+
+// Contacts with the domain's walls: x, y, z, the lower face first.
+template <class Real>
+struct WallLoop {
+  using P = Pack<Real>;
+  const ForcePass<Real>& pass;
+  const Lanes<Real>& own;
+  const Mask<Real>& present;
+  const Quad<Real>& material;  // stiffness, shear, damping against walls; radius
+
+  HOOKE_HD void run(Acting<Real>& acting, const SegmentWork<Real>& work, std::size_t slot, unsigned char& notes) const {
+    const Vec3<P> w = -own.v;
+    const ContactCoefficients<P> coefficients{material.a, material.b, material.c};
+    Vec3<P> force{P(Real(0)), P(Real(0)), P(Real(0))};
+    bool touched = false;
+    const auto face = [&](int axis, Real sign, const P& overlap) {
+      const Mask<Real> touching = present & (overlap > P(Real(0)));
+      if (!any(touching)) return;
+      touched = true;
+      const Vec3<P> normal = wall_normal(axis, P(sign));
+      const ContactForce<P> contact = contact_force(overlap, normal, w, coefficients);
+      const P zero(Real(0));
+      const Vec3<P> on_touching{select(touching, contact.force.x, zero), select(touching, contact.force.y, zero),
+                                select(touching, contact.force.z, zero)};
+      acting.force += on_touching;
+      force += on_touching;
+      acting.too_fast = acting.too_fast | (touching & (dot(w, normal) > P(pass.speed_limit)));
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!pass.wall[axis]) continue;
+      const P& x = component(own.x, axis);
+      face(axis, Real(1), lower_wall_overlap(x, P(component(pass.min, axis)), material.d));
+      face(axis, Real(-1), upper_wall_overlap(x, P(component(pass.max, axis)), material.d));
+    }
+    // Slots of a segment are cleared for the first pack of a group that touches; the packs before it wrote zeros.
+    store(work.wall_force[0] + slot, force.x);
+    store(work.wall_force[1] + slot, force.y);
+    store(work.wall_force[2] + slot, force.z);
+    store(work.wall_power + slot, dot(force, own.v));
+    if (touched) notes |= kTouchesWall;
+  }
+};
+
+// Mask of lanes that left the domain across an open or periodic face; NaN counts as having left.
+template <class Real>
+HOOKE_HD Mask<Real> left_domain(const ForcePass<Real>& pass, const Vec3<Pack<Real>>& x) {
+  using P = Pack<Real>;
+  Mask<Real> out = P(Real(0)) < P(Real(0));
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!pass.open_or_periodic[axis]) continue;
+    const P& c = component(x, axis);
+    out = out | !((c >= P(component(pass.min, axis))) & (c < P(component(pass.max, axis))));
+  }
+  return out;
+}
+
+// Mask of lanes further than half a skin from where the list was built; NaN counts as far.
+template <class Real, PeriodicKind kPeriodic>
+HOOKE_HD Mask<Real> moved_far(const ForcePass<Real>& pass, const Vec3<Pack<Real>>& x, std::size_t first) {
+  using P = Pack<Real>;
+  const auto load_axis = [&](Real Vec3<Real>::*c) {
+    P a(Real(0));
+    for (std::size_t lane = 0; lane < P::kLanes; ++lane) a.v[lane] = pass.listed_at[first + lane].*c;
+    return a;
+  };
+  const Vec3<P> from{load_axis(&Vec3<Real>::x), load_axis(&Vec3<Real>::y), load_axis(&Vec3<Real>::z)};
+  Vec3<P> moved = x - from;
+  if constexpr (kPeriodic != PeriodicKind::none) {
+    const auto displacement = [&](const P& now, const P& then, bool periodic, Real length) {
+      if (!periodic) return now - then;
+      return image_displacement(now, then, nearest_image(now, then, P(length)), P(length));
+    };
+    moved = {displacement(x.x, from.x, pass.periodic[0], pass.length.x),
+             displacement(x.y, from.y, pass.periodic[1], pass.length.y),
+             displacement(x.z, from.z, pass.periodic[2], pass.length.z)};
+  }
+  return !(dot(moved, moved) <= P(pass.stale_distance2));
+}
+
+template <class Real, bool kOneMaterial, PeriodicKind kPeriodic>
+HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& work, std::size_t slot,
+                       const std::uint32_t* row, const std::uint32_t* end, unsigned char& notes) {
+  using P = Pack<Real>;
+  const std::size_t first = work.first + slot;
+  const Real* own_record = reinterpret_cast<const Real*>(pass.in + first);
+  const Lanes<Real> own = load_lanes<Real>([=](int lane) { return own_record + 8 * lane; });
+  const Mask<Real> present = own.x.x < P(static_cast<Real>(kNowhere));
+
+  Acting<Real> acting = ContactLoop<Real, kOneMaterial, kPeriodic>{pass, own}.run(row, end);
+  acting.dissipated = P(Real(0.5)) * acting.dissipated;
+
+  Quad<Real> wall_row, body_row;
+  if constexpr (kOneMaterial) {
+    const MaterialRow<Real>& m = pass.materials[0];
+    wall_row = {P(m.wall_stiffness), P(m.wall_shear), P(m.wall_damping), P(m.radius)};
+    body_row = {P(m.inverse_mass), P(m.drag), P(Real(0)), P(Real(0))};
+  } else {
+    wall_row = load_rows(pass.materials, own.material, 0);
+    body_row = load_rows(pass.materials, own.material, 1);
+  }
+  WallLoop<Real>{pass, own, present, wall_row}.run(acting, work, slot, notes);
+
+  const Vec3<P> drag = drag_force(own.v, body_row.b);
+  acting.force += drag;
+  acting.dissipated = acting.dissipated - dot(drag, own.v);
+
+  const Vec3<P> gravity{P(pass.gravity.x), P(pass.gravity.y), P(pass.gravity.z)};
+  const Vec3<P> a = body_row.a * acting.force + gravity;
+  const P dt(pass.dt);
+  Vec3<P> v, x = own.x;
+  if (pass.acceleration != nullptr) {  // velocity Verlet
+    v = kick(own.v, a, P(Real(0.5)) * dt);
+    for (std::size_t lane = 0; lane < P::kLanes; ++lane) {
+      pass.acceleration[first + lane] = {a.x.v[lane], a.y.v[lane], a.z.v[lane]};
+    }
+  } else {  // symplectic Euler
+    v = kick(own.v, a, dt);
+    x = drift(own.x, v, dt);
+    if (any(present & left_domain(pass, x))) notes |= kLeftDomain;
+    if (any(present & moved_far<Real, kPeriodic>(pass, x, first))) notes |= kMovedFar;
+  }
+  if (any(acting.too_fast)) notes |= kApproachTooFast;
+
+  const P zero(Real(0));
+  x = {select(present, x.x, own.x.x), select(present, x.y, own.x.y), select(present, x.z, own.x.z)};
+  v = {select(present, v.x, zero), select(present, v.y, zero), select(present, v.z, zero)};
+  store(work.dissipated + slot, select(present, acting.dissipated, zero));
+  Real* out_record = reinterpret_cast<Real*>(pass.out + first);
+  store_quads(Quad<Real>{x.x, x.y, x.z, own.material}, [=](int lane) { return out_record + 8 * lane; });
+  store_quads(Quad<Real>{v.x, v.y, v.z, own.rank}, [=](int lane) { return out_record + 8 * lane + 4; });
+}
+
+template <class Real, bool kOneMaterial, PeriodicKind kPeriodic>
+void run_segment(const ForcePass<Real>& pass, const SegmentWork<Real>& work) {
+  constexpr std::size_t kLanes = 16;  // of the list: whole packs at every width
+  for (std::size_t g = 0; g < work.group_count; ++g) {
+    unsigned char notes = 0;
+    for (std::size_t half = 0; half < kLanes; half += Pack<Real>::kLanes) {
+      const std::uint32_t* row = work.rows + std::size_t{work.first_row[g]} * kLanes + half;
+      const std::uint32_t* end = work.rows + std::size_t{work.first_row[g + 1]} * kLanes + half;
+      run_pack<Real, kOneMaterial, kPeriodic>(pass, work, g * kLanes + half, row, end, notes);
+    }
+    work.notes[g] = notes;
+  }
+}
+
+template <class Real, bool kOneMaterial>
+void choose_periodic(const ForcePass<Real>& pass, const SegmentWork<Real>& work) {
+  switch (pass.periodic_kind) {
+    case PeriodicKind::none: return run_segment<Real, kOneMaterial, PeriodicKind::none>(pass, work);
+    case PeriodicKind::nearest: return run_segment<Real, kOneMaterial, PeriodicKind::nearest>(pass, work);
+    case PeriodicKind::images: return run_segment<Real, kOneMaterial, PeriodicKind::images>(pass, work);
+  }
+}
+
+template <class Real>
+void choose_materials(const ForcePass<Real>& pass, const SegmentWork<Real>& work) {
+  return pass.material_count == 1 ? choose_periodic<Real, true>(pass, work) : choose_periodic<Real, false>(pass, work);
+}
+
+}  // namespace
+
+void force_pass(const ForcePass<float>& pass, const SegmentWork<float>& work) { choose_materials(pass, work); }
+void force_pass(const ForcePass<double>& pass, const SegmentWork<double>& work) { choose_materials(pass, work); }
+
+}  // namespace hooke::HOOKE_ISA

@@ -1,0 +1,238 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+// SIMD packs: the one file with intrinsics. Included by force_pass.inl inside a file that is compiled for one
+// instruction set and names its namespace HOOKE_ISA; no include guard is shared between instruction sets. Everything
+// is always inlined, so that no function built for a newer processor can be the copy that the linker keeps.
+
+#include <immintrin.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#include "hooke/base/real.h"
+
+namespace hooke::HOOKE_ISA {
+
+#if defined(__AVX512F__)
+inline constexpr std::size_t kPackBytes = 64;
+#elif defined(__AVX2__)
+inline constexpr std::size_t kPackBytes = 32;
+#else
+inline constexpr std::size_t kPackBytes = 16;
+#endif
+
+// The registers behind packs and masks (compilers take the attribute on concrete types only).
+typedef float FloatVector __attribute__((vector_size(kPackBytes)));
+typedef double DoubleVector __attribute__((vector_size(kPackBytes)));
+typedef std::int32_t Int32Vector __attribute__((vector_size(kPackBytes)));
+typedef std::int64_t Int64Vector __attribute__((vector_size(kPackBytes)));
+
+template <class Real>
+struct Registers;
+template <>
+struct Registers<float> {
+  using Numbers = FloatVector;
+  using Truths = Int32Vector;
+};
+template <>
+struct Registers<double> {
+  using Numbers = DoubleVector;
+  using Truths = Int64Vector;
+};
+
+/// One truth value a lane: all bits set or none.
+template <class Real>
+struct Mask {
+  using Vector = typename Registers<Real>::Truths;
+  Vector v;
+
+  friend HOOKE_HD Mask operator&(const Mask& a, const Mask& b) { return {a.v & b.v}; }
+  friend HOOKE_HD Mask operator|(const Mask& a, const Mask& b) { return {a.v | b.v}; }
+  friend HOOKE_HD Mask operator!(const Mask& a) { return {~a.v}; }
+};
+
+/// As many Reals as a register holds, one a lane. Behaves like one number in the laws.
+template <class Real>
+struct Pack {
+  static constexpr std::size_t kLanes = kPackBytes / sizeof(Real);
+  using Vector = typename Registers<Real>::Numbers;
+  Vector v;
+
+  Pack() = default;
+  HOOKE_HD Pack(Real s) : v(s - Vector{}) {}  // NOLINT: a number stands for a pack of it, as in the laws; s - 0 keeps -0
+  HOOKE_HD explicit Pack(Vector vector) : v(vector) {}
+
+  friend HOOKE_HD Pack operator+(const Pack& a, const Pack& b) { return Pack(a.v + b.v); }
+  friend HOOKE_HD Pack operator-(const Pack& a, const Pack& b) { return Pack(a.v - b.v); }
+  friend HOOKE_HD Pack operator*(const Pack& a, const Pack& b) { return Pack(a.v * b.v); }
+  friend HOOKE_HD Pack operator/(const Pack& a, const Pack& b) { return Pack(a.v / b.v); }
+  friend HOOKE_HD Pack operator-(const Pack& a) { return Pack(-a.v); }
+  friend HOOKE_HD Mask<Real> operator<(const Pack& a, const Pack& b) { return {a.v < b.v}; }
+  friend HOOKE_HD Mask<Real> operator>(const Pack& a, const Pack& b) { return {a.v > b.v}; }
+  friend HOOKE_HD Mask<Real> operator<=(const Pack& a, const Pack& b) { return {a.v <= b.v}; }
+  friend HOOKE_HD Mask<Real> operator>=(const Pack& a, const Pack& b) { return {a.v >= b.v}; }
+  friend HOOKE_HD Mask<Real> operator==(const Pack& a, const Pack& b) { return {a.v == b.v}; }
+  friend HOOKE_HD Pack select(const Mask<Real>& m, const Pack& a, const Pack& b) { return Pack(m.v ? a.v : b.v); }
+};
+
+#if defined(__AVX512F__)
+
+HOOKE_HD Pack<float> sqrt_of(const Pack<float>& a) { return Pack<float>(_mm512_sqrt_ps(a.v)); }
+HOOKE_HD Pack<double> sqrt_of(const Pack<double>& a) { return Pack<double>(_mm512_sqrt_pd(a.v)); }
+HOOKE_HD bool any(const Mask<float>& m) { return _mm512_test_epi32_mask((__m512i)m.v, (__m512i)m.v) != 0; }
+HOOKE_HD bool any(const Mask<double>& m) { return _mm512_test_epi64_mask((__m512i)m.v, (__m512i)m.v) != 0; }
+
+#elif defined(__AVX2__)
+
+HOOKE_HD Pack<float> sqrt_of(const Pack<float>& a) { return Pack<float>(_mm256_sqrt_ps(a.v)); }
+HOOKE_HD Pack<double> sqrt_of(const Pack<double>& a) { return Pack<double>(_mm256_sqrt_pd(a.v)); }
+HOOKE_HD bool any(const Mask<float>& m) { return _mm256_movemask_ps((__m256)m.v) != 0; }
+HOOKE_HD bool any(const Mask<double>& m) { return _mm256_movemask_pd((__m256d)m.v) != 0; }
+
+#else
+
+HOOKE_HD Pack<float> sqrt_of(const Pack<float>& a) { return Pack<float>(_mm_sqrt_ps(a.v)); }
+HOOKE_HD Pack<double> sqrt_of(const Pack<double>& a) { return Pack<double>(_mm_sqrt_pd(a.v)); }
+HOOKE_HD bool any(const Mask<float>& m) { return _mm_movemask_ps((__m128)m.v) != 0; }
+HOOKE_HD bool any(const Mask<double>& m) { return _mm_movemask_pd((__m128d)m.v) != 0; }
+
+#endif
+
+/// Four packs: what a 4 x 4 transpose of quads gives, and takes.
+template <class Real>
+struct Quad {
+  Pack<Real> a, b, c, d;
+};
+
+// Quads of four numbers are loaded lane by lane into the 128-bit (double: 256-bit) parts of four registers and
+// transposed there. `at(lane)` is the address of the lane's quad.
+
+#if defined(__AVX512F__)
+
+HOOKE_HD Quad<float> transpose(__m512 r0, __m512 r1, __m512 r2, __m512 r3) {
+  const __m512d xy01 = _mm512_castps_pd(_mm512_unpacklo_ps(r0, r1)), zw01 = _mm512_castps_pd(_mm512_unpackhi_ps(r0, r1));
+  const __m512d xy23 = _mm512_castps_pd(_mm512_unpacklo_ps(r2, r3)), zw23 = _mm512_castps_pd(_mm512_unpackhi_ps(r2, r3));
+  return {Pack<float>((_mm512_castpd_ps(_mm512_unpacklo_pd(xy01, xy23)))),
+          Pack<float>((_mm512_castpd_ps(_mm512_unpackhi_pd(xy01, xy23)))),
+          Pack<float>((_mm512_castpd_ps(_mm512_unpacklo_pd(zw01, zw23)))),
+          Pack<float>((_mm512_castpd_ps(_mm512_unpackhi_pd(zw01, zw23))))};
+}
+template <class At>
+HOOKE_HD Quad<float> load_quads(float, const At& at) {
+  __m512 r[4];
+  for (int k = 0; k < 4; ++k) {
+    r[k] = _mm512_castps128_ps512(_mm_load_ps(at(k)));
+    r[k] = _mm512_insertf32x4(r[k], _mm_load_ps(at(k + 4)), 1);
+    r[k] = _mm512_insertf32x4(r[k], _mm_load_ps(at(k + 8)), 2);
+    r[k] = _mm512_insertf32x4(r[k], _mm_load_ps(at(k + 12)), 3);
+  }
+  return transpose(r[0], r[1], r[2], r[3]);
+}
+template <class At>
+HOOKE_HD void store_quads(const Quad<float>& q, const At& at) {
+  const Quad<float> t = transpose(q.a.v, q.b.v, q.c.v, q.d.v);
+  const __m512 r[4] = {t.a.v, t.b.v, t.c.v, t.d.v};
+  for (int k = 0; k < 4; ++k) {
+    _mm_store_ps(at(k), _mm512_castps512_ps128(r[k]));
+    _mm_store_ps(at(k + 4), _mm512_extractf32x4_ps(r[k], 1));
+    _mm_store_ps(at(k + 8), _mm512_extractf32x4_ps(r[k], 2));
+    _mm_store_ps(at(k + 12), _mm512_extractf32x4_ps(r[k], 3));
+  }
+}
+// Parts of registers: r0 holds the quads of lanes 0 and 2, r1 of 1 and 3, r2 of 4 and 6, r3 of 5 and 7.
+template <class At>
+HOOKE_HD Quad<double> load_quads(double, const At& at) {
+  const auto two = [&](int low, int high) {
+    return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_load_pd(at(low))), _mm256_load_pd(at(high)), 1);
+  };
+  const __m512d r0 = two(0, 2), r1 = two(1, 3), r2 = two(4, 6), r3 = two(5, 7);
+  const __m512d xz0 = _mm512_unpacklo_pd(r0, r1), yw0 = _mm512_unpackhi_pd(r0, r1);
+  const __m512d xz1 = _mm512_unpacklo_pd(r2, r3), yw1 = _mm512_unpackhi_pd(r2, r3);
+  return {Pack<double>((_mm512_shuffle_f64x2(xz0, xz1, 0x88))), Pack<double>((_mm512_shuffle_f64x2(yw0, yw1, 0x88))),
+          Pack<double>((_mm512_shuffle_f64x2(xz0, xz1, 0xdd))), Pack<double>((_mm512_shuffle_f64x2(yw0, yw1, 0xdd)))};
+}
+
+#elif defined(__AVX2__)
+
+HOOKE_HD Quad<float> transpose(__m256 r0, __m256 r1, __m256 r2, __m256 r3) {
+  const __m256d xy01 = _mm256_castps_pd(_mm256_unpacklo_ps(r0, r1)), zw01 = _mm256_castps_pd(_mm256_unpackhi_ps(r0, r1));
+  const __m256d xy23 = _mm256_castps_pd(_mm256_unpacklo_ps(r2, r3)), zw23 = _mm256_castps_pd(_mm256_unpackhi_ps(r2, r3));
+  return {Pack<float>((_mm256_castpd_ps(_mm256_unpacklo_pd(xy01, xy23)))),
+          Pack<float>((_mm256_castpd_ps(_mm256_unpackhi_pd(xy01, xy23)))),
+          Pack<float>((_mm256_castpd_ps(_mm256_unpacklo_pd(zw01, zw23)))),
+          Pack<float>((_mm256_castpd_ps(_mm256_unpackhi_pd(zw01, zw23))))};
+}
+template <class At>
+HOOKE_HD Quad<float> load_quads(float, const At& at) {
+  __m256 r[4];
+  for (int k = 0; k < 4; ++k) {
+    r[k] = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(at(k))), _mm_load_ps(at(k + 4)), 1);
+  }
+  return transpose(r[0], r[1], r[2], r[3]);
+}
+template <class At>
+HOOKE_HD void store_quads(const Quad<float>& q, const At& at) {
+  const Quad<float> t = transpose(q.a.v, q.b.v, q.c.v, q.d.v);
+  const __m256 r[4] = {t.a.v, t.b.v, t.c.v, t.d.v};
+  for (int k = 0; k < 4; ++k) {
+    _mm_store_ps(at(k), _mm256_castps256_ps128(r[k]));
+    _mm_store_ps(at(k + 4), _mm256_extractf128_ps(r[k], 1));
+  }
+}
+template <class At>
+HOOKE_HD Quad<double> load_quads(double, const At& at) {
+  const __m256d r0 = _mm256_load_pd(at(0)), r1 = _mm256_load_pd(at(1)), r2 = _mm256_load_pd(at(2)), r3 = _mm256_load_pd(at(3));
+  const __m256d xz0 = _mm256_unpacklo_pd(r0, r1), yw0 = _mm256_unpackhi_pd(r0, r1);
+  const __m256d xz1 = _mm256_unpacklo_pd(r2, r3), yw1 = _mm256_unpackhi_pd(r2, r3);
+  return {Pack<double>((_mm256_permute2f128_pd(xz0, xz1, 0x20))), Pack<double>((_mm256_permute2f128_pd(yw0, yw1, 0x20))),
+          Pack<double>((_mm256_permute2f128_pd(xz0, xz1, 0x31))), Pack<double>((_mm256_permute2f128_pd(yw0, yw1, 0x31)))};
+}
+
+#else
+
+HOOKE_HD Quad<float> transpose(__m128 r0, __m128 r1, __m128 r2, __m128 r3) {
+  _MM_TRANSPOSE4_PS(r0, r1, r2, r3);
+  return {Pack<float>((r0)), Pack<float>((r1)), Pack<float>((r2)), Pack<float>((r3))};
+}
+template <class At>
+HOOKE_HD Quad<float> load_quads(float, const At& at) {
+  return transpose(_mm_load_ps(at(0)), _mm_load_ps(at(1)), _mm_load_ps(at(2)), _mm_load_ps(at(3)));
+}
+template <class At>
+HOOKE_HD void store_quads(const Quad<float>& q, const At& at) {
+  const Quad<float> t = transpose(q.a.v, q.b.v, q.c.v, q.d.v);
+  _mm_store_ps(at(0), t.a.v);
+  _mm_store_ps(at(1), t.b.v);
+  _mm_store_ps(at(2), t.c.v);
+  _mm_store_ps(at(3), t.d.v);
+}
+template <class At>
+HOOKE_HD Quad<double> load_quads(double, const At& at) {
+  const __m128d xy0 = _mm_load_pd(at(0)), zw0 = _mm_load_pd(at(0) + 2);
+  const __m128d xy1 = _mm_load_pd(at(1)), zw1 = _mm_load_pd(at(1) + 2);
+  return {Pack<double>((_mm_unpacklo_pd(xy0, xy1))), Pack<double>((_mm_unpackhi_pd(xy0, xy1))),
+          Pack<double>((_mm_unpacklo_pd(zw0, zw1))), Pack<double>((_mm_unpackhi_pd(zw0, zw1)))};
+}
+
+#endif
+
+// Doubles are stored lane by lane: a group is stored once and loaded a dozen times.
+template <class At>
+HOOKE_HD void store_quads(const Quad<double>& q, const At& at) {
+  for (std::size_t lane = 0; lane < Pack<double>::kLanes; ++lane) {
+    double* to = at(static_cast<int>(lane));
+    to[0] = q.a.v[lane];
+    to[1] = q.b.v[lane];
+    to[2] = q.c.v[lane];
+    to[3] = q.d.v[lane];
+  }
+}
+
+/// Consecutive numbers, one a lane, at any address.
+template <class Real>
+HOOKE_HD void store(Real* to, const Pack<Real>& a) {
+  __builtin_memcpy(to, &a.v, sizeof(a.v));
+}
+
+}  // namespace hooke::HOOKE_ISA

@@ -1,0 +1,257 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/backends/reference/reference_backend.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "hooke/core/state_hash.h"
+#include "hooke/core/sums.h"
+#include "hooke/physics/contact.h"
+#include "hooke/physics/drag.h"
+#include "hooke/physics/integrate.h"
+#include "hooke/physics/periodic.h"
+#include "hooke/physics/wall.h"
+
+namespace hooke {
+namespace {
+
+class ReferenceBackend final : public Backend {
+ public:
+  BackendInfo info() const override { return {"reference", "scalar", Precision::double_precision, 1}; }
+
+  void configure(const Scene& scene) override {
+    scene_ = scene;
+    table_ = ContactTable(scene.materials, scene.contacts);
+    double largest = 0;
+    for (const Material& m : scene.materials) largest = std::max(largest, m.radius);
+    for (int axis = 0; axis < 3; ++axis) {
+      // Inside the domain, images further away than this can't touch.
+      const bool periodic = scene.domain.boundary[static_cast<std::size_t>(axis)] == Boundary::periodic;
+      images_[static_cast<std::size_t>(axis)] =
+          periodic ? static_cast<int>(2 * largest / scene.domain.length(axis)) + 1 : 0;
+    }
+  }
+
+  Condition upload(const ParticleSet& particles, std::uint64_t first_new_id, const Ledger& ledger) override {
+    p_ = particles;
+    ledger_ = ledger;
+    if (!verlet()) {
+      p_.acceleration.clear();
+      return {};
+    }
+    p_.acceleration.resize(p_.size());
+    const std::vector<Vec3d> now = accelerations().a;
+    for (std::size_t i = 0; i < p_.size(); ++i) {
+      if (p_.id[i] >= first_new_id) p_.acceleration[i] = now[i];
+    }
+    return {};
+  }
+
+  void download(ParticleSet& out) const override { out = p_; }
+
+  void half_kick_and_drift() override {
+    for (std::size_t i = 0; i < p_.size(); ++i) {
+      p_.velocity[i] = kick(p_.velocity[i], p_.acceleration[i], scene_.time_step / 2);
+      p_.position[i] = drift(p_.position[i], p_.velocity[i], scene_.time_step);
+    }
+    apply_boundaries();
+  }
+
+  bool neighbours_stale() const override { return true; }  // there is no list: every pair is looked at, every step
+
+  Condition build_neighbours() override {
+    for (std::size_t i = 0; i < p_.size(); ++i) {
+      const Vec3d& x = p_.position[i];
+      if (!std::isfinite(x.x) || !std::isfinite(x.y) || !std::isfinite(x.z)) {
+        return {Condition::Kind::not_finite, p_.id[i], 0, 0};
+      }
+    }
+    return {};
+  }
+
+  Condition apply_forces() override {
+    const Forces forces = accelerations();
+    const double dt = scene_.time_step;
+    for (std::size_t i = 0; i < p_.size(); ++i) {
+      p_.velocity[i] = kick(p_.velocity[i], forces.a[i], verlet() ? dt / 2 : dt);
+      if (!verlet()) p_.position[i] = drift(p_.position[i], p_.velocity[i], dt);
+    }
+    forces.sums.book(ledger_, dt, scene_.gravity, total_mass());
+    if (verlet()) {
+      p_.acceleration = forces.a;
+    } else {
+      apply_boundaries();
+    }
+    return forces.condition;
+  }
+
+  std::uint64_t particle_count() const override { return p_.size(); }
+  const Ledger& ledger() const override { return ledger_; }
+
+  std::uint64_t particles_hash() const override {
+    std::uint64_t hash = 0;
+    for (std::size_t i = 0; i < p_.size(); ++i) hash += particle_hash(p_.id[i], p_.position[i], p_.velocity[i]);
+    return hash;
+  }
+
+  Expected<Measurements> measure() override {
+    MeasurementSums sums;
+    for (std::size_t i = 0; i < p_.size(); ++i) {
+      sums.add_particle(material(i).mass, p_.position[i], p_.velocity[i], scene_.gravity);
+      for_each_contact(i, [&](std::size_t p, const Vec3d&, double overlap) {
+        sums.add_contact_side(pair(i, p).stiffness, overlap, material(i).radius + material(p).radius);
+      });
+      for_each_wall(i, [&](const Vec3d& normal, double overlap) {
+        const auto& c = table_.wall(p_.material[i]);
+        sums.add_wall_contact(c.stiffness, overlap, contact_force(overlap, normal, -p_.velocity[i], c).force);
+      });
+    }
+    return sums.result();
+  }
+
+  NeighbourStatistics neighbour_statistics() const override { return {0, static_cast<double>(p_.size())}; }
+
+ private:
+  struct Forces {
+    std::vector<Vec3d> a;  // m/s^2
+    StepSums sums;
+    Condition condition;
+  };
+
+  bool verlet() const { return scene_.integrator == Integrator::velocity_verlet; }
+  const Material& material(std::size_t i) const { return scene_.materials[p_.material[i]]; }
+  const ContactCoefficients<double>& pair(std::size_t i, std::size_t p) const {
+    return table_.pair(p_.material[i], p_.material[p]);
+  }
+
+  // Forces on each particle in canonical order: contacts by (neighbour id, image), walls, drag; then gravity.
+  Forces accelerations() const {
+    Forces out;
+    out.a.resize(p_.size());
+    const double dt = scene_.time_step;
+    for (std::size_t i = 0; i < p_.size(); ++i) {
+      const Material& m = material(i);
+      const Vec3d& v = p_.velocity[i];
+      Vec3d force{0, 0, 0};
+      double dissipated = 0;
+
+      for_each_contact(i, [&](std::size_t p, const Vec3d& normal, double overlap) {
+        const Vec3d w = p_.velocity[p] - v;
+        const ContactForce<double> contact = contact_force(overlap, normal, w, pair(i, p));
+        force += contact.force;
+        dissipated += contact.dissipation;
+        const double approach = dot(w, normal);
+        if (approach > std::min(m.radius, material(p).radius) / dt) {
+          out.condition = Condition::first(
+              out.condition, {Condition::Kind::approach_too_fast, p_.id[i], p_.id[p], approach});
+        }
+      });
+
+      for_each_wall(i, [&](const Vec3d& normal, double overlap) {
+        const ContactForce<double> contact = contact_force(overlap, normal, -v, table_.wall(p_.material[i]));
+        force += contact.force;
+        out.sums.wall_power.add(dot(contact.force, v));
+        out.sums.wall_force.add(contact.force);
+        const double approach = dot(-v, normal);
+        if (approach > m.radius / dt) {
+          out.condition =
+              Condition::first(out.condition, {Condition::Kind::wall_approach_too_fast, p_.id[i], 0, approach});
+        }
+      });
+
+      const Vec3d drag = drag_force(v, m.drag);
+      force += drag;
+      out.sums.drag_force.add(drag);
+      out.sums.dissipated_power.add(0.5 * dissipated);
+      out.sums.dissipated_power.add(-dot(drag, v));
+
+      out.a[i] = (1 / m.mass) * force + scene_.gravity;
+    }
+    return out;
+  }
+
+  // visit(p, normal, overlap) for every touching particle p and image of it, by id, then image.
+  template <class Visit>
+  void for_each_contact(std::size_t i, Visit&& visit) const {
+    const Domain& domain = scene_.domain;
+    for (std::size_t p = 0; p < p_.size(); ++p) {
+      for (int sx = -images_[0]; sx <= images_[0]; ++sx) {
+        for (int sy = -images_[1]; sy <= images_[1]; ++sy) {
+          for (int sz = -images_[2]; sz <= images_[2]; ++sz) {
+            if (p == i && sx == 0 && sy == 0 && sz == 0) continue;
+            const Vec3d x_ip{image_displacement<double>(p_.position[i].x, p_.position[p].x, sx, domain.length(0)),
+                             image_displacement<double>(p_.position[i].y, p_.position[p].y, sy, domain.length(1)),
+                             image_displacement<double>(p_.position[i].z, p_.position[p].z, sz, domain.length(2))};
+            const double distance = sqrt_of(dot(x_ip, x_ip));
+            const double overlap = (material(i).radius + material(p).radius) - distance;
+            if (overlap > 0) visit(p, contact_normal(x_ip, distance, p_.id[i] > p_.id[p] ? 1.0 : -1.0), overlap);
+          }
+        }
+      }
+    }
+  }
+
+  // visit(normal, overlap) for every wall that particle i touches: x, y, z, the lower face first.
+  template <class Visit>
+  void for_each_wall(std::size_t i, Visit&& visit) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (scene_.domain.boundary[static_cast<std::size_t>(axis)] != Boundary::spring) continue;
+      const double x = component(p_.position[i], axis);
+      const double radius = material(i).radius;
+      const double lower = lower_wall_overlap(x, component(scene_.domain.min, axis), radius);
+      const double upper = upper_wall_overlap(x, component(scene_.domain.max, axis), radius);
+      if (lower > 0) visit(wall_normal(axis, 1.0), lower);
+      if (upper > 0) visit(wall_normal(axis, -1.0), upper);
+    }
+  }
+
+  // Wraps periodic coordinates and removes particles outside open faces.
+  void apply_boundaries() {
+    RemovalSums removed;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < p_.size(); ++i) {
+      bool left = false;
+      for (int axis = 0; axis < 3; ++axis) {
+        double& x = component(p_.position[i], axis);
+        const double min = component(scene_.domain.min, axis);
+        const double max = component(scene_.domain.max, axis);
+        const Boundary boundary = scene_.domain.boundary[static_cast<std::size_t>(axis)];
+        if (boundary == Boundary::periodic) x = wrap_coordinate(x, min, max);
+        if (boundary == Boundary::open && (x < min || x > max)) left = true;
+      }
+      if (left) {
+        removed.add_particle(material(i).mass, p_.position[i], p_.velocity[i], scene_.gravity);
+        continue;
+      }
+      p_.id[kept] = p_.id[i];
+      p_.material[kept] = p_.material[i];
+      p_.position[kept] = p_.position[i];
+      p_.velocity[kept] = p_.velocity[i];
+      if (verlet()) p_.acceleration[kept] = p_.acceleration[i];
+      ++kept;
+    }
+    p_.resize(kept);
+    if (removed.count > 0) removed.book(ledger_);
+  }
+
+  double total_mass() const {
+    ExactSum mass;
+    for (std::size_t i = 0; i < p_.size(); ++i) mass.add(material(i).mass);
+    return mass.value();
+  }
+
+  Scene scene_;
+  ContactTable table_;
+  std::array<int, 3> images_{};  // images -n to n of every particle are looked at, a periodic axis
+  ParticleSet p_;
+  Ledger ledger_;
+};
+
+}  // namespace
+
+std::unique_ptr<Backend> make_reference_backend() { return std::make_unique<ReferenceBackend>(); }
+
+}  // namespace hooke

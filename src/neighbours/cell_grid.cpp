@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/neighbours/cell_grid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "hooke/base/parallel.h"
+
+namespace hooke {
+
+void CellGrid::lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic)[3], double reach) {
+  for (int i = 0; i < 3; ++i) {
+    Axis& a = axes_[i];
+    const double length = component(max, i) - component(min, i);
+    const double cells = std::floor(length / reach);
+    a.periodic = periodic[i];
+    a.origin = component(min, i);
+    a.count = static_cast<std::int64_t>(std::clamp(cells, 1.0, static_cast<double>(kMaxCells)));
+    a.cell = std::max(reach, length / static_cast<double>(a.count));
+    inverse_cell_[i] = 1 / a.cell;
+  }
+  stride_y_ = axes_[0].count + 2;
+  stride_z_ = stride_y_ * (axes_[1].count + 2);
+}
+
+std::size_t CellGrid::neighbour_ranges(std::uint64_t key, KeyRange (&out)[18]) const {
+  const auto k = static_cast<std::int64_t>(key);
+  const std::int64_t at[3] = {k % stride_y_, k / stride_y_ % (axes_[1].count + 2), k / stride_z_};
+
+  // The up to three indices next to at[i]; on a periodic axis of one or two cells each only once.
+  const auto around = [&](int i, std::int64_t (&index)[3]) {
+    const std::int64_t n = axes_[i].count;
+    if (!axes_[i].periodic) {
+      for (int d = 0; d < 3; ++d) index[d] = at[i] + d - 1;
+      return 3;
+    }
+    const int distinct = static_cast<int>(std::min<std::int64_t>(n, 3));
+    for (int d = 0; d < distinct; ++d) index[d] = (at[i] - 1 + n - (distinct == 3 ? 1 : 0) + d) % n + 1;
+    return distinct;
+  };
+  std::int64_t xs[3], ys[3], zs[3];
+  const int nx = around(0, xs), ny = around(1, ys), nz = around(2, zs);
+  std::sort(xs, xs + nx);
+
+  std::size_t ranges = 0;
+  for (int z = 0; z < nz; ++z) {
+    for (int y = 0; y < ny; ++y) {
+      const std::int64_t row = ys[y] * stride_y_ + zs[z] * stride_z_;
+      for (int first = 0; first < nx;) {
+        int last = first;
+        while (last + 1 < nx && xs[last + 1] == xs[last] + 1) ++last;
+        out[ranges++] = {static_cast<std::uint64_t>(row + xs[first]), static_cast<std::uint64_t>(row + xs[last])};
+        first = last + 1;
+      }
+    }
+  }
+  return ranges;
+}
+
+namespace {
+
+constexpr unsigned kDigitBits = 11;
+constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
+constexpr std::size_t kBlock = 1U << 16U;
+
+using Histogram = std::array<std::uint32_t, kDigits>;
+
+}  // namespace
+
+void sort_by_key(std::vector<std::uint64_t>& keys, std::vector<std::uint32_t>& order) {
+  const std::size_t n = keys.size();
+  order.resize(n);
+  for (std::size_t i = 0; i < n; ++i) order[i] = static_cast<std::uint32_t>(i);
+
+  // Digits in which all keys agree need no pass: usually all but the lowest two.
+  std::uint64_t all_or = 0;
+  std::uint64_t all_and = ~std::uint64_t{0};
+  for (const std::uint64_t key : keys) {
+    all_or |= key;
+    all_and &= key;
+  }
+  const std::uint64_t varying = all_or ^ all_and;
+
+  std::vector<std::uint64_t> keys_out(n);
+  std::vector<std::uint32_t> order_out(n);
+  const std::size_t blocks = (n + kBlock - 1) / kBlock;
+  std::vector<Histogram> starts(blocks);
+  for (unsigned shift = 0; shift < 64; shift += kDigitBits) {
+    if (((varying >> shift) & (kDigits - 1)) == 0) continue;
+    const auto digit = [&](std::size_t i) { return (keys[i] >> shift) & (kDigits - 1); };
+    parallel_ranges(n, kBlock, [&](std::size_t first, std::size_t last) {
+      for (std::size_t block = first; block < last; block += kBlock) {
+        Histogram& h = starts[block / kBlock];
+        h.fill(0);
+        for (std::size_t i = block; i < std::min(block + kBlock, n); ++i) ++h[digit(i)];
+      }
+    });
+    std::uint32_t start = 0;
+    for (std::size_t d = 0; d < kDigits; ++d) {
+      for (Histogram& h : starts) start += std::exchange(h[d], start);
+    }
+    parallel_ranges(n, kBlock, [&](std::size_t first, std::size_t last) {
+      for (std::size_t block = first; block < last; block += kBlock) {
+        Histogram& h = starts[block / kBlock];
+        for (std::size_t i = block; i < std::min(block + kBlock, n); ++i) {
+          const std::uint32_t to = h[digit(i)]++;
+          keys_out[to] = keys[i];
+          order_out[to] = order[i];
+        }
+      }
+    });
+    keys.swap(keys_out);
+    order.swap(order_out);
+  }
+}
+
+}  // namespace hooke

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hooke/base/vec3.h"
+
+namespace hooke {
+
+/// A uniform grid over the box that the points fill, and the points' order by cell (the thesis's Algorithm 3). Cells are
+/// numbered along x first, so the cells x-1, x, x+1 of one row are one range of numbers and, after the sort, one range
+/// of points. There is no table of cells: a sparse cloud in a domain of a million cells an axis needs no more memory
+/// than a dense one.
+class CellGrid {
+ public:
+  /// One axis of the grid.
+  struct Axis {
+    double origin = 0;      // m, lower edge of the first cell
+    double cell = 1;        // m, edge of a cell
+    std::int64_t count = 1; // cells
+    bool periodic = false;
+  };
+
+  static constexpr std::int64_t kMaxCells = 1 << 20;            ///< an axis; beyond that cells grow
+
+  /// Lays the grid over the box [min, max] (m) with cells no smaller than `reach` (m, > 0): points nearer to each other
+  /// than that are in the same or in adjacent cells. A periodic axis covers its whole period min to max.
+  void lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic)[3], double reach);
+
+  /// Number of the cell of a finite point; points outside the box count to its edge cells.
+  std::uint64_t key_of(const Vec3d& x) const {
+    return static_cast<std::uint64_t>(index_of(x.x, 0) + stride_y_ * index_of(x.y, 1) + stride_z_ * index_of(x.z, 2));
+  }
+
+  /// One past the largest key: for points that take no part, sorted last.
+  std::uint64_t key_end() const { return static_cast<std::uint64_t>(stride_z_ * (axes_[2].count + 2)); }
+
+  /// Inclusive range of cell numbers.
+  struct KeyRange {
+    std::uint64_t first, last;
+  };
+  /// The cells around `key`, itself included, as disjoint ranges of numbers; each cell in one of them, once.
+  /// At most 18: nine rows, each cut in two where x is periodic.
+  std::size_t neighbour_ranges(std::uint64_t key, KeyRange (&out)[18]) const;
+
+  const Axis& axis(int i) const { return axes_[i]; }
+
+ private:
+  std::int64_t index_of(double x, int i) const {
+    const Axis& a = axes_[i];
+    const double cell = (x - a.origin) * inverse_cell_[i];
+    // Compared before the conversion, which is undefined for what no int64 holds.
+    if (!(cell > 0)) return 1;
+    if (cell >= static_cast<double>(a.count)) return a.count;
+    return static_cast<std::int64_t>(cell) + 1;
+  }
+
+  Axis axes_[3];
+  double inverse_cell_[3] = {1, 1, 1};
+  std::int64_t stride_y_ = 3, stride_z_ = 9;  // with one empty cell on both sides of every axis
+};
+
+/// Sorts points by key, stably: `keys` ascending afterwards, `order[k]` the index that the k-th had before.
+/// Radix sort, parallel, memory for twice the input.
+void sort_by_key(std::vector<std::uint64_t>& keys, std::vector<std::uint32_t>& order);
+
+}  // namespace hooke
