@@ -36,7 +36,7 @@ void Progress::update(std::int64_t step, std::uint64_t particles) {
   while (recent_.size() > 2 && now - recent_[1].at > kRateWindow) recent_.pop_front();
   if (now - printed_ < (terminal_ ? Clock::duration(kTerminalInterval) : Clock::duration(kPipeInterval))) return;
   printed_ = now;
-  fmt::print(terminal_ ? "\r\x1b[K{}" : "{}\n", line(step, particles));
+  fmt::print("{}{}{}", terminal_ ? "\r\x1b[K" : "", line(step, particles), terminal_ ? "" : "\n");
   std::fflush(stdout);
   shown_ = terminal_;
 }

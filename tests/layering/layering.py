@@ -29,7 +29,7 @@ KEPT_TO = {
     r"nlohmann/": {"scene", "io", "apps"},
     r"CLI/": {"apps"},
     r"spdlog/": {"apps"},
-    r"(immintrin|x86intrin|arm_neon)\.h": {"backends/cpu"},
+    r"(immintrin|x86intrin|arm_neon)\.h": {"base", "backends/cpu"},
 }
 # The laws are arithmetic: no containers, no files, no threads.
 PHYSICS_INCLUDES = {"cmath", "limits", "cstdint", "cstddef", "type_traits"}

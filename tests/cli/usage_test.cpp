@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include <gmock/gmock.h>
+#include "program.h"
+
+namespace hooke::test {
+namespace {
+
+using testing::HasSubstr;
+
+class Usage : public ProgramTest {
+ protected:
+  // Bad input: status 2, every one of the texts on stderr, also under --quiet, and no folder.
+  void expect_refused(std::vector<std::string> arguments, const std::vector<std::string>& texts) {
+    arguments.insert(arguments.begin(), {"run", "--quiet", "-o", "out"});
+    const Outcome outcome = hooke(arguments);
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    for (const std::string& text : texts) EXPECT_THAT(outcome.err, HasSubstr(text));
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_FALSE(exists("out"));
+  }
+};
+
+TEST_F(Usage, WithoutArgumentsPrintsHelpAndFails) {
+  const Outcome outcome = hooke({});
+  EXPECT_EQ(outcome.status, 2);
+  for (const char* command : {"run", "check", "bench", "export", "info", "scenes", "schema"}) {
+    EXPECT_THAT(outcome.out, HasSubstr(command));
+  }
+}
+
+TEST_F(Usage, HelpAndVersionSucceed) {
+  EXPECT_THAT(hooke_ok({"--version"}), HasSubstr("hooke 0."));
+  EXPECT_THAT(hooke_ok({"run", "--help"}), HasSubstr("--checkpoint-every"));
+}
+
+TEST_F(Usage, WrongUsageIsStatus2) {
+  write("s.json", small_scene());
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"rnu", "s.json"},
+           {"run"},
+           {"run", "s.json", "--steps", "-1"},
+           {"run", "s.json", "--steps", "1.5"},
+           {"run", "s.json", "--steps", "3", "--end", "1"},
+           {"run", "s.json", "--threads", "0"},
+           {"run", "s.json", "--threads", "-2"},
+           {"run", "s.json", "--device", "gpu"},
+           {"run", "s.json", "--device", "cuda"},
+           {"run", "s.json", "--checkpoint-every", "0"},
+           {"run", "s.json", "--unknown"},
+           {"bench", "s.json", "--steps", "0"},
+           {"export", "s.json"},
+           {"export", "nowhere", "-o", "x.csv"},
+           {"export", "nowhere", "-o", "x.csv", "--all", "--step", "3"},
+           {"info", "nowhere"},
+           {"info", "s.json"},
+       }) {
+    const Outcome outcome = hooke(arguments);
+    EXPECT_EQ(outcome.status, 2) << testing::PrintToString(arguments);
+    EXPECT_NE(outcome.err, "") << testing::PrintToString(arguments);
+  }
+  EXPECT_FALSE(exists("s"));
+  EXPECT_THAT(hooke({"run", "s.json", "--device", "cuda"}).err, HasSubstr("cuda is not in this build"));
+}
+
+TEST_F(Usage, EveryFindingOfASceneAtOnce) {
+  std::string scene = small_scene();
+  scene.replace(scene.find("\"radius\": 0.2"), 13, "\"raduis\": 0.2");
+  scene.replace(scene.find("\"mass\": 1"), 9, "\"mass\": -1");
+  write("bad.json", scene);
+  expect_refused({"bad.json"}, {"raduis", "radius", "mass", "-1"});
+  expect_refused({"missing.json"}, {"missing.json"});
+}
+
+TEST_F(Usage, OverridesAreCheckedLikeTheScene) {
+  write("s.json", small_scene());
+  expect_refused({"s.json", "--set", "materials.water.radius=-1", "--set", "time.stepp=1"}, {"radius", "-1", "stepp"});
+  expect_refused({"s.json", "--set", "materials.water.radius"}, {"materials.water.radius"});
+  expect_refused({"s.json", "--set", "gravity=[0,1]"}, {"gravity"});
+  expect_refused({"s.json", "--end", "nan"}, {"time.end"});
+}
+
+TEST_F(Usage, OverridesTakeOneValueEachAndChangeTheScene) {
+  write("s.json", small_scene());
+  hooke_ok(
+      {"run", "--set", "materials.water.mass=2", "--set", "gravity=[0,-1,0]", "s.json", "-o", "out", "--steps", "2"});
+  EXPECT_THAT(hooke_ok({"info", "out"}), HasSubstr("mass 2 kg"));
+  hooke_ok({"run", "out/scene.json", "-o", "again"});
+  EXPECT_EQ(state_hash("again"), state_hash("out"));
+}
+
+TEST_F(Usage, BadDestinations) {
+  write("s.json", small_scene());
+  write("file", "");
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"run", "s.json", "-o", "file"},
+           {"run", "s.json", "-o", "file/below"},
+           {"run", "s.json", "-o", "/proc/nowhere"},
+           {"run", "s.json", "-o", "out", "--report", "nowhere/report.json"},
+           {"run", "s.json", "-o", "out", "--report", "."},
+           {"run", "s.json", "-o", "out", "--resume", "nowhere.h5"},
+           {"run", "s.json", "-o", "out", "--resume", "s.json"},
+       }) {
+    const Outcome outcome = hooke(arguments);
+    EXPECT_EQ(outcome.status, 2) << testing::PrintToString(arguments) << outcome.err;
+    EXPECT_NE(outcome.err, "");
+    EXPECT_FALSE(exists("out")) << testing::PrintToString(arguments);
+  }
+}
+
+TEST_F(Usage, FullStandardOutputIsAFailure) {
+  EXPECT_THAT(hooke_ok({"schema"}), HasSubstr("\"materials\""));
+  EXPECT_THAT(hooke_ok({"scenes"}), HasSubstr("water.json"));
+  EXPECT_EQ(hooke({"schema"}, 100).status, 3);
+}
+
+TEST_F(Usage, CheckSaysWhatTheSceneIs) {
+  write("s.json", small_scene());
+  const std::string text = hooke_ok({"check", "s.json"});
+  for (const char* part : {"216", "MB", "60 steps", "stable step", "overlaps", "single"}) {
+    EXPECT_THAT(text, HasSubstr(part));
+  }
+  hooke_ok({"check", "--strict", "s.json"});
+}
+
+TEST_F(Usage, CheckWarnsOfAnUnstableStepAndStrictRefusesIt) {
+  write("s.json", small_scene());
+  const Outcome warned = hooke({"check", "s.json", "--set", "time.step=0.1"});
+  EXPECT_EQ(warned.status, 0);
+  EXPECT_THAT(warned.err, HasSubstr("stable step"));
+  const Outcome refused = hooke({"check", "--strict", "s.json", "--set", "time.step=0.1"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("stable step"));
+}
+
+TEST_F(Usage, CheckWarnsWhereFloatsAreCoarse) {
+  write("s.json", small_scene());
+  const std::vector<std::string> far{"check", "s.json", "--set", "domain.max=[100000,6,3]"};
+  EXPECT_THAT(hooke(far).err, HasSubstr("single precision"));
+  std::vector<std::string> in_double = far;
+  in_double.insert(in_double.end(), {"--set", "precision=double"});
+  EXPECT_EQ(hooke(in_double).err, "");
+}
+
+}  // namespace
+}  // namespace hooke::test
