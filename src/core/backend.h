@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <memory>
 #include <string>
 
-#include "hooke/base/exact_sum.h"
 #include "hooke/base/expected.h"
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
@@ -24,6 +21,13 @@ struct Condition {
   double speed = 0;            ///< approach speed, m/s
 
   bool good() const { return kind == Kind::good; }
+
+  /// Of two findings the one to report: the one of the lower particle id, so that it is always the same.
+  static Condition first(const Condition& a, const Condition& b) {
+    if (a.good()) return b;
+    if (b.good()) return a;
+    return b.particle < a.particle ? b : a;
+  }
 };
 
 /// What steps leave behind beside the particles: sums over all steps so far, the same bits for any number

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -67,6 +68,21 @@ void check_domain(const Domain& domain, bool single, Checker& check) {
   }
 }
 
+// Images of a particle further away than a few radii would be many; nothing real is that small.
+void check_periods(const Scene& scene, Checker& check) {
+  double largest = 0;
+  for (const Material& m : scene.materials) largest = std::max(largest, m.radius);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (scene.domain.boundary[static_cast<std::size_t>(axis)] != Boundary::periodic) continue;
+    const double length = scene.domain.length(axis);
+    if (std::isfinite(length) && length > 0 && length < largest) {
+      check.add(fmt::format("domain.max[{}]", axis),
+                fmt::format("the periodic {} axis is {} m long, less than the largest radius {} m", kAxisName[axis], length,
+                            largest));
+    }
+  }
+}
+
 void check_materials(const Scene& scene, Checker& check) {
   constexpr std::size_t kMost = std::numeric_limits<std::uint16_t>::max();
   if (scene.materials.size() > kMost) {
@@ -92,7 +108,8 @@ void check_contacts(const Scene& scene, Checker& check) {
     const bool known = entry.a < scene.materials.size() &&
                        (entry.b < scene.materials.size() || entry.b == ContactEntry::kWall);
     if (!known) check.add(where + ".between", "names a material that does not exist");
-    const auto pair = entry.b == ContactEntry::kWall ? std::pair{entry.a, entry.b} : std::minmax(entry.a, entry.b);
+    const auto pair = entry.b == ContactEntry::kWall ? std::pair{entry.a, entry.b}
+                                                           : std::pair{std::min(entry.a, entry.b), std::max(entry.a, entry.b)};
     if (!seen.insert(pair).second) check.add(where + ".between", "a second entry for the same pair");
     check.coefficients(where, entry.coefficients);
   }
@@ -120,6 +137,7 @@ std::vector<Finding> validate(const Scene& scene) {
   if (scene.steps < 0) check.add("time.steps", fmt::format("{} must be 0 or more", scene.steps));
   for (int axis = 0; axis < 3; ++axis) check.finite(fmt::format("gravity[{}]", axis), component(scene.gravity, axis));
   check_domain(scene.domain, single, check);
+  check_periods(scene, check);
   check_materials(scene, check);
   check_contacts(scene, check);
   check.not_negative("output.every", scene.output.seconds);

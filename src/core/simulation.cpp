@@ -166,7 +166,15 @@ struct Simulation::Impl {
                        scene.time_step, stable.seconds);
   }
 
+  // A back end of the reference's kind computes in double whatever is asked; one in single must not be given a
+  // scene that asks for double.
+  Expected<void> check_precision() const {
+    if (scene.precision == Precision::single_precision || backend->info().precision == scene.precision) return {};
+    return fail(Error::Kind::bad_input, "precision", "the scene asks for double, the back end computes in single precision");
+  }
+
   Expected<void> start(const ParticleSet& particles, std::uint64_t first_new, const Ledger& ledger) {
+    if (auto right = check_precision(); !right) return right;
     try {
       backend->configure(scene);
       return check(backend->upload(particles, first_new, ledger));

@@ -11,13 +11,14 @@
 namespace hooke {
 
 struct CpuOptions {
-  int threads = 0;  ///< 1 and up; 0: as many as the machine has
+  Precision precision = Precision::single_precision;  ///< must be the scene's
+  int threads = 0;                                    ///< 1 to 1024; 0: as many as the machine has
   std::string isa;  ///< "portable", "avx2", "avx512"; empty: the widest that this processor has
 };
 
 /// The fast back end: sorted cells, a neighbour list in lanes, forces and integration in one SIMD pass on all threads.
-/// Single or double precision as the scene asks. Gives the same bits for every number of threads and every
-/// instruction set. Error::Kind::bad_input for an instruction set that is not to be had, or a negative number of threads.
+/// Gives the same bits for every number of threads and every instruction set. Error::Kind::bad_input for an
+/// instruction set that is not to be had, or a number of threads out of range.
 Expected<std::unique_ptr<Backend>> make_cpu_backend(const CpuOptions& options = {});
 
 }  // namespace hooke

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+
+#include "hooke/backends/cpu/force_pass.h"
+#include "hooke/neighbours/neighbour_list.h"
+#include "hooke/physics/contact.h"
+#include "hooke/physics/periodic.h"
+#include "hooke/physics/wall.h"
+
+namespace hooke {
+
+/// Walks the contacts of single particles of a force pass in double precision: for figures, and to look closely at what
+/// the pass noted. Not on the hot path.
+template <class Real>
+class ContactScan {
+ public:
+  ContactScan(const ForcePass<Real>& pass, const ParticleRecord<Real>* records, const NeighbourList& list)
+      : pass_(pass), records_(records), list_(list) {}
+
+  /// visit(p, normal, overlap) for every touching neighbour p of particle i, by id and image.
+  template <class Visit>
+  void for_each_contact(std::size_t i, const Visit& visit) const {
+    constexpr std::size_t kLanes = NeighbourList::kLanes;
+    const NeighbourList::Segment& segment = list_.segments[i / NeighbourList::kSegment];
+    const std::size_t group = i % NeighbourList::kSegment / kLanes;
+    for (std::size_t row = segment.first_row[group]; row < segment.first_row[group + 1]; ++row) {
+      const std::size_t p = segment.entries[row * kLanes + i % kLanes] / record_offset<Real>(1);
+      if (!is_nowhere(records_[p])) visit_images(i, p, visit);
+    }
+  }
+
+  /// visit(normal, overlap) for every wall that particle i touches.
+  template <class Visit>
+  void for_each_wall(std::size_t i, const Visit& visit) const {
+    const double radius = pass_.materials[material_of(i)].radius;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!pass_.wall[axis]) continue;
+      const double x = component(records_[i].x, axis);
+      const double lower = lower_wall_overlap<double>(x, component(pass_.min, axis), radius);
+      const double upper = upper_wall_overlap<double>(x, component(pass_.max, axis), radius);
+      if (lower > 0) visit(wall_normal(axis, 1.0), lower);
+      if (upper > 0) visit(wall_normal(axis, -1.0), upper);
+    }
+  }
+
+  std::size_t material_of(std::size_t i) const { return static_cast<std::size_t>(records_[i].material); }
+  const PairRow<Real>& pair(std::size_t i, std::size_t p) const {
+    return pass_.pairs[material_of(i) * pass_.material_count + material_of(p)];
+  }
+
+ private:
+  template <class Visit>
+  void visit_images(std::size_t i, std::size_t p, const Visit& visit) const {
+    int from[3] = {0, 0, 0};
+    int to[3] = {0, 0, 0};
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!pass_.periodic[axis]) continue;
+      if (pass_.periodic_kind == PeriodicKind::images) {
+        from[axis] = -pass_.images[axis];
+        to[axis] = pass_.images[axis];
+      } else {
+        from[axis] = to[axis] = static_cast<int>(
+            nearest_image(component(records_[i].x, axis), component(records_[p].x, axis), component(pass_.length, axis)));
+      }
+    }
+    for (int sx = from[0]; sx <= to[0]; ++sx) {
+      for (int sy = from[1]; sy <= to[1]; ++sy) {
+        for (int sz = from[2]; sz <= to[2]; ++sz) {
+          if (i != p || sx != 0 || sy != 0 || sz != 0) visit_image(i, p, {double(sx), double(sy), double(sz)}, visit);
+        }
+      }
+    }
+  }
+
+  template <class Visit>
+  void visit_image(std::size_t i, std::size_t p, const Vec3d& s, const Visit& visit) const {
+    const Vec3d x_i = vec_cast<double>(records_[i].x);
+    const Vec3d x_p = vec_cast<double>(records_[p].x);
+    const Vec3d length = vec_cast<double>(pass_.length);
+    const Vec3d x_ip{image_displacement(x_i.x, x_p.x, s.x, length.x), image_displacement(x_i.y, x_p.y, s.y, length.y),
+                     image_displacement(x_i.z, x_p.z, s.z, length.z)};
+    const double distance = std::sqrt(dot(x_ip, x_ip));
+    const double overlap = static_cast<double>(pair(i, p).reach) - distance;
+    if (overlap > 0) visit(p, contact_normal(x_ip, distance, records_[i].rank > records_[p].rank ? 1.0 : -1.0), overlap);
+  }
+
+  const ForcePass<Real>& pass_;
+  const ParticleRecord<Real>* records_;
+  const NeighbourList& list_;
+};
+
+}  // namespace hooke

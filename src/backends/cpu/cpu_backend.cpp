@@ -1,0 +1,611 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/backends/cpu/cpu_backend.h"
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "hooke/backends/cpu/contact_scan.h"
+#include "hooke/backends/cpu/isa.h"
+#include "hooke/base/parallel.h"
+#include "hooke/core/state_hash.h"
+#include "hooke/core/sums.h"
+#include "hooke/neighbours/cell_grid.h"
+#include "hooke/neighbours/neighbour_list.h"
+#include "hooke/physics/drag.h"
+#include "hooke/physics/integrate.h"
+
+namespace hooke {
+namespace {
+
+constexpr std::size_t kLanes = NeighbourList::kLanes;
+constexpr std::size_t kGroups = NeighbourList::kGroups;
+constexpr std::size_t kSegment = NeighbourList::kSegment;
+
+// Skin of the neighbour list as a part of the smallest diameter. Larger: fewer rebuilds, longer rows.
+constexpr double kSkin = 0.25;
+
+// Positions beyond this are lost; records at kNowhere must stay further away from everything.
+constexpr double kFurthest = kNowhere / 16;
+
+// Threads to run on, also where more are asked for than the machine has cores.
+class Threads {
+ public:
+  explicit Threads(int count) : count_(count), arena_(count) {
+    const auto cores = static_cast<int>(std::thread::hardware_concurrency());
+    if (count > cores) {
+      control_ = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                       static_cast<std::size_t>(count));
+    }
+  }
+
+  int count() const { return count_; }
+
+  template <class Body>
+  void run(const Body& body) {
+    arena_.execute([&] {
+      const FloatingPointGuard guard;
+      body();
+    });
+  }
+
+ private:
+  int count_;
+  std::unique_ptr<tbb::global_control> control_;
+  tbb::task_arena arena_;
+};
+
+// The state in one precision. Particles lie in cell order as of the last build; ranks lead back to ids.
+template <class Real>
+class CpuBackend final : public Backend {
+  using Record = ParticleRecord<Real>;
+
+ public:
+  CpuBackend(const Isa& isa, ForcePassFunction<Real> force_pass, int threads)
+      : isa_name_(isa.name), force_pass_(force_pass), threads_(threads) {}
+
+  BackendInfo info() const override {
+    const auto precision = sizeof(Real) == 4 ? Precision::single_precision : Precision::double_precision;
+    return {"cpu", isa_name_, precision, threads_.count()};
+  }
+
+  void configure(const Scene& scene) override {
+    scene_ = scene;
+    configure_materials();
+    configure_domain();
+    pass_.dt = real(scene.time_step);
+    pass_.gravity = vec_cast<Real>(scene.gravity);
+    // A little below the limits, so that what double precision would find is always looked at.
+    pass_.speed_limit = real(0.999 * smallest_radius_ / scene.time_step);
+    listed_ = false;
+  }
+
+  Condition upload(const ParticleSet& particles, std::uint64_t first_new_id, const Ledger& ledger) override {
+    ledger_ = ledger;
+    ids_ = particles.id;
+    count_ = ids_.size();
+    records_.resize(padded(count_) + 1);
+    next_.resize(records_.size());
+    acceleration_.assign(verlet() ? records_.size() : 0, {Real(0), Real(0), Real(0)});
+    for (std::size_t i = 0; i < count_; ++i) {
+      records_[i] = {vec_cast<Real>(particles.position[i]), static_cast<Real>(particles.material[i]),
+                     vec_cast<Real>(particles.velocity[i]), rank_code<Real>(static_cast<std::uint32_t>(i))};
+      if (verlet() && !particles.acceleration.empty()) acceleration_[i] = vec_cast<Real>(particles.acceleration[i]);
+    }
+    std::fill(records_.begin() + static_cast<std::ptrdiff_t>(count_), records_.end(), nowhere_record<Real>(Real(0)));
+    listed_ = false;
+    count_alive();
+    const bool any_new = count_ > 0 && ids_.back() >= first_new_id;
+    return verlet() && any_new ? evaluate_accelerations(first_new_id) : Condition{};
+  }
+
+  void download(ParticleSet& out) const override {
+    constexpr std::uint32_t kGone = ~std::uint32_t{0};
+    std::vector<std::uint32_t> at(ids_.size(), kGone);  // by rank, so by id
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (!is_nowhere(records_[i])) at[rank_of(records_[i].rank)] = static_cast<std::uint32_t>(i);
+    }
+    out.clear();
+    out.resize(alive_);
+    if (verlet()) out.acceleration.resize(alive_);
+    std::size_t k = 0;
+    for (std::size_t rank = 0; rank < at.size(); ++rank) {
+      if (at[rank] == kGone) continue;
+      const Record& record = records_[at[rank]];
+      out.id[k] = ids_[rank];
+      out.material[k] = static_cast<std::uint16_t>(record.material);
+      out.position[k] = vec_cast<double>(record.x);
+      out.velocity[k] = vec_cast<double>(record.v);
+      if (verlet()) out.acceleration[k] = vec_cast<double>(acceleration_[at[rank]]);
+      ++k;
+    }
+  }
+
+  void half_kick_and_drift() override {
+    RemovalSums removed;
+    std::atomic<bool> moved_far{false};
+    for_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
+      RemovalSums left;
+      bool far = false;
+      for (std::size_t i = first; i < last; ++i) {
+        Record& p = records_[i];
+        if (is_nowhere(p)) continue;
+        p.v = kick(p.v, acceleration_[i], Real(0.5) * pass_.dt);
+        p.x = drift(p.x, p.v, pass_.dt);
+        far = has_moved_far(p, i) || far;  // asked of all: a removal must not hide a NaN
+        apply_boundaries(p, left);
+      }
+      if (far) moved_far = true;
+      collect(removed, left);
+    });
+    if (moved_far) listed_ = false;
+    book(removed);
+  }
+
+  bool neighbours_stale() const override { return !listed_; }
+
+  Condition build_neighbours() override {
+    Condition condition;
+    threads_.run([&] {
+      condition = sort_by_cell();
+      if (condition.good()) list_neighbours();
+    });
+    return condition;
+  }
+
+  Condition apply_forces() override {
+    StepSums sums;
+    RemovalSums removed;
+    Condition condition;
+    std::atomic<bool> moved_far{false};
+    aim_pass(verlet() ? acceleration_.data() : nullptr);
+    for_ranges(list_.segments.size(), 1, [&](std::size_t first, std::size_t last) {
+      SegmentReport report;
+      StepSums part;
+      RemovalSums left;
+      Condition found;
+      bool far = false;
+      for (std::size_t s = first; s < last; ++s) {
+        run_segment(s, report);
+        add_up(s, report, part);
+        for (std::size_t g = 0; g < kGroups; ++g) {
+          if (report.notes[g] == 0) continue;
+          if ((report.notes[g] & kApproachTooFast) != 0) found = Condition::first(found, look_closely(s, g));
+          if ((report.notes[g] & kLeftDomain) != 0) apply_boundaries_to_group(s, g, left);
+          far = far || (report.notes[g] & kMovedFar) != 0;
+        }
+      }
+      if (far) moved_far = true;
+      collect(removed, left);
+      const std::lock_guard lock(mutex_);
+      sums.add(part);
+      condition = Condition::first(condition, found);
+    });
+    sums.book(ledger_, scene_.time_step, scene_.gravity, total_mass_);
+    records_.swap(next_);
+    if (moved_far) listed_ = false;
+    book(removed);
+    return condition;
+  }
+
+  std::uint64_t particle_count() const override { return alive_; }
+  const Ledger& ledger() const override { return ledger_; }
+
+  std::uint64_t particles_hash() const override {
+    std::atomic<std::uint64_t> hash{0};
+    for_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
+      std::uint64_t sum = 0;
+      for (std::size_t i = first; i < last; ++i) {
+        const Record& p = records_[i];
+        if (!is_nowhere(p)) sum += particle_hash(ids_[rank_of(p.rank)], p.x, p.v);
+      }
+      hash += sum;
+    });
+    return hash;
+  }
+
+  Expected<Measurements> measure() override {
+    if (!listed_) {
+      if (const Condition found = build_neighbours(); !found.good()) {
+        return fail(Error::Kind::run_failed, "particle " + std::to_string(found.particle), "is at no finite position");
+      }
+    }
+    MeasurementSums total;
+    for_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
+      MeasurementSums part;
+      for (std::size_t i = first; i < last; ++i) measure_particle(i, part);
+      const std::lock_guard lock(mutex_);
+      total.add(part);
+    });
+    return total.result();
+  }
+
+  NeighbourStatistics neighbour_statistics() const override {
+    const auto n = static_cast<double>(std::max<std::size_t>(count_, 1));
+    return {rebuilds_, static_cast<double>(list_.entry_count()) / n};
+  }
+
+ private:
+  // Where the groups of one segment report.
+  struct SegmentReport {
+    std::array<unsigned char, kGroups> notes;
+    std::array<Real, kSegment> dissipated, wall_power;
+    std::array<std::array<Real, kSegment>, 3> wall_force;
+  };
+
+  static Real real(double value) { return static_cast<Real>(value); }
+  static std::size_t padded(std::size_t n) { return (n + kLanes - 1) / kLanes * kLanes; }
+  bool verlet() const { return scene_.integrator == Integrator::velocity_verlet; }
+  const Material& material_of(const Record& p) const { return scene_.materials[static_cast<std::size_t>(p.material)]; }
+
+  template <class Body>
+  void for_ranges(std::size_t count, std::size_t grain, const Body& body) const {
+    threads_.run([&] { parallel_ranges(count, grain, body); });
+  }
+
+  // Rules ------------------------------------------------------------------------------------------------------------
+
+  void configure_materials() {
+    const ContactTable table(scene_.materials, scene_.contacts);
+    const std::size_t n = scene_.materials.size();
+    pairs_.assign(n * n, PairRow<Real>{});
+    materials_.assign(n, MaterialRow<Real>{});
+    largest_radius_ = 0;
+    smallest_radius_ = n == 0 ? 1 : INFINITY;
+    for (std::size_t a = 0; a < n; ++a) {
+      const Material& m = scene_.materials[a];
+      const ContactCoefficients<double>& wall = table.wall(a);
+      materials_[a] = {real(wall.stiffness), real(wall.shear), real(wall.damping), real(m.radius),
+                       Real(1) / real(m.mass), real(m.drag), {}};
+      has_drag_ = has_drag_ || m.drag > 0;
+      largest_radius_ = std::max(largest_radius_, m.radius);
+      smallest_radius_ = std::min(smallest_radius_, m.radius);
+      for (std::size_t b = 0; b < n; ++b) {
+        const ContactCoefficients<double>& c = table.pair(a, b);
+        pairs_[a * n + b] = {real(c.stiffness), real(c.shear), real(c.damping),
+                             real(m.radius) + real(scene_.materials[b].radius), {}};
+      }
+    }
+    pass_.pairs = pairs_.data();
+    pass_.materials = materials_.data();
+    pass_.material_count = n;
+  }
+
+  void configure_domain() {
+    const Domain& domain = scene_.domain;
+    skin_ = kSkin * 2 * smallest_radius_;
+    double rounding = 0;  // of displacements across a periodic axis, m
+    pass_.min = vec_cast<Real>(domain.min);
+    pass_.max = vec_cast<Real>(domain.max);
+    pass_.length = pass_.max - pass_.min;
+    pass_.periodic_kind = PeriodicKind::none;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Boundary boundary = domain.boundary[static_cast<std::size_t>(axis)];
+      pass_.wall[axis] = boundary == Boundary::spring;
+      pass_.periodic[axis] = boundary == Boundary::periodic;
+      pass_.open_or_periodic[axis] = boundary != Boundary::spring;
+      pass_.images[axis] = 0;
+      if (!pass_.periodic[axis]) continue;
+      const double length = component(pass_.length, axis);
+      pass_.images[axis] = static_cast<int>(2 * largest_radius_ / length) + 1;
+      const bool only_nearest = length > 4.001 * largest_radius_;
+      if (!only_nearest) pass_.periodic_kind = PeriodicKind::images;
+      if (pass_.periodic_kind == PeriodicKind::none) pass_.periodic_kind = PeriodicKind::nearest;
+      rounding = std::max(rounding, 4 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * length);
+    }
+    // Two particles that each moved half a skin may just meet; a thousandth covers the rounding of distances.
+    const double stale_distance = std::max(0.0, 0.999 * skin_ / 2 - rounding);
+    pass_.stale_distance2 = real(stale_distance * stale_distance);
+  }
+
+  void aim_pass(Vec3<Real>* acceleration) {
+    pass_.in = records_.data();
+    pass_.out = next_.data();
+    pass_.acceleration = acceleration;
+    pass_.listed_at = listed_at_.data();
+  }
+
+  // Neighbours -------------------------------------------------------------------------------------------------------
+
+  // What positions() and the like ask of the records.
+  struct Points {
+    const std::vector<Record>& records;
+    const std::vector<MaterialRow<Real>>& materials;
+
+    Vec3<Real> position(std::size_t i) const { return records[i].x; }
+    Real radius(std::size_t i) const { return materials[static_cast<std::size_t>(records[i].material)].radius; }
+    std::uint32_t rank(std::size_t i) const { return rank_of(records[i].rank); }
+  };
+
+  // The box around all particles, or the particle that is at no place.
+  Condition bounding_box(Vec3d& min, Vec3d& max) const {
+    min = {INFINITY, INFINITY, INFINITY};
+    max = {-INFINITY, -INFINITY, -INFINITY};
+    Condition condition;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Record& p = records_[i];
+      if (is_nowhere(p)) continue;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double x = component(p.x, axis);
+        if (!(std::abs(x) < kFurthest)) {
+          const auto kind = std::isfinite(x) ? Condition::Kind::grid_overflow : Condition::Kind::not_finite;
+          condition = Condition::first(condition, {kind, ids_[rank_of(p.rank)], 0, 0});
+        }
+        component(min, axis) = std::min(component(min, axis), x);
+        component(max, axis) = std::max(component(max, axis), x);
+      }
+    }
+    return condition;
+  }
+
+  Condition sort_by_cell() {
+    Vec3d min, max;
+    if (const Condition condition = bounding_box(min, max); !condition.good()) return condition;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (alive_ > 0 && !pass_.periodic[axis]) continue;
+      component(min, axis) = component(pass_.min, axis);
+      component(max, axis) = component(pass_.max, axis);
+    }
+    // A millionth more than can be listed: positions are numbered in cells with rounding.
+    grid_.lay_out(min, max, pass_.periodic, (2 * largest_radius_ + skin_) * (1 + 1e-6));
+    keys_.resize(count_);
+    parallel_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        keys_[i] = is_nowhere(records_[i]) ? grid_.key_end() : grid_.key_of(vec_cast<double>(records_[i].x));
+      }
+    });
+    sort_by_key(keys_, order_);
+    count_ = alive_;
+    keys_.resize(count_);
+    permute(records_, next_);
+    std::fill(records_.begin() + static_cast<std::ptrdiff_t>(count_), records_.end(), nowhere_record<Real>(Real(0)));
+    std::fill(next_.begin() + static_cast<std::ptrdiff_t>(count_), next_.end(), nowhere_record<Real>(Real(0)));
+    if (verlet()) {
+      std::vector<Vec3<Real>> sorted(acceleration_.size());
+      permute(acceleration_, sorted);
+    }
+    return {};
+  }
+
+  template <class T>
+  void permute(std::vector<T>& column, std::vector<T>& scratch) const {
+    parallel_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) scratch[i] = column[order_[i]];
+    });
+    column.swap(scratch);
+  }
+
+  void list_neighbours() {
+    NeighbourSearch<Real> search;
+    search.count = count_;
+    search.keys = keys_;
+    search.grid = &grid_;
+    search.skin = real(skin_);
+    std::copy(std::begin(pass_.periodic), std::end(pass_.periodic), search.periodic);
+    search.length = pass_.length;
+    search.list_self = pass_.periodic_kind == PeriodicKind::images;
+    search.dummy = record_offset<Real>(static_cast<std::uint32_t>(records_.size() - 1));
+    build_neighbour_list(search, Points{records_, materials_}, record_offset<Real>, list_);
+
+    listed_at_.resize(padded(count_));
+    parallel_ranges(listed_at_.size(), kSegment, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) listed_at_[i] = records_[i].x;
+    });
+    listed_ = true;
+    ++rebuilds_;
+  }
+
+  bool has_moved_far(const Record& p, std::size_t i) const {
+    if (!listed_) return true;
+    Vec3<Real> moved = p.x - listed_at_[i];
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!pass_.periodic[axis]) continue;
+      const Real now = component(p.x, axis), then = component(listed_at_[i], axis), length = component(pass_.length, axis);
+      component(moved, axis) = image_displacement(now, then, nearest_image(now, then, length), length);
+    }
+    return !(dot(moved, moved) <= pass_.stale_distance2);
+  }
+
+  // The force pass and what it reports -------------------------------------------------------------------------------
+
+  void run_segment(std::size_t s, SegmentReport& report) const {
+    const NeighbourList::Segment& segment = list_.segments[s];
+    SegmentWork<Real> work;
+    work.first = s * kSegment;
+    work.group_count = std::min(kGroups, (count_ - work.first + kLanes - 1) / kLanes);
+    work.rows = segment.entries.data();
+    work.first_row = segment.first_row.data();
+    work.notes = report.notes.data();
+    work.dissipated = report.dissipated.data();
+    work.wall_power = report.wall_power.data();
+    for (std::size_t axis = 0; axis < 3; ++axis) work.wall_force[axis] = report.wall_force[axis].data();
+    report.notes.fill(0);
+    force_pass_(pass_, work);
+  }
+
+  void add_up(std::size_t s, const SegmentReport& report, StepSums& sums) const {
+    const std::size_t first = s * kSegment;
+    const std::size_t n = std::min(kSegment, count_ - first);
+    for (std::size_t k = 0; k < n; ++k) {
+      sums.dissipated_power.add(report.dissipated[k]);
+      if ((report.notes[k / kLanes] & kTouchesWall) != 0) {
+        sums.wall_power.add(report.wall_power[k]);
+        sums.wall_force.add({report.wall_force[0][k], report.wall_force[1][k], report.wall_force[2][k]});
+      }
+      if (has_drag_) {
+        const Record& p = records_[first + k];
+        const Real drag = materials_[static_cast<std::size_t>(p.material)].drag;
+        sums.drag_force.add(vec_cast<double>(drag_force(p.v, drag)));
+      }
+    }
+  }
+
+  // The approach that was too fast, if one was: in double precision, each pair by its own limit.
+  Condition look_closely(std::size_t s, std::size_t g) const {
+    const ContactScan<Real> scan(pass_, records_.data(), list_);
+    Condition found;
+    const std::size_t first = s * kSegment + g * kLanes;
+    for (std::size_t i = first; i < std::min(first + kLanes, count_); ++i) {
+      if (is_nowhere(records_[i])) continue;
+      const Vec3d v = vec_cast<double>(records_[i].v);
+      const double radius = material_of(records_[i]).radius;
+      const std::uint64_t id = ids_[rank_of(records_[i].rank)];
+      scan.for_each_contact(i, [&](std::size_t p, const Vec3d& normal, double) {
+        const double approach = dot(vec_cast<double>(records_[p].v) - v, normal);
+        if (approach > std::min(radius, material_of(records_[p]).radius) / scene_.time_step) {
+          found = Condition::first(found, {Condition::Kind::approach_too_fast, id, ids_[rank_of(records_[p].rank)], approach});
+        }
+      });
+      scan.for_each_wall(i, [&](const Vec3d& normal, double) {
+        const double approach = dot(-v, normal);
+        if (approach > radius / scene_.time_step) {
+          found = Condition::first(found, {Condition::Kind::wall_approach_too_fast, id, 0, approach});
+        }
+      });
+    }
+    return found;
+  }
+
+  void measure_particle(std::size_t i, MeasurementSums& sums) const {
+    const Record& p = records_[i];
+    if (is_nowhere(p)) return;
+    const ContactScan<Real> scan(pass_, records_.data(), list_);
+    const Vec3d v = vec_cast<double>(p.v);
+    sums.add_particle(material_of(p).mass, vec_cast<double>(p.x), v, scene_.gravity);
+    scan.for_each_contact(i, [&](std::size_t q, const Vec3d&, double overlap) {
+      sums.add_contact_side(scan.pair(i, q).stiffness, overlap, scan.pair(i, q).reach);
+    });
+    scan.for_each_wall(i, [&](const Vec3d& normal, double overlap) {
+      const MaterialRow<Real>& m = materials_[scan.material_of(i)];
+      const ContactCoefficients<double> c{m.wall_stiffness, m.wall_shear, m.wall_damping};
+      sums.add_wall_contact(c.stiffness, overlap, contact_force(overlap, normal, -v, c).force);
+    });
+  }
+
+  // Accelerations a(x, v) of the particles that have none of a last step.
+  Condition evaluate_accelerations(std::uint64_t first_new_id) {
+    if (const Condition found = build_neighbours(); !found.good()) return found;
+    std::vector<Vec3<Real>> evaluated(acceleration_.size());
+    aim_pass(evaluated.data());
+    for_ranges(list_.segments.size(), 1, [&](std::size_t first, std::size_t last) {
+      SegmentReport report;
+      for (std::size_t s = first; s < last; ++s) run_segment(s, report);
+    });
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (ids_[rank_of(records_[i].rank)] >= first_new_id) acceleration_[i] = evaluated[i];
+    }
+    return {};
+  }
+
+  // Boundaries -------------------------------------------------------------------------------------------------------
+
+  // Wraps periodic coordinates; a particle outside an open face goes nowhere.
+  void apply_boundaries(Record& p, RemovalSums& left) const {
+    bool outside = false;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!pass_.open_or_periodic[axis]) continue;
+      Real& x = component(p.x, axis);
+      const Real min = component(pass_.min, axis), max = component(pass_.max, axis);
+      if (pass_.periodic[axis]) {
+        x = wrap_coordinate(x, min, max);
+      } else {
+        outside = outside || x < min || x > max;
+      }
+    }
+    if (!outside) return;
+    left.add_particle(material_of(p).mass, vec_cast<double>(p.x), vec_cast<double>(p.v), scene_.gravity);
+    const Real material = p.material;
+    p = nowhere_record<Real>(p.rank);
+    p.material = material;
+  }
+
+  void apply_boundaries_to_group(std::size_t s, std::size_t g, RemovalSums& left) {
+    const std::size_t first = s * kSegment + g * kLanes;
+    for (std::size_t i = first; i < std::min(first + kLanes, count_); ++i) {
+      if (!is_nowhere(next_[i])) apply_boundaries(next_[i], left);
+    }
+  }
+
+  void collect(RemovalSums& total, const RemovalSums& part) const {
+    if (part.count == 0) return;
+    const std::lock_guard lock(mutex_);
+    total.add(part);
+  }
+
+  void book(const RemovalSums& removed) {
+    if (removed.count == 0) return;
+    removed.book(ledger_);
+    count_alive();
+  }
+
+  void count_alive() {
+    std::vector<std::uint64_t> per_material(scene_.materials.size(), 0);
+    alive_ = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (is_nowhere(records_[i])) continue;
+      ++alive_;
+      ++per_material[static_cast<std::size_t>(records_[i].material)];
+    }
+    total_mass_ = 0;
+    for (std::size_t m = 0; m < per_material.size(); ++m) {
+      total_mass_ += static_cast<double>(per_material[m]) * scene_.materials[m].mass;
+    }
+  }
+
+  std::string isa_name_;
+  ForcePassFunction<Real> force_pass_;
+  mutable Threads threads_;
+  mutable std::mutex mutex_;  // around the totals of a pass
+
+  Scene scene_;
+  std::vector<PairRow<Real>> pairs_;
+  std::vector<MaterialRow<Real>> materials_;
+  double largest_radius_ = 0, smallest_radius_ = 0;  // m
+  bool has_drag_ = false;
+  ForcePass<Real> pass_;
+
+  std::vector<std::uint64_t> ids_;          // by rank
+  std::size_t count_ = 0;                   // records in use, those gone since the last sort included
+  std::size_t alive_ = 0;
+  double total_mass_ = 0;                   // kg, of those alive
+  std::vector<Record> records_, next_;      // the state, and where a pass writes the next; both end with a dummy
+  std::vector<Vec3<Real>> acceleration_;    // velocity Verlet only, m/s^2
+  Ledger ledger_;
+
+  CellGrid grid_;
+  std::vector<std::uint64_t> keys_;
+  std::vector<std::uint32_t> order_;
+  NeighbourList list_;
+  std::vector<Vec3<Real>> listed_at_;       // m
+  double skin_ = 0;                         // m
+  bool listed_ = false;
+  std::uint64_t rebuilds_ = 0;
+};
+
+}  // namespace
+
+Expected<std::unique_ptr<Backend>> make_cpu_backend(const CpuOptions& options) {
+  constexpr int kMostThreads = 1024;
+  if (options.threads < 0 || options.threads > kMostThreads) {
+    return fail(Error::Kind::bad_input, "threads", std::to_string(options.threads) + " is not between 1 and 1024");
+  }
+  const auto isa = choose_isa(options.isa);
+  if (!isa) return fail(isa.error());
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int threads = options.threads > 0 ? options.threads : cores;
+  if (options.precision == Precision::single_precision) {
+    return std::make_unique<CpuBackend<float>>(*isa, isa->single_pass, threads);
+  }
+  return std::make_unique<CpuBackend<double>>(*isa, isa->double_pass, threads);
+}
+
+}  // namespace hooke

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/core/sums.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hooke/physics/contact.h"
+
+namespace hooke {
+
+void StepSums::add(const StepSums& other) {
+  dissipated_power.add(other.dissipated_power);
+  wall_power.add(other.wall_power);
+  wall_force.add(other.wall_force);
+  drag_force.add(other.drag_force);
+}
+
+void StepSums::book(Ledger& ledger, double dt, const Vec3d& gravity, double mass) const {
+  ledger.dissipated += dt * dissipated_power.value();
+  ledger.wall_work += dt * wall_power.value();
+  ledger.wall_impulse += dt * wall_force.value();
+  ledger.drag_impulse += dt * drag_force.value();
+  ledger.gravity_impulse += (dt * mass) * gravity;
+}
+
+void RemovalSums::add_particle(double mass, const Vec3d& x, const Vec3d& v, const Vec3d& gravity) {
+  momentum.add(mass * v);
+  energy.add(0.5 * mass * dot(v, v));
+  energy.add(-mass * dot(gravity, x));
+  ++count;
+}
+
+void RemovalSums::add(const RemovalSums& other) {
+  momentum.add(other.momentum);
+  energy.add(other.energy);
+  count += other.count;
+}
+
+void RemovalSums::book(Ledger& ledger) const {
+  ledger.removed_momentum += momentum.value();
+  ledger.removed_energy += energy.value();
+  ledger.removed += count;
+}
+
+void MeasurementSums::add_particle(double mass, const Vec3d& x, const Vec3d& v, const Vec3d& gravity) {
+  const double speed = std::sqrt(dot(v, v));
+  mass_.add(mass);
+  kinetic_.add(0.5 * mass * dot(v, v));
+  potential_.add(-mass * dot(gravity, x));
+  momentum_.add(mass * v);
+  mass_moment_.add(mass * x);
+  momentum_scale_.add(mass * speed);
+  max_speed_ = std::max(max_speed_, speed);
+  const auto grow = [&](double Vec3d::*c) {
+    min_.*c = particles_ == 0 ? x.*c : std::min(min_.*c, x.*c);
+    max_.*c = particles_ == 0 ? x.*c : std::max(max_.*c, x.*c);
+  };
+  grow(&Vec3d::x);
+  grow(&Vec3d::y);
+  grow(&Vec3d::z);
+  ++particles_;
+}
+
+void MeasurementSums::add_contact_side(double stiffness, double overlap, double reach) {
+  ++contact_sides_;
+  elastic_.add(0.5 * contact_energy(overlap, stiffness));
+  overlap_ratio_.add(overlap / reach);
+  max_overlap_ratio_ = std::max(max_overlap_ratio_, overlap / reach);
+}
+
+void MeasurementSums::add_wall_contact(double stiffness, double overlap, const Vec3d& force) {
+  ++wall_contacts_;
+  wall_elastic_.add(contact_energy(overlap, stiffness));
+  wall_force_.add(force);
+}
+
+void MeasurementSums::add(const MeasurementSums& other) {
+  if (other.particles_ > 0) {
+    const auto grow = [&](double Vec3d::*c) {
+      min_.*c = particles_ == 0 ? other.min_.*c : std::min(min_.*c, other.min_.*c);
+      max_.*c = particles_ == 0 ? other.max_.*c : std::max(max_.*c, other.max_.*c);
+    };
+    grow(&Vec3d::x);
+    grow(&Vec3d::y);
+    grow(&Vec3d::z);
+  }
+  particles_ += other.particles_;
+  contact_sides_ += other.contact_sides_;
+  wall_contacts_ += other.wall_contacts_;
+  mass_.add(other.mass_);
+  kinetic_.add(other.kinetic_);
+  potential_.add(other.potential_);
+  elastic_.add(other.elastic_);
+  wall_elastic_.add(other.wall_elastic_);
+  overlap_ratio_.add(other.overlap_ratio_);
+  momentum_scale_.add(other.momentum_scale_);
+  momentum_.add(other.momentum_);
+  mass_moment_.add(other.mass_moment_);
+  wall_force_.add(other.wall_force_);
+  max_speed_ = std::max(max_speed_, other.max_speed_);
+  max_overlap_ratio_ = std::max(max_overlap_ratio_, other.max_overlap_ratio_);
+}
+
+Measurements MeasurementSums::result() const {
+  Measurements m;
+  m.particles = particles_;
+  m.contacts = contact_sides_ / 2;
+  m.wall_contacts = wall_contacts_;
+  m.kinetic_energy = kinetic_.value();
+  m.potential_energy = potential_.value();
+  m.elastic_energy = elastic_.value();
+  m.wall_elastic_energy = wall_elastic_.value();
+  m.momentum = momentum_.value();
+  if (particles_ > 0) m.centre_of_mass = (1 / mass_.value()) * mass_moment_.value();
+  m.momentum_scale = momentum_scale_.value();
+  m.max_speed = max_speed_;
+  m.max_overlap_ratio = max_overlap_ratio_;
+  if (contact_sides_ > 0) m.mean_overlap_ratio = overlap_ratio_.value() / static_cast<double>(contact_sides_);
+  m.min = min_;
+  m.max = max_;
+  m.wall_force = wall_force_.value();
+  return m;
+}
+
+}  // namespace hooke

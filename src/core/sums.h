@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "hooke/base/exact_sum.h"
+#include "hooke/core/backend.h"
+
+namespace hooke {
+
+/// Three exact sums, one a component.
+class ExactVectorSum {
+ public:
+  void add(const Vec3d& a) {
+    sums_[0].add(a.x);
+    sums_[1].add(a.y);
+    sums_[2].add(a.z);
+  }
+  void add(const ExactVectorSum& other) {
+    for (std::size_t axis = 0; axis < 3; ++axis) sums_[axis].add(other.sums_[axis]);
+  }
+  Vec3d value() const { return {sums_[0].value(), sums_[1].value(), sums_[2].value()}; }
+
+ private:
+  std::array<ExactSum, 3> sums_;
+};
+
+/// What one step adds to the Ledger, gathered particle by particle in any order.
+struct StepSums {
+  ExactSum dissipated_power;   ///< W; contacts count half from each side
+  ExactSum wall_power;         ///< W
+  ExactVectorSum wall_force;   ///< N
+  ExactVectorSum drag_force;   ///< N
+
+  void add(const StepSums& other);
+  /// Books what these powers and forces did over one step of `dt` (s), and gravity on `mass` (kg) in all.
+  void book(Ledger& ledger, double dt, const Vec3d& gravity, double mass) const;
+};
+
+/// Books a particle that left through an open face.
+struct RemovalSums {
+  ExactVectorSum momentum;  ///< kg m/s
+  ExactSum energy;          ///< J
+  std::uint64_t count = 0;
+
+  void add_particle(double mass, const Vec3d& x, const Vec3d& v, const Vec3d& gravity);
+  void add(const RemovalSums& other);
+  void book(Ledger& ledger) const;
+};
+
+/// Gathers Measurements particle by particle and contact by contact in any order.
+class MeasurementSums {
+ public:
+  void add_particle(double mass, const Vec3d& x, const Vec3d& v, const Vec3d& gravity);
+  /// One side of a contact between particles: call for each of the two. `reach` is r_i + r_p, m.
+  void add_contact_side(double stiffness, double overlap, double reach);
+  void add_wall_contact(double stiffness, double overlap, const Vec3d& force);
+  void add(const MeasurementSums& other);
+  Measurements result() const;
+
+ private:
+  std::uint64_t particles_ = 0, contact_sides_ = 0, wall_contacts_ = 0;
+  ExactSum mass_, kinetic_, potential_, elastic_, wall_elastic_, overlap_ratio_, momentum_scale_;
+  ExactVectorSum momentum_, mass_moment_, wall_force_;
+  double max_speed_ = 0, max_overlap_ratio_ = 0;
+  Vec3d min_{0, 0, 0}, max_{0, 0, 0};
+};
+
+}  // namespace hooke
