@@ -25,6 +25,9 @@ Expected<void> write_checkpoint(const std::filesystem::path& file, const Simulat
 /// damaged or of a later format is one Error::Kind::bad_input that says which.
 Expected<Checkpoint> read_checkpoint(const std::filesystem::path& file);
 
+/// Whether a file bears the mark of a checkpoint; says nothing about its state.
+bool is_checkpoint(const std::filesystem::path& file);
+
 /// Why a run of `scene` can't go on from a checkpoint of `checkpoint` with the same bits: time step, integrator,
 /// precision, names and order of the materials. Empty where it can; coefficients may differ.
 std::vector<Finding> check_resumable(const RunInfo& checkpoint, const RunInfo& scene);

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#include "hooke/io/describe_file.h"
+
+#include "hooke/io/failure.h"
+#include "hooke/io/run_folder.h"
+
+namespace hooke {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+FileDescription describe_checkpoint(const fs::path& file) {
+  const Checkpoint checkpoint = take(read_checkpoint(file));
+  FileDescription description;
+  description.kind = FileDescription::Kind::checkpoint;
+  description.info = checkpoint.info;
+  description.bytes = fs::file_size(file);
+  description.steps = {checkpoint.state.step};
+  description.times = {static_cast<double>(checkpoint.state.step) * checkpoint.info.time_step};
+  description.particle_counts = {checkpoint.state.particles.size()};
+  return description;
+}
+
+FileDescription describe_run_file(const fs::path& file) {
+  const RunReader run = take(RunReader::open(file));
+  FileDescription description;
+  description.kind = FileDescription::Kind::particles_file;
+  description.info = run.info();
+  description.bytes = fs::file_size(run.file());
+  description.steps.assign(run.steps().begin(), run.steps().end());
+  description.times.assign(run.times().begin(), run.times().end());
+  description.particle_counts.assign(run.particle_counts().begin(), run.particle_counts().end());
+  return description;
+}
+
+FileDescription describe_run_folder(const fs::path& folder) {
+  FileDescription description = describe_run_file(folder);
+  description.kind = FileDescription::Kind::run_folder;
+  description.bytes = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.is_regular_file()) description.bytes += entry.file_size();
+  }
+  if (fs::exists(folder / kCheckpointFile)) {
+    description.checkpoint_step = take(read_checkpoint(folder)).state.step;
+  }
+  return description;
+}
+
+}  // namespace
+
+Expected<FileDescription> describe_file(const fs::path& file) {
+  return guarded(file, [&] {
+    if (!fs::exists(file)) throw Failure(Error::Kind::bad_input, file, "does not exist");
+    if (fs::is_directory(file)) return describe_run_folder(file);
+    return is_checkpoint(file) ? describe_checkpoint(file) : describe_run_file(file);
+  });
+}
+
+const char* to_string(FileDescription::Kind kind) {
+  switch (kind) {
+    case FileDescription::Kind::run_folder: return "run folder";
+    case FileDescription::Kind::particles_file: return "snapshots";
+    case FileDescription::Kind::checkpoint: break;
+  }
+  return "checkpoint";
+}
+
+}  // namespace hooke

@@ -1,0 +1,294 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#include "hooke/io/hdf5.h"
+
+#include <algorithm>
+
+#include "hooke/io/failure.h"
+#include "hooke/io/hdf5_driver.h"
+
+namespace hooke::hdf5 {
+
+namespace {
+
+constexpr unsigned kDeflateLevel = 1;  // higher levels gain next to nothing on positions
+
+/// The name of the file that an object is in, for messages.
+std::filesystem::path file_of(hid_t object) {
+  char name[4096];
+  const ssize_t length = H5Fget_name(object, name, sizeof name);
+  return length > 0 ? std::filesystem::path(name) : std::filesystem::path();
+}
+
+[[noreturn]] void fail_at(hid_t object, const std::string& what) {
+  throw Failure(Error::Kind::bad_input, file_of(object), "is damaged or not one of Hooke's: " + what);
+}
+
+/// `id`, or Failure.
+hid_t check(hid_t id, hid_t object, const std::string& what) {
+  if (id < 0) fail_at(object, what);
+  return id;
+}
+
+}  // namespace
+
+std::unique_lock<std::recursive_mutex> lock() {
+  static std::recursive_mutex mutex;
+  std::unique_lock<std::recursive_mutex> held(mutex);
+  H5Eset_auto(H5E_DEFAULT, nullptr, nullptr);
+  return held;
+}
+
+Handle::~Handle() {
+  if (id_ < 0) return;
+  switch (H5Iget_type(id_)) {
+    case H5I_FILE: H5Fclose(id_); break;
+    case H5I_GENPROP_LST: H5Pclose(id_); break;
+    case H5I_ATTR: H5Aclose(id_); break;
+    case H5I_DATASPACE: H5Sclose(id_); break;
+    case H5I_DATATYPE: H5Tclose(id_); break;
+    case H5I_BADID: break;  // closed with its file
+    default: H5Oclose(id_); break;
+  }
+}
+
+File::File(const std::filesystem::path& path, JournaledFile::Mode mode)
+    : bytes_(std::make_unique<JournaledFile>(path, mode)) {
+  if (mode != JournaledFile::Mode::create && bytes_->size() == 0) {
+    throw Failure(Error::Kind::bad_input, path, "is empty");
+  }
+  const Handle access = access_through(*bytes_);
+  const std::string name = path.string();
+  file_ = Handle(mode == JournaledFile::Mode::create
+                     ? H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get())
+                     : H5Fopen(name.c_str(), mode == JournaledFile::Mode::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR,
+                               access.get()));
+  if (file_.get() < 0) {
+    throw Failure(Error::Kind::bad_input, path, "is damaged, cut short, or no HDF5 file");
+  }
+}
+
+File::~File() {
+  if (!bytes_) return;
+  const auto held = lock();
+  file_ = Handle();
+}
+
+void File::commit() {
+  H5Fflush(file_.get(), H5F_SCOPE_GLOBAL);
+  bytes_->commit();
+}
+
+void File::close() {
+  file_ = Handle();
+  if (const int error = bytes_->write_error()) {
+    throw Failure(Error::Kind::io, bytes_->path(), "can't be written: " + system_message(error));
+  }
+}
+
+template <>
+hid_t memory_type<float>() { return H5T_NATIVE_FLOAT; }
+template <>
+hid_t memory_type<double>() { return H5T_NATIVE_DOUBLE; }
+template <>
+hid_t memory_type<std::int64_t>() { return H5T_NATIVE_INT64; }
+template <>
+hid_t memory_type<std::uint64_t>() { return H5T_NATIVE_UINT64; }
+template <>
+hid_t memory_type<std::uint16_t>() { return H5T_NATIVE_UINT16; }
+
+template <>
+hid_t file_type<float>() { return H5T_IEEE_F32LE; }
+template <>
+hid_t file_type<double>() { return H5T_IEEE_F64LE; }
+template <>
+hid_t file_type<std::int64_t>() { return H5T_STD_I64LE; }
+template <>
+hid_t file_type<std::uint64_t>() { return H5T_STD_U64LE; }
+template <>
+hid_t file_type<std::uint16_t>() { return H5T_STD_U16LE; }
+
+Column Column::create(hid_t parent, const char* name, hid_t type, hsize_t width, hsize_t chunk_rows, bool compressed) {
+  const int rank = width == 1 ? 1 : 2;
+  const hsize_t size[2] = {0, width};
+  const hsize_t most[2] = {H5S_UNLIMITED, width};
+  const hsize_t chunk[2] = {chunk_rows, width};
+  const Handle properties(H5Pcreate(H5P_DATASET_CREATE));
+  H5Pset_chunk(properties.get(), rank, chunk);
+  if (compressed) {
+    H5Pset_shuffle(properties.get());
+    H5Pset_deflate(properties.get(), kDeflateLevel);
+  }
+  const Handle space(H5Screate_simple(rank, size, most));
+  Column column;
+  column.dataset_ = Handle(H5Dcreate2(parent, name, type, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT));
+  check(column.dataset_.get(), parent, std::string("can't make ") + name);
+  column.width_ = width;
+  column.chunk_rows_ = chunk_rows;
+  return column;
+}
+
+Column::Column(hid_t parent, const char* name, hsize_t width)
+    : dataset_(H5Dopen2(parent, name, H5P_DEFAULT)), width_(width) {
+  check(dataset_.get(), parent, std::string("it has no ") + name);
+  const Handle space(H5Dget_space(dataset_.get()));
+  const Handle properties(H5Dget_create_plist(dataset_.get()));
+  const int rank = width == 1 ? 1 : 2;
+  hsize_t size[2] = {0, 1};
+  hsize_t chunk[2] = {0, 0};
+  if (H5Sget_simple_extent_ndims(space.get()) != rank || H5Pget_chunk(properties.get(), 2, chunk) != rank ||
+      H5Sget_simple_extent_dims(space.get(), size, nullptr) != rank || (rank == 2 && size[1] != width)) {
+    fail_at(parent, std::string(name) + " is no table of this kind");
+  }
+  rows_ = size[0];
+  chunk_rows_ = chunk[0];
+}
+
+void Column::fail(const std::string& how) const { fail_at(dataset_.get(), how); }
+
+void Column::resize(hsize_t rows) {
+  const hsize_t size[2] = {rows, width_};
+  if (H5Dset_extent(dataset_.get(), size) < 0) fail_at(dataset_.get(), "a table can't be resized");
+  rows_ = rows;
+}
+
+namespace {
+
+/// Calls `transfer` with the memory and file spaces of `count` rows from `start` on.
+template <class Transfer>
+void with_rows(hid_t dataset, hsize_t start, hsize_t count, hsize_t width, Transfer&& transfer) {
+  if (count == 0) return;
+  const hsize_t from[2] = {start, 0};
+  const hsize_t size[2] = {count, width};
+  const int rank = width == 1 ? 1 : 2;
+  const Handle memory(H5Screate_simple(rank, size, nullptr));
+  const Handle file(H5Dget_space(dataset));
+  const bool good = H5Sselect_hyperslab(file.get(), H5S_SELECT_SET, from, nullptr, size, nullptr) >= 0 &&
+                    H5Sselect_valid(file.get()) > 0 && transfer(memory.get(), file.get()) >= 0;
+  if (!good) fail_at(dataset, "a table can't be read or written");
+}
+
+}  // namespace
+
+void Column::write(hsize_t start, hsize_t count, hid_t type, const void* data) {
+  with_rows(dataset_.get(), start, count, width_, [&](hid_t memory, hid_t file) {
+    return H5Dwrite(dataset_.get(), type, memory, file, H5P_DEFAULT, data);
+  });
+}
+
+void Column::read(hsize_t start, hsize_t count, hid_t type, void* data) const {
+  with_rows(dataset_.get(), start, count, width_, [&](hid_t memory, hid_t file) {
+    return H5Dread(dataset_.get(), type, memory, file, H5P_DEFAULT, data);
+  });
+}
+
+Handle create_group(hid_t parent, const char* name) {
+  return Handle(check(H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), parent,
+                      std::string("can't make ") + name));
+}
+
+Handle open_group(hid_t parent, const char* name) {
+  return Handle(check(H5Gopen2(parent, name, H5P_DEFAULT), parent, std::string("it has no ") + name));
+}
+
+void remove(hid_t parent, const char* name) {
+  if (H5Ldelete(parent, name, H5P_DEFAULT) < 0) fail_at(parent, std::string("can't remove ") + name);
+}
+
+bool exists(hid_t parent, const char* name) { return H5Lexists(parent, name, H5P_DEFAULT) > 0; }
+
+void write_integer_attribute(hid_t object, const char* name, const std::vector<std::int64_t>& values, bool scalar) {
+  const hsize_t size = values.size();
+  const Handle space(scalar ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &size, nullptr));
+  const Handle attribute(H5Acreate2(object, name, H5T_STD_I64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT));
+  if (attribute.get() < 0 || H5Awrite(attribute.get(), H5T_NATIVE_INT64, values.data()) < 0) {
+    fail_at(object, std::string("can't make ") + name);
+  }
+}
+
+void write_text_attribute(hid_t object, const char* name, const std::string& text) {
+  const Handle type(H5Tcopy(H5T_C_S1));
+  H5Tset_size(type.get(), text.size());
+  H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
+  const Handle space(H5Screate(H5S_SCALAR));
+  const Handle attribute(H5Acreate2(object, name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT));
+  const bool good = attribute.get() >= 0 && H5Awrite(attribute.get(), type.get(), text.data()) >= 0;
+  if (!good) fail_at(object, std::string("can't make ") + name);
+}
+
+std::int64_t read_integer_attribute(hid_t object, const char* name) {
+  const Handle attribute(check(H5Aopen(object, name, H5P_DEFAULT), object, std::string("it has no ") + name));
+  const Handle space(H5Aget_space(attribute.get()));
+  const bool single = H5Sget_simple_extent_npoints(space.get()) == 1;
+  std::int64_t value = 0;
+  if (!single || H5Aread(attribute.get(), H5T_NATIVE_INT64, &value) < 0) {
+    fail_at(object, std::string(name) + " is no number");
+  }
+  return value;
+}
+
+void set_integer_attribute(hid_t object, const char* name, std::int64_t value) {
+  const Handle attribute(check(H5Aopen(object, name, H5P_DEFAULT), object, std::string("it has no ") + name));
+  if (H5Awrite(attribute.get(), H5T_NATIVE_INT64, &value) < 0) fail_at(object, std::string("can't set ") + name);
+}
+
+void write_text(hid_t parent, const char* name, const std::string& text) {
+  const Handle type(H5Tcopy(H5T_C_S1));
+  H5Tset_size(type.get(), std::max<std::size_t>(text.size(), 1));
+  H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
+  const Handle space(H5Screate(H5S_SCALAR));
+  const Handle dataset(H5Dcreate2(parent, name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  const bool good = dataset.get() >= 0 && H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) >= 0;
+  if (!good) fail_at(parent, std::string("can't make ") + name);
+}
+
+std::string read_text(hid_t parent, const char* name) {
+  const Handle dataset(check(H5Dopen2(parent, name, H5P_DEFAULT), parent, std::string("it has no ") + name));
+  const Handle type(H5Dget_type(dataset.get()));
+  const bool fixed = H5Tget_class(type.get()) == H5T_STRING && H5Tis_variable_str(type.get()) == 0;
+  std::string text(fixed ? H5Tget_size(type.get()) : 0, '\0');
+  const bool good = fixed && H5Dread(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) >= 0;
+  if (!good) fail_at(parent, std::string(name) + " is no text");
+  text.resize(std::min(text.find('\0'), text.size()));
+  return text;
+}
+
+template <class T>
+void write_array(hid_t parent, const char* name, const T* values, hsize_t rows, hsize_t width) {
+  const hsize_t size[2] = {rows, width};
+  const Handle space(H5Screate_simple(width == 1 ? 1 : 2, size, nullptr));
+  const Handle dataset(H5Dcreate2(parent, name, file_type<T>(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  if (dataset.get() < 0 ||
+      (rows > 0 && H5Dwrite(dataset.get(), memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)) {
+    fail_at(parent, std::string("can't make ") + name);
+  }
+}
+
+template <class T>
+std::vector<T> read_array(hid_t parent, const char* name, hsize_t width) {
+  const Handle dataset(check(H5Dopen2(parent, name, H5P_DEFAULT), parent, std::string("it has no ") + name));
+  const Handle space(H5Dget_space(dataset.get()));
+  hsize_t size[2] = {0, 1};
+  const int rank = H5Sget_simple_extent_ndims(space.get());
+  if (rank == 1 || rank == 2) H5Sget_simple_extent_dims(space.get(), size, nullptr);
+  // A damaged header must not make us ask for more memory than the file could fill.
+  const hsize_t stored = H5Dget_storage_size(dataset.get());
+  if (rank < 1 || rank > 2 || size[1] != width || stored / sizeof(T) / width != size[0]) {
+    fail_at(parent, std::string(name) + " is no table of this kind");
+  }
+  std::vector<T> values(size[0] * width);
+  if (!values.empty() && H5Dread(dataset.get(), memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
+    fail_at(parent, std::string(name) + " can't be read");
+  }
+  return values;
+}
+
+template void write_array(hid_t, const char*, const double*, hsize_t, hsize_t);
+template void write_array(hid_t, const char*, const std::uint64_t*, hsize_t, hsize_t);
+template void write_array(hid_t, const char*, const std::uint16_t*, hsize_t, hsize_t);
+template std::vector<double> read_array(hid_t, const char*, hsize_t);
+template std::vector<std::uint64_t> read_array(hid_t, const char*, hsize_t);
+template std::vector<std::uint16_t> read_array(hid_t, const char*, hsize_t);
+
+}  // namespace hooke::hdf5

@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#include "hooke/io/journaled_file.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <thread>
+#include <vector>
+
+#include "hooke/base/hash.h"
+#include "hooke/io/failure.h"
+
+namespace hooke {
+
+namespace {
+
+constexpr std::uint64_t kJournalMagic = 0x314c4e524a4b4f48;  // "HOKJRNL1", little endian
+
+std::uint64_t checksum(const std::vector<std::uint64_t>& words, std::size_t count) {
+  std::uint64_t hash = kJournalMagic;
+  for (std::size_t i = 0; i < count; ++i) hash = combine64(hash, words[i]);
+  return hash;
+}
+
+// While a reader holds the file, a commit waits with its changes, but not for ever: a stopped reader must not stop a
+// run. File systems without locks work without.
+void lock_against_readers(int fd) {
+  for (int tries = 0; tries < 100; ++tries) {
+    if (::flock(fd, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
+int open_flags(JournaledFile::Mode mode) {
+  switch (mode) {
+    case JournaledFile::Mode::read: return O_RDONLY;
+    case JournaledFile::Mode::update: return O_RDWR;
+    case JournaledFile::Mode::create: break;
+  }
+  return O_RDWR | O_CREAT | O_TRUNC;
+}
+
+}  // namespace
+
+JournaledFile::JournaledFile(const std::filesystem::path& file, Mode mode)
+    : file_(file), mode_(mode), fd_(::open(file.c_str(), open_flags(mode) | O_CLOEXEC, 0666)) {
+  if (!fd_) {
+    throw Failure(errno == ENOENT && mode == Mode::read ? Error::Kind::bad_input : Error::Kind::io, file,
+                  "can't be opened: " + system_message(errno));
+  }
+  if (mode == Mode::create) return;
+  if (mode == Mode::read) {
+    ::flock(fd_.get(), LOCK_SH);
+    load_journal();
+  } else {
+    lock_against_readers(fd_.get());
+    const bool interrupted = load_journal();
+    const int error = interrupted ? apply_pages() : 0;
+    if (error) throw Failure(Error::Kind::io, file, "can't be written: " + system_message(error));
+    pages_.clear();
+    ::unlink(journal_path().c_str());
+    ::flock(fd_.get(), LOCK_UN);
+  }
+  committed_end_ = end_ = size();
+  committed_pages_ = (committed_end_ + kPageBytes - 1) / kPageBytes;
+}
+
+std::filesystem::path JournaledFile::journal_path() const {
+  std::filesystem::path name = file_;
+  name += ".journal";
+  return name;
+}
+
+std::uint64_t JournaledFile::size() const {
+  struct stat status {};
+  std::uint64_t bytes = ::fstat(fd_.get(), &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
+  if (!pages_.empty()) bytes = std::max(bytes, (pages_.rbegin()->first + 1) * kPageBytes);
+  return bytes;
+}
+
+// A journal is words: magic, number of pages, then each page's index and content, then the checksum of all that.
+bool JournaledFile::load_journal() {
+  const Descriptor journal(::open(journal_path().c_str(), O_RDONLY | O_CLOEXEC));
+  struct stat status {};
+  if (!journal || ::fstat(journal.get(), &status) != 0) return false;
+  const auto bytes = static_cast<std::size_t>(status.st_size);
+  constexpr std::size_t kEntryWords = 1 + kPageBytes / sizeof(std::uint64_t);
+  if (bytes < 3 * sizeof(std::uint64_t) || bytes % sizeof(std::uint64_t) != 0) return false;
+  std::vector<std::uint64_t> words(bytes / sizeof(std::uint64_t));
+  if (read_at(journal.get(), words.data(), bytes, 0) != 0) return false;
+  if (words[0] != kJournalMagic || words.size() != words[1] * kEntryWords + 3) return false;
+  if (words.back() != checksum(words, words.size() - 1)) return false;
+  for (std::size_t i = 2; i + 1 < words.size(); i += kEntryWords) {
+    auto content = std::make_unique<Page>();
+    std::memcpy(content->data(), &words[i + 1], kPageBytes);
+    pages_[words[i]] = std::move(content);
+  }
+  return true;
+}
+
+int JournaledFile::write_journal() const {
+  std::vector<std::uint64_t> words{kJournalMagic, pages_.size()};
+  for (const auto& [index, content] : pages_) {
+    words.push_back(index);
+    const std::size_t at = words.size();
+    words.resize(at + kPageBytes / sizeof(std::uint64_t));
+    std::memcpy(&words[at], content->data(), kPageBytes);
+  }
+  words.push_back(checksum(words, words.size()));
+  const Descriptor journal(::open(journal_path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (!journal) return errno;
+  return write_at(journal.get(), words.data(), words.size() * sizeof(std::uint64_t), 0);
+}
+
+int JournaledFile::apply_pages() const {
+  for (const auto& [index, content] : pages_) {
+    if (const int error = write_at(fd_.get(), content->data(), kPageBytes, index * kPageBytes)) return error;
+  }
+  return 0;
+}
+
+JournaledFile::Page& JournaledFile::page(std::uint64_t index) {
+  std::unique_ptr<Page>& slot = pages_[index];
+  if (!slot) {
+    slot = std::make_unique<Page>();
+    if (const int error = read_at(fd_.get(), slot->data(), kPageBytes, index * kPageBytes)) error_ = error;
+  }
+  return *slot;
+}
+
+int JournaledFile::read(std::uint64_t offset, void* data, std::size_t size) {
+  if (const int error = read_at(fd_.get(), data, size, offset)) return error;
+  auto* out = static_cast<std::byte*>(data);
+  for (auto it = pages_.lower_bound(offset / kPageBytes); it != pages_.end(); ++it) {
+    const std::uint64_t begin = std::max(offset, it->first * kPageBytes);
+    const std::uint64_t end = std::min(offset + size, (it->first + 1) * kPageBytes);
+    if (begin >= end) break;
+    std::memcpy(out + (begin - offset), it->second->data() + begin % kPageBytes, end - begin);
+  }
+  return 0;
+}
+
+void JournaledFile::write(std::uint64_t offset, const void* data, std::size_t size) {
+  const auto* in = static_cast<const std::byte*>(data);
+  const std::uint64_t border = committed_pages_ * kPageBytes;
+  while (size > 0 && error_ == 0 && offset < border) {
+    const std::size_t n = std::min<std::size_t>(size, kPageBytes - offset % kPageBytes);
+    std::memcpy(page(offset / kPageBytes).data() + offset % kPageBytes, in, n);
+    in += n;
+    offset += n;
+    size -= n;
+  }
+  if (size > 0 && error_ == 0) error_ = write_at(fd_.get(), in, size, offset);
+}
+
+void JournaledFile::commit() {
+  const auto give_up = [&](int error_number) {
+    error_ = error_number;
+    throw Failure(Error::Kind::io, file_, "can't be written: " + system_message(error_number));
+  };
+  if (error_) give_up(error_);
+  // What is allocated but was not written yet must be there too: readers take a shorter file for a damaged one.
+  if (size() < end_ && ::ftruncate(fd_.get(), static_cast<off_t>(end_)) != 0) give_up(errno);
+  if (!pages_.empty()) {
+    if (const int error = write_journal()) {
+      ::unlink(journal_path().c_str());
+      give_up(error);
+    }
+    lock_against_readers(fd_.get());
+    const int error = apply_pages();
+    if (error == 0) ::unlink(journal_path().c_str());
+    ::flock(fd_.get(), LOCK_UN);
+    if (error) give_up(error);
+    pages_.clear();
+  }
+  committed_end_ = end_;
+  committed_pages_ = (end_ + kPageBytes - 1) / kPageBytes;
+}
+
+void JournaledFile::trim() {
+  // Best effort: what lies there does no harm but takes space.
+  if (writable()) [[maybe_unused]] const int ignored = ::ftruncate(fd_.get(), static_cast<off_t>(committed_end_));
+}
+
+void JournaledFile::sync() {
+  if (::fsync(fd_.get()) != 0) {
+    throw Failure(Error::Kind::io, file_, "can't be written: " + system_message(errno));
+  }
+}
+
+}  // namespace hooke

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace hooke {
+
+/// A file descriptor that closes itself; -1 where there is none.
+class Descriptor {
+ public:
+  Descriptor() = default;
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor();
+  Descriptor(Descriptor&& other) noexcept;
+  Descriptor& operator=(Descriptor&& other) noexcept;
+
+  int get() const { return fd_; }
+  explicit operator bool() const { return fd_ >= 0; }
+
+ private:
+  int fd_ = -1;
+};
+
+/// What errno says, in words.
+std::string system_message(int error_number);
+
+/// Writes or reads all of it at `offset`, however many calls that takes; 0, or errno. A read past the end gives zeros.
+int write_at(int fd, const void* data, std::size_t size, std::uint64_t offset);
+int read_at(int fd, void* data, std::size_t size, std::uint64_t offset);
+
+/// The name that a file has while it is being written: beside `file`.
+std::filesystem::path unfinished_name(const std::filesystem::path& file);
+
+/// Makes a finished file, so far called unfinished_name(file), take the place of `file`, synced to the disk. Throws
+/// Failure, and removes it, where that fails.
+void publish(const std::filesystem::path& file);
+
+/// A text or binary file that appears under its name only when it is whole. Throws Failure.
+class OutputFile {
+ public:
+  explicit OutputFile(const std::filesystem::path& file);
+  ~OutputFile();  ///< without finish(), removes what was written
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  void write(std::string_view bytes);
+  void finish();
+
+ private:
+  void flush();
+
+  std::filesystem::path file_;
+  Descriptor fd_;
+  std::string buffer_;
+  std::uint64_t written_ = 0;
+};
+
+/// Appends the shortest digits that read back to the same number, in the number's own type.
+void append_number(std::string& text, float value);
+void append_number(std::string& text, double value);
+void append_number(std::string& text, std::int64_t value);
+void append_number(std::string& text, std::uint64_t value);
+
+}  // namespace hooke

@@ -1,0 +1,307 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#include "hooke/io/particles_file.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "hooke/io/failure.h"
+#include "hooke/io/run_info_json.h"
+#include "hooke/io/vtkhdf_columns.h"
+
+namespace hooke {
+
+namespace {
+
+constexpr std::int64_t kFormat = 1;
+
+/// Row `row` of a column of whole numbers, or of its first component.
+std::int64_t at(const hdf5::Column& column, hsize_t row) {
+  std::int64_t values[4] = {};
+  column.read(row, 1, hdf5::memory_type<std::int64_t>(), values);
+  return values[0];
+}
+
+void put(hdf5::Column& column, std::int64_t value) { column.append(std::vector<std::int64_t>{value}); }
+
+/// First row behind `rows` at which a snapshot may start.
+hsize_t next_start(const hdf5::Column& column, hsize_t rows) {
+  const hsize_t chunk = column.chunk_rows();
+  return (rows + chunk - 1) / chunk * chunk;
+}
+
+/// Appends rows at a whole chunk; returns where they start.
+std::int64_t append_rows(hdf5::Column& column, hsize_t count, hid_t type, const void* data) {
+  const hsize_t start = next_start(column, column.rows());
+  column.resize(next_start(column, start + count));
+  column.write(start, count, type, data);
+  return static_cast<std::int64_t>(start);
+}
+
+template <class Real>
+std::int64_t append_vectors(hdf5::Column& column, const std::vector<Vec3d>& values) {
+  std::vector<Vec3<Real>> converted(values.size());
+  std::transform(values.begin(), values.end(), converted.begin(), vec_cast<Real, double>);
+  return append_rows(column, converted.size(), hdf5::memory_type<Real>(), converted.data());
+}
+
+std::int64_t append_vectors(hdf5::Column& column, const std::vector<Vec3d>& values, Precision precision) {
+  if (precision == Precision::single_precision) return append_vectors<float>(column, values);
+  return append_rows(column, values.size(), hdf5::memory_type<double>(), values.data());
+}
+
+std::size_t count_snapshots(hid_t file) {
+  if (!hdf5::exists(file, kVtkGroup)) return 0;
+  const hdf5::Handle vtk = hdf5::open_group(file, kVtkGroup);
+  if (!hdf5::exists(vtk.get(), "Steps")) return 0;  // before the first snapshot
+  const hdf5::Handle steps = hdf5::open_group(vtk.get(), "Steps");
+  return static_cast<std::size_t>(std::max<std::int64_t>(hdf5::read_integer_attribute(steps.get(), "NSteps"), 0));
+}
+
+RunInfo read_info(hid_t file, const std::filesystem::path& path) {
+  if (!hdf5::exists(file, kHookeGroup) || !hdf5::exists(file, kVtkGroup)) {
+    throw Failure(Error::Kind::bad_input, path, "is an HDF5 file, but holds no run of Hooke's");
+  }
+  const hdf5::Handle group = hdf5::open_group(file, kHookeGroup);
+  const std::int64_t format = hdf5::read_integer_attribute(group.get(), "format");
+  if (format != kFormat) {
+    throw Failure(Error::Kind::bad_input, path,
+                  "is of format " + std::to_string(format) + "; this program reads format " + std::to_string(kFormat));
+  }
+  return parse_run_info(hdf5::read_text(group.get(), "run"), path);
+}
+
+Snapshot read_snapshot(const VtkhdfColumns& columns, std::size_t index) {
+  Snapshot snapshot;
+  snapshot.step = at(columns.step, index);
+  columns.values.read(index, 1, hdf5::memory_type<double>(), &snapshot.time);
+  const auto row = [index](const hdf5::Column& offsets) { return static_cast<hsize_t>(at(offsets, index)); };
+  const auto n = static_cast<hsize_t>(at(columns.number_of_points, row(columns.part_offsets)));
+  // A damaged count must not make us ask for more memory than there are rows to fill it.
+  if (row(columns.point_offsets) + n > columns.points.rows()) columns.points.fail("a snapshot is longer than its table");
+  ParticleSet& p = snapshot.particles;
+  p.id.resize(n);
+  p.material.resize(n);
+  p.position.resize(n);
+  p.velocity.resize(n);
+  columns.id.read(row(columns.id_offsets), n, hdf5::memory_type<std::int64_t>(), p.id.data());
+  columns.material.read(row(columns.material_offsets), n, hdf5::memory_type<std::uint16_t>(), p.material.data());
+  columns.points.read(row(columns.point_offsets), n, hdf5::memory_type<double>(), p.position.data());
+  columns.velocity.read(row(columns.velocity_offsets), n, hdf5::memory_type<double>(), p.velocity.data());
+  return snapshot;
+}
+
+}  // namespace
+
+struct ParticlesFile::Columns : VtkhdfColumns {
+  explicit Columns(VtkhdfColumns columns) : VtkhdfColumns(std::move(columns)) {}
+
+  // Of the last snapshot: what the next one may point to.
+  std::vector<std::uint64_t> last_id;
+  std::vector<std::uint16_t> last_material;
+  std::int64_t last_id_offset = 0, last_material_offset = 0, last_radius_offset = 0;
+  std::int64_t part = -1;        // none yet
+  std::int64_t cell_offset = 0;  // its first vertex
+
+  void choose_part(std::int64_t particles);
+  void append_identity(const ParticleSet& particles, const RunInfo& info);
+};
+
+// The list of vertices for so many particles: the last one, or a new one.
+void ParticlesFile::Columns::choose_part(std::int64_t particles) {
+  const std::int64_t before = part < 0 ? 0 : at(number_of_points, static_cast<hsize_t>(part));
+  if (part >= 0 && before == particles) return;
+  cell_offset += before;
+  part = static_cast<std::int64_t>(number_of_points.rows());
+  put(number_of_points, particles);
+  for (VtkTopology& topology : topologies) {
+    const bool vertices = &topology == &topologies.front();
+    const std::int64_t cells = vertices ? particles : 0;
+    put(topology.number_of_cells, cells);
+    put(topology.number_of_connectivity_ids, cells);
+    std::vector<std::int64_t> offsets(static_cast<std::size_t>(cells) + 1);
+    std::iota(offsets.begin(), offsets.end(), 0);
+    topology.offsets.append(offsets);
+    // Vertex i is particle i in every part: one list, as long as the longest, serves all.
+    const auto listed = static_cast<std::int64_t>(topology.connectivity.rows());
+    if (listed >= cells) continue;
+    std::vector<std::int64_t> connectivity(static_cast<std::size_t>(cells - listed));
+    std::iota(connectivity.begin(), connectivity.end(), listed);
+    topology.connectivity.append(connectivity);
+  }
+}
+
+void ParticlesFile::Columns::append_identity(const ParticleSet& p, const RunInfo& info) {
+  if (step.rows() > 0 && p.id == last_id && p.material == last_material) return;
+  std::vector<double> radii(p.size());
+  for (std::size_t i = 0; i < p.size(); ++i) radii[i] = info.materials.at(p.material[i]).radius;
+  last_id_offset = append_rows(id, p.size(), hdf5::memory_type<std::int64_t>(), p.id.data());
+  last_material_offset = append_rows(material, p.size(), hdf5::memory_type<std::uint16_t>(), p.material.data());
+  last_radius_offset = append_rows(radius, p.size(), hdf5::memory_type<double>(), radii.data());
+  last_id = p.id;
+  last_material = p.material;
+}
+
+ParticlesFile::ParticlesFile(hdf5::File file, RunInfo info) : info_(std::move(info)), file_(std::move(file)) {}
+
+ParticlesFile::~ParticlesFile() {
+  const auto held = hdf5::lock();
+  columns_.reset();
+}
+
+ParticlesFile::ParticlesFile(ParticlesFile&&) noexcept = default;
+ParticlesFile& ParticlesFile::operator=(ParticlesFile&&) noexcept = default;
+
+ParticlesFile ParticlesFile::create(const std::filesystem::path& path, const RunInfo& info) {
+  const std::filesystem::path unfinished = unfinished_name(path);
+  ParticlesFile created(hdf5::File(unfinished, JournaledFile::Mode::create), info);
+  const hid_t root = created.file_.id();
+  const hdf5::Handle vtk = hdf5::create_group(root, kVtkGroup);
+  hdf5::write_integer_attribute(vtk.get(), "Version", {2, 0});
+  hdf5::write_text_attribute(vtk.get(), "Type", "PolyData");
+  const hdf5::Handle hooke = hdf5::create_group(root, kHookeGroup);
+  hdf5::write_integer_attribute(hooke.get(), "format", {kFormat}, true);
+  hdf5::write_text(hooke.get(), "run", to_json(info));
+  created.file_.commit();
+  publish(path);
+  created.file_.bytes().set_path(path);
+  return created;
+}
+
+ParticlesFile ParticlesFile::update(const std::filesystem::path& path, const RunInfo& info, std::int64_t end_step) {
+  ParticlesFile opened(hdf5::File(path, JournaledFile::Mode::update), info);
+  const hid_t root = opened.file_.id();
+  const RunInfo before = read_info(root, path);
+  if (before.precision != info.precision || before.materials.size() != info.materials.size()) {
+    throw Failure(Error::Kind::bad_input, path, "is of another run: its precision or its materials differ");
+  }
+  const hdf5::Handle hooke = hdf5::open_group(root, kHookeGroup);
+  if (before != info) {
+    hdf5::remove(hooke.get(), "run");
+    hdf5::write_text(hooke.get(), "run", to_json(info));
+  }
+  if (const std::size_t snapshots = count_snapshots(root)) {
+    opened.columns_ = std::make_unique<Columns>(VtkhdfColumns::open(root));
+    std::size_t kept = 0;
+    while (kept < snapshots && at(opened.columns_->step, kept) < end_step) ++kept;
+    opened.cut(kept);
+  }
+  opened.file_.commit();
+  return opened;
+}
+
+void ParticlesFile::cut(std::size_t snapshots) {
+  Columns& c = *columns_;
+  const hdf5::Handle steps = hdf5::open_group(file_.id(), "VTKHDF/Steps");
+  hdf5::set_integer_attribute(steps.get(), "NSteps", static_cast<std::int64_t>(snapshots));
+  for (hdf5::Column* column :
+       {&c.values, &c.part_offsets, &c.number_of_parts, &c.point_offsets, &c.cell_offsets, &c.connectivity_offsets,
+        &c.velocity_offsets, &c.id_offsets, &c.material_offsets, &c.radius_offsets, &c.step}) {
+    column->resize(snapshots);
+  }
+  hsize_t particles = 0;
+  if (snapshots > 0) {
+    const Snapshot last = read_snapshot(c, snapshots - 1);
+    particles = last.particles.size();
+    last_step_ = last.step;
+    c.last_id = last.particles.id;
+    c.last_material = last.particles.material;
+    c.last_id_offset = at(c.id_offsets, snapshots - 1);
+    c.last_material_offset = at(c.material_offsets, snapshots - 1);
+    c.last_radius_offset = at(c.radius_offsets, snapshots - 1);
+    c.part = at(c.part_offsets, snapshots - 1);
+    c.cell_offset = at(c.cell_offsets, snapshots - 1);
+  }
+  // Offsets never go back, so the last snapshot's rows are the last that are needed.
+  const auto end_of = [&](const hdf5::Column& column, const hdf5::Column& offsets) {
+    return snapshots == 0 ? 0 : next_start(column, static_cast<hsize_t>(at(offsets, snapshots - 1)) + particles);
+  };
+  c.points.resize(end_of(c.points, c.point_offsets));
+  c.velocity.resize(end_of(c.velocity, c.velocity_offsets));
+  c.id.resize(end_of(c.id, c.id_offsets));
+  c.material.resize(end_of(c.material, c.material_offsets));
+  c.radius.resize(end_of(c.radius, c.radius_offsets));
+  const auto parts = static_cast<hsize_t>(c.part + 1);
+  c.number_of_points.resize(parts);
+  for (VtkTopology& topology : c.topologies) {
+    const bool vertices = &topology == &c.topologies.front();
+    topology.number_of_cells.resize(parts);
+    topology.number_of_connectivity_ids.resize(parts);
+    topology.offsets.resize(vertices && parts > 0 ? static_cast<hsize_t>(c.cell_offset) + particles + parts : parts);
+  }
+}
+
+void ParticlesFile::append(const Snapshot& snapshot) {
+  const ParticleSet& p = snapshot.particles;
+  if (!columns_) {
+    columns_ = std::make_unique<Columns>(VtkhdfColumns::create(file_.id(), p.size(), info_.precision));
+  }
+  Columns& c = *columns_;
+  c.choose_part(static_cast<std::int64_t>(p.size()));
+  c.append_identity(p, info_);
+  const std::int64_t point_offset = append_vectors(c.points, p.position, info_.precision);
+  const std::int64_t velocity_offset = append_vectors(c.velocity, p.velocity, info_.precision);
+
+  c.values.append(std::vector<double>{snapshot.time});
+  put(c.part_offsets, c.part);
+  put(c.number_of_parts, 1);
+  put(c.point_offsets, point_offset);
+  c.cell_offsets.append(std::vector<std::int64_t>{c.cell_offset, 0, 0, 0});
+  c.connectivity_offsets.append(std::vector<std::int64_t>{0, 0, 0, 0});
+  put(c.velocity_offsets, velocity_offset);
+  put(c.id_offsets, c.last_id_offset);
+  put(c.material_offsets, c.last_material_offset);
+  put(c.radius_offsets, c.last_radius_offset);
+  put(c.step, snapshot.step);
+  const hdf5::Handle steps = hdf5::open_group(file_.id(), "VTKHDF/Steps");
+  hdf5::set_integer_attribute(steps.get(), "NSteps", static_cast<std::int64_t>(c.step.rows()));
+  try {
+    file_.commit();
+  } catch (const Failure&) {
+    file_.bytes().trim();
+    throw;
+  }
+  last_step_ = snapshot.step;
+}
+
+void ParticlesFile::sync() { file_.bytes().sync(); }
+
+ParticlesContents read_particles_contents(const std::filesystem::path& path) {
+  const hdf5::File file(path, JournaledFile::Mode::read);
+  ParticlesContents contents;
+  contents.info = read_info(file.id(), path);
+  const std::size_t n = count_snapshots(file.id());
+  if (n == 0) return contents;
+  const VtkhdfColumns columns = VtkhdfColumns::open(file.id());
+  contents.steps = columns.step.read_all<std::int64_t>();
+  contents.times = columns.values.read_all<double>();
+  const auto parts = columns.part_offsets.read_all<std::int64_t>();
+  const auto counts = columns.number_of_points.read_all<std::int64_t>();
+  if (contents.steps.size() != n || contents.times.size() != n || parts.size() != n) {
+    throw Failure(Error::Kind::bad_input, path, "is damaged: its tables of steps differ in length");
+  }
+  for (const std::int64_t part : parts) {
+    if (part < 0 || static_cast<std::size_t>(part) >= counts.size() || counts[static_cast<std::size_t>(part)] < 0) {
+      throw Failure(Error::Kind::bad_input, path, "is damaged: a snapshot has no particle count");
+    }
+    contents.particles.push_back(static_cast<std::uint64_t>(counts[static_cast<std::size_t>(part)]));
+  }
+  return contents;
+}
+
+Snapshot read_particles(const std::filesystem::path& path, std::size_t index) {
+  const hdf5::File file(path, JournaledFile::Mode::read);
+  const RunInfo info = read_info(file.id(), path);
+  if (index >= count_snapshots(file.id())) {
+    throw Failure(Error::Kind::bad_input, path, "has no snapshot " + std::to_string(index));
+  }
+  Snapshot snapshot = read_snapshot(VtkhdfColumns::open(file.id()), index);
+  for (const std::uint16_t material : snapshot.particles.material) {
+    if (material >= info.materials.size()) {
+      throw Failure(Error::Kind::bad_input, path, "is damaged: a particle is of a material that the run does not have");
+    }
+  }
+  return snapshot;
+}
+
+}  // namespace hooke

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#include "hooke/io/report.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "hooke/io/failure.h"
+#include "hooke/io/output_file.h"
+#include "hooke/io/snapshot.h"
+
+namespace hooke {
+
+namespace {
+
+nlohmann::ordered_json to_array(const Vec3d& v) { return {v.x, v.y, v.z}; }
+
+}  // namespace
+
+double RunReport::contacts_per_particle() const {
+  return particles > 0 ? 2 * static_cast<double>(measurements.contacts) / static_cast<double>(particles) : 0;
+}
+
+double RunReport::energy_balance() const {
+  const double now = measurements.kinetic_energy + measurements.potential_energy + measurements.elastic_energy;
+  return now - initial_energy - (ledger.wall_work - ledger.dissipated - ledger.removed_energy);
+}
+
+RunReport make_report(const Simulation& simulation, const Measurements& measurements) {
+  const BackendInfo backend = simulation.backend_info();
+  RunReport report;
+  report.scene = simulation.scene().name;
+  report.particles = measurements.particles;
+  report.step = simulation.step_count();
+  report.time = simulation.time();
+  report.device = backend.device;
+  report.isa = backend.isa;
+  report.precision = backend.precision;
+  report.threads = backend.threads;
+  report.peak_bytes = peak_resident_bytes();
+  report.state_hash = simulation.state_hash();
+  report.measurements = measurements;
+  report.ledger = simulation.ledger();
+  report.initial_energy = simulation.initial_energy();
+  report.momentum_drift = momentum_drift(measurements, simulation.ledger(), simulation.initial_momentum());
+  report.neighbours = simulation.neighbour_statistics();
+  return report;
+}
+
+std::string to_json(const RunReport& r) {
+  const Measurements& m = r.measurements;
+  nlohmann::ordered_json json;
+  json["scene"] = r.scene;
+  json["particles"] = r.particles;
+  json["steps"] = r.steps;
+  json["step"] = r.step;
+  json["time"] = r.time;
+  json["seconds"] = r.seconds;
+  json["steps_per_second"] = r.steps_per_second();
+  json["particle_steps_per_second"] = r.particle_steps_per_second();
+  json["contacts"] = m.contacts;
+  json["contacts_per_particle"] = r.contacts_per_particle();
+  json["wall_contacts"] = m.wall_contacts;
+  json["slots_per_particle"] = r.neighbours.slots_per_particle;
+  json["neighbour_rebuilds"] = r.neighbours.rebuilds;
+  json["threads"] = r.threads;
+  json["device"] = r.device;
+  json["isa"] = r.isa;
+  json["precision"] = to_string(r.precision);
+  json["peak_bytes"] = r.peak_bytes;
+  json["state_hash"] = fmt::format("{:016x}", r.state_hash);
+  json["energy"] = {{"kinetic", m.kinetic_energy},
+                    {"potential", m.potential_energy},
+                    {"elastic", m.elastic_energy},
+                    {"wall_elastic", m.wall_elastic_energy},
+                    {"dissipated", r.ledger.dissipated},
+                    {"work_by_walls", r.ledger.wall_work},
+                    {"removed", r.ledger.removed_energy},
+                    {"initial", r.initial_energy},
+                    {"balance", r.energy_balance()}};
+  json["momentum"] = to_array(m.momentum);
+  json["momentum_drift"] = r.momentum_drift;
+  json["centre_of_mass"] = to_array(m.centre_of_mass);
+  json["min"] = to_array(m.min);
+  json["max"] = to_array(m.max);
+  json["max_speed"] = m.max_speed;
+  json["max_overlap_ratio"] = m.max_overlap_ratio;
+  json["mean_overlap_ratio"] = m.mean_overlap_ratio;
+  json["wall_force"] = to_array(m.wall_force);
+  json["removed"] = r.ledger.removed;
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+}
+
+Expected<void> write_text_file(const std::filesystem::path& file, const std::string& text) {
+  return guarded(file, [&] {
+    OutputFile out(file);
+    out.write(text);
+    out.finish();
+  });
+}
+
+std::uint64_t peak_resident_bytes() {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  while (status >> word) {
+    std::uint64_t kibibytes = 0;
+    if (word == "VmHWM:" && status >> kibibytes) return kibibytes * 1024;
+  }
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace hooke

@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+#include <variant>
+
+#include "hooke/io/failure.h"
+#include "hooke/io/particles_file.h"
+#include "hooke/io/run_folder.h"
+#include "hooke/io/series_file.h"
+
+namespace hooke {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a run leaves in its folder, the snapshots first: they make a folder a run's.
+constexpr const char* kRunFiles[] = {kParticlesFile, kCheckpointFile, kSeriesFile, kSceneFile, kLogFile, kReportFile};
+
+fs::path journal_of(fs::path file) { return file += ".journal"; }
+
+/// Removes a run's files, those that make it one last: a kill in between leaves a run, not somebody's files.
+void remove_run(const fs::path& folder) {
+  for (auto name = std::rbegin(kRunFiles); name != std::rend(kRunFiles); ++name) {
+    const fs::path file = folder / *name;
+    for (const fs::path& each : {journal_of(file), unfinished_name(file), file}) {
+      std::error_code error;
+      fs::remove(each, error);
+      if (error) throw Failure(Error::Kind::io, each, "can't be removed: " + error.message());
+    }
+  }
+}
+
+/// Makes the folder; returns the outermost folder that was not there before, or nothing.
+fs::path make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::path made;
+  for (fs::path at = fs::absolute(folder).lexically_normal(); !at.empty() && !fs::exists(at, error);
+       at = at.parent_path()) {
+    made = at;
+    if (at == at.root_path()) break;
+  }
+  fs::create_directories(folder, error);
+  if (error) throw Failure(Error::Kind::io, folder, "can't be made: " + error.message());
+  return made;
+}
+
+}  // namespace
+
+bool holds_run(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::exists(folder / kParticlesFile, ignored) || fs::exists(folder / kCheckpointFile, ignored) ||
+         fs::exists(folder / kSeriesFile, ignored);
+}
+
+/// The files of a run and the thread that writes the large ones.
+struct RunWriter::Impl {
+  using Item = std::variant<Snapshot, SimulationState>;
+
+  Impl(fs::path run_folder, RunInfo run_info, ParticlesFile particles_file, SeriesFile series_file)
+      : folder(std::move(run_folder)),
+        info(std::move(run_info)),
+        particles(std::move(particles_file)),
+        series(std::move(series_file)),
+        last_queued(particles.last_step()),
+        thread([this] { work(); }) {}
+
+  ~Impl() { stop(); }
+
+  void work() {
+    std::unique_lock lock(mutex);
+    for (;;) {
+      changed.wait(lock, [&] { return stopping || !queue.empty(); });
+      if (queue.empty()) return;
+      busy = true;
+      const Item item = std::move(queue.front());
+      queue.pop_front();
+      changed.notify_all();
+      if (!error) {
+        lock.unlock();
+        Expected<void> done = write(item);
+        lock.lock();
+        if (!done) error = std::move(done.error());
+      }
+      busy = false;
+      changed.notify_all();
+    }
+  }
+
+  Expected<void> write(const Item& item) {
+    if (const auto* snapshot = std::get_if<Snapshot>(&item)) {
+      return guarded(folder / kParticlesFile, [&] {
+        const auto held = hdf5::lock();
+        particles.append(*snapshot);
+      });
+    }
+    // A checkpoint says that all before it is there: so it must not reach the disk before them.
+    Expected<void> synced = guarded(folder / kParticlesFile, [&] {
+      particles.sync();
+      series.sync();
+    });
+    if (!synced) return synced;
+    return hooke::write_checkpoint(folder / kCheckpointFile, std::get<SimulationState>(item), info);
+  }
+
+  Expected<void> push(Item item) {
+    std::unique_lock lock(mutex);
+    changed.wait(lock, [&] { return queue.empty() || error; });
+    if (error) return hooke::fail(*error);
+    queue.push_back(std::move(item));
+    changed.notify_all();
+    return {};
+  }
+
+  Expected<void> wait() {
+    std::unique_lock lock(mutex);
+    changed.wait(lock, [&] { return queue.empty() && !busy; });
+    if (error) return hooke::fail(*error);
+    return {};
+  }
+
+  void stop() {
+    {
+      const std::lock_guard lock(mutex);
+      stopping = true;
+    }
+    changed.notify_all();
+    if (thread.joinable()) thread.join();
+  }
+
+  fs::path folder;
+  RunInfo info;
+  ParticlesFile particles;  // the thread's own, once it runs
+  SeriesFile series;
+  std::optional<std::int64_t> last_queued;  // step of the last snapshot
+
+  std::mutex mutex;  // of all below
+  std::condition_variable changed;
+  std::deque<Item> queue;  // at most one: another is being written
+  std::optional<Error> error;
+  bool busy = false;
+  bool stopping = false;
+  std::thread thread;
+};
+
+RunWriter::RunWriter(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+RunWriter::~RunWriter() = default;
+RunWriter::RunWriter(RunWriter&&) noexcept = default;
+RunWriter& RunWriter::operator=(RunWriter&&) noexcept = default;
+
+Expected<RunWriter> RunWriter::create(const fs::path& folder, const RunInfo& info, const std::string& scene_json,
+                                      const Options& options) {
+  return guarded(folder, [&]() -> RunWriter {
+    std::error_code ignored;
+    if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored)) {
+      throw Failure(Error::Kind::io, folder, "is a file, not a folder");
+    }
+    const bool run_there = holds_run(folder);
+    if (run_there && !options.overwrite) {
+      throw Failure(Error::Kind::bad_input, folder,
+                    "holds a run already: name another folder, or say that it is to be overwritten");
+    }
+    for (const char* name : kRunFiles) {
+      if (!run_there && fs::exists(folder / name, ignored)) {
+        throw Failure(Error::Kind::bad_input, folder / name,
+                      "is there, but its folder holds no run: it would be overwritten; name another folder");
+      }
+    }
+    const fs::path made = make_folder(folder);
+    try {
+      if (run_there) remove_run(folder);
+      const auto held = hdf5::lock();
+      ParticlesFile particles = ParticlesFile::create(folder / kParticlesFile, info);
+      SeriesFile series = SeriesFile::create(folder / kSeriesFile);
+      take(write_text_file(folder / kSceneFile, scene_json));
+      return RunWriter(std::make_unique<Impl>(folder, info, std::move(particles), std::move(series)));
+    } catch (const std::exception&) {
+      // Nothing half-made stays behind; what made this fail is what gets reported.
+      try {
+        remove_run(folder);
+      } catch (const Failure&) {
+      }
+      if (!made.empty()) fs::remove_all(made, ignored);
+      throw;
+    }
+  });
+}
+
+Expected<RunWriter> RunWriter::resume(const fs::path& folder, const RunInfo& info, const std::string& scene_json,
+                                      std::int64_t step, const OutputCadence& cadence) {
+  return guarded(folder, [&]() -> RunWriter {
+    const std::int64_t end_step = cadence.is_due(step, info.time_step) ? step + 1 : step;
+    const auto held = hdf5::lock();
+    ParticlesFile particles = ParticlesFile::update(folder / kParticlesFile, info, end_step);
+    SeriesFile series = SeriesFile::update(folder / kSeriesFile, end_step);
+    take(write_text_file(folder / kSceneFile, scene_json));
+    return RunWriter(std::make_unique<Impl>(folder, info, std::move(particles), std::move(series)));
+  });
+}
+
+const fs::path& RunWriter::folder() const { return impl_->folder; }
+fs::path RunWriter::log_path() const { return impl_->folder / kLogFile; }
+fs::path RunWriter::checkpoint_path() const { return impl_->folder / kCheckpointFile; }
+
+Expected<void> RunWriter::write_snapshot(Snapshot snapshot) {
+  if (impl_->last_queued && snapshot.step <= *impl_->last_queued) {
+    if (snapshot.step == *impl_->last_queued) return {};
+    return fail(Error::Kind::bad_input, (impl_->folder / kParticlesFile).string(),
+                "snapshots must be written in order of their steps");
+  }
+  impl_->last_queued = snapshot.step;
+  return impl_->push(std::move(snapshot));
+}
+
+Expected<void> RunWriter::write_checkpoint(SimulationState state) { return impl_->push(std::move(state)); }
+
+Expected<void> RunWriter::write_series(const SeriesRow& row) {
+  return guarded(impl_->folder / kSeriesFile, [&] { impl_->series.append(row); });
+}
+
+Expected<void> RunWriter::write_report(const RunReport& report) {
+  return write_text_file(impl_->folder / kReportFile, to_json(report));
+}
+
+Expected<void> RunWriter::flush() { return impl_->wait(); }
+
+Expected<void> RunWriter::finish() {
+  Expected<void> written = impl_->wait();
+  impl_->stop();
+  if (!written) return written;
+  return guarded(impl_->folder, [&] {
+    impl_->particles.sync();
+    impl_->series.sync();
+  });
+}
+
+}  // namespace hooke

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#include "hooke/io/series.h"
+
+#include "hooke/io/output_file.h"
+
+namespace hooke {
+
+namespace {
+
+/// Calls `column` with the name and the value of each column, in order.
+template <class Visit>
+void for_each_column(const SeriesRow& row, Visit&& column) {
+  const Measurements& m = row.measurements;
+  const Ledger& l = row.ledger;
+  const auto vector = [&](const char* x, const char* y, const char* z, const Vec3d& v) {
+    column(x, v.x);
+    column(y, v.y);
+    column(z, v.z);
+  };
+  column("step", row.step);
+  column("t", row.time);
+  column("particles", m.particles);
+  column("contacts", m.contacts);
+  column("wall_contacts", m.wall_contacts);
+  column("kinetic", m.kinetic_energy);
+  column("potential", m.potential_energy);
+  column("elastic", m.elastic_energy);
+  column("wall_elastic", m.wall_elastic_energy);
+  column("dissipated", l.dissipated);
+  column("wall_work", l.wall_work);
+  vector("momentum_x", "momentum_y", "momentum_z", m.momentum);
+  vector("centre_x", "centre_y", "centre_z", m.centre_of_mass);
+  column("max_speed", m.max_speed);
+  column("max_overlap_ratio", m.max_overlap_ratio);
+  column("mean_overlap_ratio", m.mean_overlap_ratio);
+  column("front_x", m.max.x);
+  vector("min_x", "min_y", "min_z", m.min);
+  vector("max_x", "max_y", "max_z", m.max);
+  vector("wall_force_x", "wall_force_y", "wall_force_z", m.wall_force);
+  column("removed", l.removed);
+  column("rebuilds", row.rebuilds);
+}
+
+}  // namespace
+
+SeriesRow make_series_row(const Simulation& simulation, const Measurements& measurements) {
+  return {simulation.step_count(), simulation.time(), measurements, simulation.ledger(),
+          simulation.neighbour_statistics().rebuilds};
+}
+
+std::string series_header() {
+  std::string line;
+  for_each_column({}, [&](const char* name, auto) {
+    if (!line.empty()) line += ',';
+    line += name;
+  });
+  return line;
+}
+
+std::string to_csv(const SeriesRow& row) {
+  std::string line;
+  for_each_column(row, [&](const char*, auto value) {
+    if (!line.empty()) line += ',';
+    append_number(line, value);
+  });
+  return line;
+}
+
+}  // namespace hooke

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#include "hooke/io/series_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <string_view>
+
+#include "hooke/io/failure.h"
+
+namespace hooke {
+
+namespace {
+
+void write_whole(const std::filesystem::path& path, std::string_view text) {
+  OutputFile out(path);
+  out.write(text);
+  out.finish();
+}
+
+}  // namespace
+
+SeriesFile::SeriesFile(const std::filesystem::path& path)
+    : path_(path), fd_(::open(path.c_str(), O_WRONLY | O_CLOEXEC)) {
+  if (!fd_) throw Failure(Error::Kind::io, path, "can't be opened: " + system_message(errno));
+  size_ = std::filesystem::file_size(path);
+}
+
+SeriesFile SeriesFile::create(const std::filesystem::path& path) {
+  write_whole(path, series_header() + '\n');
+  return SeriesFile(path);
+}
+
+SeriesFile SeriesFile::update(const std::filesystem::path& path, std::int64_t end_step) {
+  if (!std::filesystem::exists(path)) return create(path);
+  std::ifstream in(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in || text.rfind(series_header() + '\n', 0) != 0) {
+    throw Failure(Error::Kind::bad_input, path, "can't be continued: it has not the columns of a series");
+  }
+  std::optional<std::int64_t> last_step;
+  std::size_t end = series_header().size() + 1;
+  for (;;) {
+    const std::size_t line_end = text.find('\n', end);
+    std::int64_t step = 0;
+    if (line_end == std::string::npos ||
+        std::from_chars(text.data() + end, text.data() + line_end, step).ec != std::errc() || step >= end_step) {
+      break;
+    }
+    last_step = step;
+    end = line_end + 1;
+  }
+  if (end != text.size()) write_whole(path, std::string_view(text).substr(0, end));
+  SeriesFile file(path);
+  file.last_step_ = last_step;
+  return file;
+}
+
+void SeriesFile::append(const SeriesRow& row) {
+  if (last_step_ && row.step == *last_step_) return;
+  const std::string line = to_csv(row) + '\n';
+  if (const int error = write_at(fd_.get(), line.data(), line.size(), size_)) {
+    // Without the half of a row that may be there now.
+    [[maybe_unused]] const int ignored = ::ftruncate(fd_.get(), static_cast<off_t>(size_));
+    throw Failure(Error::Kind::io, path_, "can't be written: " + system_message(error));
+  }
+  size_ += line.size();
+  last_step_ = row.step;
+}
+
+void SeriesFile::sync() {
+  if (::fsync(fd_.get()) != 0) throw Failure(Error::Kind::io, path_, "can't be written: " + system_message(errno));
+}
+
+}  // namespace hooke

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "hooke/io/output_file.h"
+#include "hooke/io/series.h"
+
+namespace hooke {
+
+/// series.csv, written row by row: whatever happens, it ends with a whole row. Throws Failure.
+class SeriesFile {
+ public:
+  static SeriesFile create(const std::filesystem::path& path);
+  /// One that is there, or a new one; cut before the first row of a step >= end_step.
+  static SeriesFile update(const std::filesystem::path& path, std::int64_t end_step);
+
+  /// Rows ascend by step; a step that is there already is not written twice.
+  void append(const SeriesRow& row);
+  void sync();
+
+ private:
+  explicit SeriesFile(const std::filesystem::path& path);
+
+  std::filesystem::path path_;
+  Descriptor fd_;
+  std::uint64_t size_ = 0;
+  std::optional<std::int64_t> last_step_;
+};
+
+}  // namespace hooke

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#include "hooke/io/snapshot.h"
+
+#include <nlohmann/json.hpp>
+
+#include "hooke/io/failure.h"
+#include "hooke/io/run_info_json.h"
+
+namespace hooke {
+
+RunInfo describe_run(const Scene& scene, Precision precision) {
+  RunInfo info{scene.name, scene.time_step, scene.integrator, precision, {}};
+  info.materials.reserve(scene.materials.size());
+  for (const Material& m : scene.materials) info.materials.push_back({m.name, m.radius, m.mass});
+  return info;
+}
+
+RunInfo describe_run(const Simulation& simulation) {
+  return describe_run(simulation.scene(), simulation.backend_info().precision);
+}
+
+Snapshot take_snapshot(const Simulation& simulation) {
+  const ParticleSet& now = simulation.particles();
+  return {simulation.step_count(), simulation.time(), {now.id, now.material, now.position, now.velocity, {}}};
+}
+
+const char* to_string(Precision precision) {
+  return precision == Precision::single_precision ? "single" : "double";
+}
+
+const char* to_string(Integrator integrator) {
+  return integrator == Integrator::symplectic_euler ? "symplectic-euler" : "velocity-verlet";
+}
+
+std::string to_json(const RunInfo& info) {
+  nlohmann::ordered_json json{{"scene", info.scene},
+                              {"time_step", info.time_step},
+                              {"integrator", to_string(info.integrator)},
+                              {"precision", to_string(info.precision)},
+                              {"materials", nlohmann::ordered_json::array()}};
+  for (const MaterialInfo& m : info.materials) {
+    json["materials"].push_back({{"name", m.name}, {"radius", m.radius}, {"mass", m.mass}});
+  }
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+RunInfo parse_run_info(const std::string& json, const std::filesystem::path& file) {
+  try {
+    const auto parsed = nlohmann::json::parse(json);
+    RunInfo info;
+    info.scene = parsed.at("scene").get<std::string>();
+    info.time_step = parsed.at("time_step").get<double>();
+    info.integrator = parsed.at("integrator").get<std::string>() == to_string(Integrator::velocity_verlet)
+                          ? Integrator::velocity_verlet
+                          : Integrator::symplectic_euler;
+    info.precision = parsed.at("precision").get<std::string>() == to_string(Precision::double_precision)
+                         ? Precision::double_precision
+                         : Precision::single_precision;
+    for (const auto& m : parsed.at("materials")) {
+      info.materials.push_back(
+          {m.at("name").get<std::string>(), m.at("radius").get<double>(), m.at("mass").get<double>()});
+    }
+    return info;
+  } catch (const nlohmann::json::exception&) {
+    throw Failure(Error::Kind::bad_input, file, "is damaged: what it says of its run can't be read");
+  }
+}
+
+}  // namespace hooke
