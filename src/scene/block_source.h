@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hooke/core/scene.h"
+#include "hooke/scene/findings.h"
+#include "hooke/scene/json_reader.h"
+#include "hooke/scene/lattice.h"
+
+namespace hooke {
+
+/// A block of particles as it is written, with the box that it fills.
+struct BlockSource {
+  std::string path;    ///< in the scene: "particles[0].block"
+  std::string lattice;  ///< "cubic", "hcp", "random"
+  CentreBox box;
+  double spacing = 1;  ///< m
+  std::optional<std::uint64_t> count;
+  double jitter = 0;  ///< m
+  std::uint64_t seed = 1;
+  UpDirection up;
+};
+
+/// Reads a block that the schema is content with; `radius` (m) is its material's. Corners the wrong way round are
+/// a finding, and then nothing is returned.
+std::optional<BlockSource> read_block(const Json& block, const std::string& path, const Scene& scene, double radius,
+                                      Findings& findings);
+
+/// About how many particles a block will have, without making any.
+double expected_count(const BlockSource& block);
+
+/// The centres of a block's particles. A count that does not fit is a finding, which tells how many would.
+std::vector<Vec3d> block_centres(const BlockSource& block, Findings& findings);
+
+}  // namespace hooke

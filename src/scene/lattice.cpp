@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/scene/lattice.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hooke {
+namespace {
+
+constexpr double kMostSites = 9223372036854775808.0;  // 2^63
+
+// How many sites `distance` apart fit on a line of this length, one at its start. A length that is short of the next
+// site by rounding (9.999999 spacings) still holds it.
+std::uint64_t sites_on(double length, double distance) {
+  constexpr double kRounding = 1e-5;
+  if (length < -kRounding * distance) return 0;
+  const double steps = std::floor(length / distance + kRounding);
+  return steps >= kMostSites ? static_cast<std::uint64_t>(kMostSites) : static_cast<std::uint64_t>(steps) + 1;
+}
+
+double length(const CentreBox& box, int axis) { return component(box.max, axis) - component(box.min, axis); }
+
+// Saturates where the product of two counts does.
+std::uint64_t saturated(double count) {
+  return count >= kMostSites ? static_cast<std::uint64_t>(kMostSites) : static_cast<std::uint64_t>(count);
+}
+
+}  // namespace
+
+UpDirection up_against(const Vec3d& gravity) {
+  UpDirection up;
+  double largest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double g = component(gravity, axis);
+    if (std::abs(g) > largest) {
+      largest = std::abs(g);
+      up = {axis, g < 0};
+    }
+  }
+  return up;
+}
+
+Lattice::Lattice(LatticeKind kind, const CentreBox& box, double spacing, UpDirection up)
+    : kind_(kind), box_(box), spacing_(spacing), up_(up), row_axis_((up.axis + 1) % 3), third_axis_((up.axis + 2) % 3) {
+  // Hexagonal close packing: touching rows shifted by half a spacing, layers sqrt(2/3) spacings apart.
+  const bool hcp = kind == LatticeKind::hcp;
+  row_distance_ = hcp ? spacing * std::sqrt(3.0) / 2 : spacing;
+  layer_distance_ = hcp ? spacing * std::sqrt(6.0) / 3 : spacing;
+  layers_ = sites_on(length(box, up.axis), layer_distance_);
+}
+
+Lattice::Layer Lattice::layer(bool odd) const {
+  const double half = spacing_ / 2;
+  Layer found{};
+  if (kind_ == LatticeKind::hcp) {
+    // Every other layer (ABAB...) lies over the hollows of the one below.
+    found.row_offset = odd ? spacing_ * std::sqrt(3.0) / 6 : 0;
+    found.site_offset[0] = odd ? half : 0;
+    found.site_offset[1] = odd ? 0 : half;
+  }
+  found.rows = sites_on(length(box_, third_axis_) - found.row_offset, row_distance_);
+  for (int parity = 0; parity < 2; ++parity) {
+    found.sites[parity] = sites_on(length(box_, row_axis_) - found.site_offset[parity], spacing_);
+  }
+  return found;
+}
+
+std::uint64_t Lattice::sites_in(const Layer& l) const {
+  const double even_rows = static_cast<double>(l.rows - l.rows / 2);
+  const double odd_rows = static_cast<double>(l.rows / 2);
+  const double many = even_rows * static_cast<double>(l.sites[0]) + odd_rows * static_cast<double>(l.sites[1]);
+  return many < 1e15 ? (l.rows - l.rows / 2) * l.sites[0] + (l.rows / 2) * l.sites[1] : saturated(many);
+}
+
+std::uint64_t Lattice::site_count() const {
+  const std::uint64_t even = sites_in(layer(false));
+  const std::uint64_t odd = sites_in(layer(true));
+  const double many = static_cast<double>(layers_) / 2 * (static_cast<double>(even) + static_cast<double>(odd));
+  return many < 1e15 ? (layers_ - layers_ / 2) * even + (layers_ / 2) * odd : saturated(many);
+}
+
+void Lattice::append_sites(std::uint64_t count, std::vector<Vec3d>& out) const {
+  const Layer parities[2] = {layer(false), layer(true)};
+  // The last site may lie beyond the box by what rounding was forgiven; it is drawn back to the face.
+  const auto put = [this](Vec3d& site, int axis, double offset) {
+    component(site, axis) = std::min(component(box_.min, axis) + offset, component(box_.max, axis));
+  };
+  for (std::uint64_t k = 0; k < layers_; ++k) {
+    const Layer& l = parities[k % 2];
+    Vec3d site{0, 0, 0};
+    const double height = static_cast<double>(k) * layer_distance_;
+    if (up_.positive) {
+      put(site, up_.axis, height);
+    } else {
+      component(site, up_.axis) = std::max(component(box_.max, up_.axis) - height, component(box_.min, up_.axis));
+    }
+    for (std::uint64_t j = 0; j < l.rows; ++j) {
+      put(site, third_axis_, l.row_offset + static_cast<double>(j) * row_distance_);
+      for (std::uint64_t i = 0; i < l.sites[j % 2]; ++i) {
+        if (count-- == 0) return;
+        put(site, row_axis_, l.site_offset[j % 2] + static_cast<double>(i) * spacing_);
+        out.push_back(site);
+      }
+    }
+  }
+}
+
+}  // namespace hooke

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/scene/load_scene.h"
+
+#include <exception>
+#include <new>
+
+#include "hooke/scene/findings.h"
+#include "hooke/scene/json_reader.h"
+#include "hooke/scene/overrides.h"
+#include "hooke/scene/particle_sources.h"
+#include "hooke/scene/scene_builder.h"
+#include "hooke/scene/schema.h"
+#include "hooke/scene/schema_check.h"
+#include "hooke/scene/text_file.h"
+
+namespace hooke {
+namespace {
+
+Expected<LoadedScene> parse(std::string_view text, const std::string& name, const std::filesystem::path& folder,
+                            const LoadOptions& options) {
+  Findings findings(name);
+  const auto refuse = [&findings] { return fail(Error{Error::Kind::bad_input, findings.take()}); };
+
+  JsonReading reading = read_json(text, name);
+  findings.set_lines(std::move(reading.lines));
+  for (auto& [path, message] : reading.faults) findings.add(path, std::move(message));
+  if (reading.stopped) findings.add_elsewhere(reading.stopped->where, reading.stopped->message);
+  if (!reading.value) return refuse();
+  Json& json = *reading.value;
+
+  apply_overrides(options.overrides, json, findings);
+  check_against_schema(json, findings);
+  if (!json.is_object()) return refuse();
+  fill_defaults(schema_root(), json);
+
+  LoadedScene loaded;
+  loaded.scene = build_scene(json, findings);
+  loaded.particles = load_particles(json, loaded.scene, folder, options, findings, loaded.warnings);
+  if (!findings.empty()) return refuse();
+  loaded.resolved = pretty(json);
+  return loaded;
+}
+
+}  // namespace
+
+Expected<LoadedScene> parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
+                                  const LoadOptions& options) {
+  // What is used below reports by exceptions; no scene should raise one, and none leaves this function.
+  try {
+    return parse(text, name, folder, options);
+  } catch (const std::bad_alloc&) {
+    return fail(Error::Kind::bad_input, name, "needs more memory than there is");
+  } catch (const std::exception& fault) {
+    return fail(Error::Kind::bad_input, name, std::string("can't be read: ") + fault.what());
+  }
+}
+
+Expected<LoadedScene> load_scene(const std::filesystem::path& file, const LoadOptions& options) {
+  constexpr std::uint64_t kLargestScene = std::uint64_t{64} << 20U;  // particles by the million belong in CSV files
+  const auto text = read_text_file(file, kLargestScene);
+  if (!text) return fail(text.error());
+  return parse_scene(*text, file.string(), file.parent_path(), options);
+}
+
+}  // namespace hooke

@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/scene/scene_builder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hooke/scene/json_path.h"
+#include "hooke/scene/nearest.h"
+
+namespace hooke {
+namespace {
+
+constexpr std::int64_t kMostSteps = 9007199254740992;  // 2^53: step * dt is still exact in the step
+
+// The member of an object; null where there is none.
+const Json& member(const Json& object, const char* key) {
+  static const Json nothing;
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  return found == object.end() ? nothing : *found;
+}
+
+double number_or(const Json& value, double fallback) { return value.is_number() ? value.get<double>() : fallback; }
+
+std::int64_t count_or(const Json& value, std::int64_t fallback) {
+  return value.is_number_integer() ? value.get<std::int64_t>() : fallback;
+}
+
+std::string text_or(const Json& value, const std::string& fallback) {
+  return value.is_string() ? value.get<std::string>() : fallback;
+}
+
+// The first step at or after `end`, as t = step * dt counts it; the quotient of two decimal numbers may miss a whole
+// number by rounding.
+double steps_until(double end, double dt) {
+  const double quotient = end / dt;
+  const double nearest = std::round(quotient);
+  return std::abs(quotient - nearest) <= 1e-9 * std::max(1.0, std::min(nearest, 1e3)) ? nearest : std::ceil(quotient);
+}
+
+void build_time(const Json& time, Scene& scene, Findings& findings) {
+  if (!findings.touches("time.step")) scene.time_step = number_or(member(time, "step"), scene.time_step);
+  if (text_or(member(time, "integrator"), "") == "velocity-verlet") scene.integrator = Integrator::velocity_verlet;
+  scene.steps = count_or(member(time, "steps"), 0);
+  if (member(time, "end").is_number() && !findings.touches("time.end") && !findings.touches("time.step")) {
+    const double steps = steps_until(time.at("end").get<double>(), scene.time_step);
+    if (steps > static_cast<double>(kMostSteps)) {
+      findings.add("time.end", fmt::format("is {}, {:.3g} steps; at most 2^53 are possible", brief(time.at("end")), steps));
+    } else {
+      scene.steps = static_cast<std::int64_t>(steps);
+    }
+  }
+}
+
+Boundary boundary_of(const Json& name) {
+  return name == "open" ? Boundary::open : name == "periodic" ? Boundary::periodic : Boundary::spring;
+}
+
+void build_domain(const Json& domain, Scene& scene, const Findings& findings) {
+  // One corner without the other would only lead to findings that are none.
+  if (!findings.touches("domain.min") && !findings.touches("domain.max")) {
+    scene.domain.min = vec3_or(member(domain, "min"), scene.domain.min);
+    scene.domain.max = vec3_or(member(domain, "max"), scene.domain.max);
+  }
+  const Json& walls = member(domain, "walls");
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    scene.domain.boundary[axis] = boundary_of(walls.is_array() && axis < walls.size() ? walls[axis] : walls);
+  }
+}
+
+void build_materials(const Json& materials, Scene& scene, const Findings& findings) {
+  if (!materials.is_object()) return;
+  for (const auto& [name, entry] : materials.items()) {
+    Material material;
+    material.name = name;
+    const std::string where = join_path("materials", name);
+    // A value that the schema refused stays at its default: it has been spoken of.
+    const auto value = [&, &values = entry](const char* key, double fallback) {
+      return findings.touches(join_path(where, key)) ? fallback : number_or(member(values, key), fallback);
+    };
+    material.radius = value("radius", material.radius);
+    material.mass = value("mass", material.mass);
+    material.contact.stiffness = value("stiffness", 0);
+    material.contact.shear = value("shear", 0);
+    material.contact.damping = value("damping", 0);
+    material.drag = value("drag", 0);
+    material.color = text_or(member(entry, "color"), "");
+    scene.materials.push_back(std::move(material));
+  }
+}
+
+std::vector<std::string> names_of(const std::vector<Material>& materials) {
+  std::vector<std::string> names;
+  names.reserve(materials.size());
+  for (const Material& m : materials) names.push_back(m.name);
+  return names;
+}
+
+// Contact entries; `index_of` tells which entry of the file each one of the scene is.
+class ContactBuilder {
+ public:
+  ContactBuilder(Scene& scene, Findings& findings)
+      : scene_(scene), findings_(findings), names_(names_of(scene.materials)) {}
+
+  std::vector<std::size_t> index_of;
+
+  void build(Json& contacts) {
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const std::string where = join_path("contacts", i);
+      if (!contacts[i].is_object() || findings_.touches(join_path(where, "between"))) continue;
+      ContactEntry entry;
+      if (!find_pair(contacts[i].at("between"), where, entry)) continue;
+      fill_coefficients(contacts[i], where, entry);
+      scene_.contacts.push_back(entry);
+      index_of.push_back(i);
+    }
+  }
+
+ private:
+  bool find_pair(const Json& between, const std::string& where, ContactEntry& entry) {
+    std::size_t index[2];
+    bool known = true;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::string name = between[k];
+      const auto found = std::find(names_.begin(), names_.end(), name);
+      index[k] = static_cast<std::size_t>(found - names_.begin());
+      if (name == "wall") {
+        index[k] = ContactEntry::kWall;
+      } else if (found == names_.end()) {
+        const std::string hint = did_you_mean(name, names_);
+        findings_.add(join_path(join_path(where, "between"), k),
+                      fmt::format("is \"{}\", which is no material{}{} the scene has {} and \"wall\"", printable(name, 60),
+                                  hint, hint.empty() ? ";" : "", quoted_list(names_)));
+        known = false;
+      }
+    }
+    if (!known) return false;
+    if (index[0] == ContactEntry::kWall) std::swap(index[0], index[1]);
+    if (index[0] == ContactEntry::kWall) {
+      findings_.add(join_path(where, "between"), "is \"wall\" twice; one of the two must be a material");
+      return false;
+    }
+    entry.a = index[0];
+    entry.b = index[1];
+    return true;
+  }
+
+  void fill_coefficients(Json& json, const std::string& where, ContactEntry& entry) {
+    const auto& a = scene_.materials[entry.a].contact;
+    const auto mixed = entry.b == ContactEntry::kWall ? a : mix(a, scene_.materials[entry.b].contact);
+    const auto fill = [&](const char* key, double& value, double fallback) {
+      value = fallback;
+      if (findings_.touches(join_path(where, key))) return;
+      if (!json.contains(key)) json[key] = fallback;
+      value = json.at(key).get<double>();
+    };
+    fill("stiffness", entry.coefficients.stiffness, mixed.stiffness);
+    fill("shear", entry.coefficients.shear, mixed.shear);
+    fill("damping", entry.coefficients.damping, mixed.damping);
+  }
+
+  Scene& scene_;
+  Findings& findings_;
+  std::vector<std::string> names_;
+};
+
+// What the core finds wrong with the scene, where nothing has been said about it yet.
+void add_core_findings(const Scene& scene, const std::vector<std::size_t>& contact_index, Findings& findings) {
+  for (Finding& finding : validate(scene)) {
+    const auto path = parse_path(finding.where);
+    if (path && path->size() > 1 && std::get<std::string>(path->front()) == "contacts") {
+      JsonPath own = *path;
+      own[1] = contact_index[std::get<std::size_t>(own[1])];
+      finding.where = to_text(own);
+    }
+    if (!findings.touches(finding.where)) findings.add(finding.where, std::move(finding.message));
+  }
+}
+
+}  // namespace
+
+Vec3d vec3_or(const Json& value, const Vec3d& fallback) {
+  if (!value.is_array() || value.size() != 3) return fallback;
+  for (const Json& item : value) {
+    if (!item.is_number()) return fallback;
+  }
+  return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
+}
+
+Scene build_scene(Json& json, Findings& findings) {
+  Scene scene;
+  scene.name = text_or(member(json, "name"), "");
+  build_time(member(json, "time"), scene, findings);
+  if (member(json, "precision") == "double") scene.precision = Precision::double_precision;
+  if (!findings.touches("gravity")) scene.gravity = vec3_or(member(json, "gravity"), scene.gravity);
+  build_domain(member(json, "domain"), scene, findings);
+  build_materials(member(json, "materials"), scene, findings);
+  ContactBuilder contacts(scene, findings);
+  if (member(json, "contacts").is_array()) contacts.build(json.at("contacts"));
+  if (!findings.touches("output")) {
+    scene.output.seconds = number_or(member(json.at("output"), "every"), 0);
+    scene.output.steps = count_or(member(json.at("output"), "every_steps"), 0);
+  }
+  add_core_findings(scene, contacts.index_of, findings);
+  return scene;
+}
+
+}  // namespace hooke
