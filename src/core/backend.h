@@ -30,6 +30,17 @@ struct Condition {
   }
 };
 
+/// Forces and powers at one instant, summed over all particles.
+struct StepRates {
+  double dissipated_power = 0;     ///< by the dashpots of contacts between particles, and by drag, W
+  double wall_power = 0;           ///< by walls on particles, W
+  Vec3d wall_force{0, 0, 0};       ///< by walls on particles, N
+  Vec3d drag_force{0, 0, 0};       ///< N
+  Vec3d gravity_force{0, 0, 0};    ///< N
+
+  friend bool operator==(const StepRates&, const StepRates&) = default;
+};
+
 /// What steps leave behind beside the particles: sums over all steps so far, the same bits for any number
 /// of threads and across a restart, because each step's sum is exact before it is added.
 struct Ledger {
@@ -41,6 +52,8 @@ struct Ledger {
   Vec3d removed_momentum{0, 0, 0};     ///< taken along by particles that left, kg m/s
   double removed_energy = 0;           ///< kinetic and potential, taken along likewise, J
   std::uint64_t removed = 0;           ///< particles that left through open faces
+  /// Velocity Verlet: the rates of the last evaluation, whose second half the next step books. Else unused.
+  StepRates last;
 
   friend bool operator==(const Ledger&, const Ledger&) = default;
 };

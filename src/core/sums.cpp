@@ -17,12 +17,25 @@ void StepSums::add(const StepSums& other) {
   drag_force.add(other.drag_force);
 }
 
-void StepSums::book(Ledger& ledger, double dt, const Vec3d& gravity, double mass) const {
-  ledger.dissipated += dt * dissipated_power.value();
-  ledger.wall_work += dt * wall_power.value();
-  ledger.wall_impulse += dt * wall_force.value();
-  ledger.drag_impulse += dt * drag_force.value();
-  ledger.gravity_impulse += (dt * mass) * gravity;
+StepRates StepSums::rates(const Vec3d& gravity, double mass) const {
+  return {dissipated_power.value(), wall_power.value(), wall_force.value(), drag_force.value(), mass * gravity};
+}
+
+void book_step(Ledger& ledger, const StepRates& now, double dt, Integrator integrator) {
+  const auto book = [&ledger](const StepRates& rates, double seconds) {
+    ledger.dissipated += seconds * rates.dissipated_power;
+    ledger.wall_work += seconds * rates.wall_power;
+    ledger.wall_impulse += seconds * rates.wall_force;
+    ledger.drag_impulse += seconds * rates.drag_force;
+    ledger.gravity_impulse += seconds * rates.gravity_force;
+  };
+  if (integrator == Integrator::symplectic_euler) {
+    book(now, dt);
+    return;
+  }
+  book(ledger.last, dt / 2);
+  book(now, dt / 2);
+  ledger.last = now;
 }
 
 void RemovalSums::add_particle(double mass, const Vec3d& x, const Vec3d& v, const Vec3d& gravity) {

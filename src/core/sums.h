@@ -26,7 +26,7 @@ class ExactVectorSum {
   std::array<ExactSum, 3> sums_;
 };
 
-/// What one step adds to the Ledger, gathered particle by particle in any order.
+/// The rates of one evaluation of the forces, gathered particle by particle in any order.
 struct StepSums {
   ExactSum dissipated_power;   ///< W; contacts count half from each side
   ExactSum wall_power;         ///< W
@@ -34,9 +34,13 @@ struct StepSums {
   ExactVectorSum drag_force;   ///< N
 
   void add(const StepSums& other);
-  /// Books what these powers and forces did over one step of `dt` (s), and gravity on `mass` (kg) in all.
-  void book(Ledger& ledger, double dt, const Vec3d& gravity, double mass) const;
+  /// As rates; gravity (m/s^2) pulls at `mass` (kg) in all.
+  StepRates rates(const Vec3d& gravity, double mass) const;
 };
+
+/// Books what `now` did over one step of `dt` (s). Symplectic Euler kicks once, by dt; velocity Verlet by half a dt with
+/// the rates of the last evaluation and half a dt with these, which it keeps as the last.
+void book_step(Ledger& ledger, const StepRates& now, double dt, Integrator integrator);
 
 /// Books a particle that left through an open face.
 struct RemovalSums {

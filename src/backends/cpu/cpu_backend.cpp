@@ -10,6 +10,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -190,7 +191,7 @@ class CpuBackend final : public Backend {
       sums.add(part);
       condition = Condition::first(condition, found);
     });
-    sums.book(ledger_, scene_.time_step, scene_.gravity, total_mass_);
+    book_step(ledger_, sums.rates(scene_.gravity, total_mass_), scene_.time_step, scene_.integrator);
     records_.swap(next_);
     if (moved_far) listed_ = false;
     book(removed);
@@ -495,11 +496,19 @@ class CpuBackend final : public Backend {
   Condition evaluate_accelerations(std::uint64_t first_new_id) {
     if (const Condition found = build_neighbours(); !found.good()) return found;
     std::vector<Vec3<Real>> evaluated(acceleration_.size());
+    StepSums sums;
     aim_pass(evaluated.data());
     for_ranges(list_.segments.size(), 1, [&](std::size_t first, std::size_t last) {
       SegmentReport report;
-      for (std::size_t s = first; s < last; ++s) run_segment(s, report);
+      StepSums part;
+      for (std::size_t s = first; s < last; ++s) {
+        run_segment(s, report);
+        add_up(s, report, part);
+      }
+      const std::lock_guard lock(mutex_);
+      sums.add(part);
     });
+    ledger_.last = sums.rates(scene_.gravity, total_mass_);
     for (std::size_t i = 0; i < count_; ++i) {
       if (ids_[rank_of(records_[i].rank)] >= first_new_id) acceleration_[i] = evaluated[i];
     }

@@ -43,10 +43,12 @@ class ReferenceBackend final : public Backend {
       return {};
     }
     p_.acceleration.resize(p_.size());
-    const std::vector<Vec3d> now = accelerations().a;
+    if (p_.empty() || p_.id.back() < first_new_id) return {};
+    const Forces now = accelerations();
     for (std::size_t i = 0; i < p_.size(); ++i) {
-      if (p_.id[i] >= first_new_id) p_.acceleration[i] = now[i];
+      if (p_.id[i] >= first_new_id) p_.acceleration[i] = now.a[i];
     }
+    ledger_.last = now.sums.rates(scene_.gravity, total_mass());
     return {};
   }
 
@@ -79,7 +81,7 @@ class ReferenceBackend final : public Backend {
       p_.velocity[i] = kick(p_.velocity[i], forces.a[i], verlet() ? dt / 2 : dt);
       if (!verlet()) p_.position[i] = drift(p_.position[i], p_.velocity[i], dt);
     }
-    forces.sums.book(ledger_, dt, scene_.gravity, total_mass());
+    book_step(ledger_, forces.sums.rates(scene_.gravity, total_mass()), dt, scene_.integrator);
     if (verlet()) {
       p_.acceleration = forces.a;
     } else {
