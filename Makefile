@@ -44,7 +44,7 @@ lint: setup-lint  ## check the format, clang-tidy, and a build with Clang 19
 	tools/lint.sh
 
 install: build  ## install program, library, headers and scenes below PREFIX
-	cmake --install build --prefix $(DESTDIR)$(PREFIX)
+	cmake --install build --prefix $(PREFIX)
 
 clean:  ## remove every build folder
 	rm -rf build build-dev build-clang build-asan build-tsan

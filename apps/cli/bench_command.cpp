@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -116,12 +117,13 @@ ExitStatus bench_command(const BenchArguments& arguments) {
   const std::uint64_t particles_before = simulation.particle_count();
   const std::uint64_t removed_before = simulation.ledger().removed;
 
-  if (auto warmed = advance(simulation, arguments.warmup, !arguments.json); !warmed) {
+  const bool show = !arguments.json && isatty(STDOUT_FILENO) != 0;
+  if (auto warmed = advance(simulation, arguments.warmup, show); !warmed) {
     return report_error(warmed.error(), true);
   }
   const auto rebuilds_before = simulation.neighbour_statistics().rebuilds;
   const auto start = std::chrono::steady_clock::now();
-  if (auto stepped = advance(simulation, arguments.steps, !arguments.json); !stepped) {
+  if (auto stepped = advance(simulation, arguments.steps, show); !stepped) {
     return report_error(stepped.error(), true);
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

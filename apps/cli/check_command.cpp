@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "commands.h"
+#include "hooke/scene/load_scene.h"
 #include "log.h"
 #include "open_simulation.h"
 #include "progress.h"
@@ -83,7 +84,7 @@ ExitStatus check_command(const CheckArguments& arguments) {
   const auto particles = simulation.particle_count();
   fmt::print("{}: {}\n", arguments.scene.file.string(), scene.name);
   fmt::print("  particles  {}\n", with_commas(particles));
-  fmt::print("  memory     about {:.1f} MB\n", static_cast<double>(particles * 200) * 1e-6);
+  fmt::print("  memory     about {:.1f} MB\n", static_cast<double>(particles) * kBytesPerParticle * 1e-6);
   fmt::print("  duration   {} steps, {:.6g} s\n", scene.steps, static_cast<double>(scene.steps) * scene.time_step);
   print_step(scene);
   print_overlaps(*now);

@@ -203,6 +203,12 @@ ExitStatus report_failure(const Error& error, RunWriter& writer) {
 }  // namespace
 
 ExitStatus run_command(const RunArguments& arguments) {
+  if (!arguments.overwrite && !resumes_in_place(arguments) && holds_run(output_folder(arguments))) {
+    return report_error({Error::Kind::bad_input,
+                         {{output_folder(arguments).string(),
+                           "holds a run already; --overwrite replaces it, "
+                           "-o DIR names another folder"}}});
+  }
   if (!arguments.report.empty()) {
     if (auto writable = check_output_file(arguments.report, "--report"); !writable) {
       return report_error(writable.error());

@@ -28,7 +28,10 @@ ExitStatus scenes_command() {
   const auto scenes = list_scenes(folder);
   if (!scenes) return report_error(scenes.error());
   fmt::print("In {}:\n", folder.string());
-  for (const GalleryScene& scene : *scenes) fmt::print("  {:<20} {}\n", scene.file.filename().string(), scene.name);
+  for (const GalleryScene& scene : *scenes) {
+    const std::string& about = scene.description.empty() ? scene.title : scene.description;
+    fmt::print("  {:<16} {}\n", scene.file.filename().string(), about);
+  }
   return kDone;
 }
 

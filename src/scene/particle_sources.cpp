@@ -21,8 +21,6 @@
 namespace hooke {
 namespace {
 
-// What one particle needs in all: in the back end, in its neighbour list, and on its way to files, bytes.
-constexpr double kBytesPerParticle = 260;
 constexpr std::size_t kMostFindings = 20;  // of one kind about the particles of one source
 
 // One entry of "particles", looked at but not yet made.

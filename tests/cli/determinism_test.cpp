@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 
 #include <gmock/gmock.h>
+
+#include <ostream>
+
 #include "program.h"
 
 namespace hooke::test {
@@ -10,6 +13,10 @@ namespace {
 struct Case {
   const char* integrator;
   const char* precision;
+
+  friend std::ostream& operator<<(std::ostream& out, const Case& c) {
+    return out << c.integrator << ", " << c.precision;
+  }
 };
 
 class Determinism : public ProgramTest, public testing::WithParamInterface<Case> {

@@ -18,7 +18,7 @@ namespace hooke::test {
 namespace {
 
 std::string slurp(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
+  const std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();
   return text.str();
