@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#include "samples.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <fstream>
+#include <iterator>
+#include <random>
+
+namespace hooke::samples {
+
+namespace fs = std::filesystem;
+
+TemporaryFolder::TemporaryFolder() {
+  static std::atomic<int> count = 0;
+  path_ = fs::temp_directory_path() / ("hooke-io-test-" + std::to_string(::getpid()) + "-" + std::to_string(count++));
+  fs::create_directories(path_);
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+RunInfo run_info(Precision precision) {
+  return {"sample", 0.005, Integrator::symplectic_euler, precision, {{"water", 0.2, 1.0}, {"oil", 0.35, 0.8}}};
+}
+
+ParticleSet particles(std::int64_t step, std::size_t n, Precision precision) {
+  std::mt19937_64 random(static_cast<std::uint64_t>(step) + 1);
+  std::uniform_real_distribution<double> uniform(-100, 100);
+  const auto number = [&] {
+    const double x = uniform(random);
+    return precision == Precision::single_precision ? static_cast<double>(static_cast<float>(x)) : x;
+  };
+  ParticleSet p;
+  for (std::size_t i = 0; i < n; ++i) {
+    p.id.push_back(3 * i + 1);
+    p.material.push_back(static_cast<std::uint16_t>(i % 3 == 0));
+    p.position.push_back({number(), number(), number()});
+    p.velocity.push_back({number(), number(), number()});
+  }
+  return p;
+}
+
+Snapshot snapshot(std::int64_t step, std::size_t n, Precision precision) {
+  return {step, static_cast<double>(step) * 0.005, particles(step, n, precision)};
+}
+
+SimulationState state(std::int64_t step, std::size_t n) {
+  SimulationState s;
+  s.particles = particles(step, n, Precision::double_precision);
+  s.particles.acceleration = particles(step + 1000, n, Precision::double_precision).position;
+  s.step = step;
+  s.next_id = 3 * n + 7;
+  s.ledger.dissipated = 0.1;
+  s.ledger.wall_work = -0.2;
+  s.ledger.wall_impulse = {0.3, 1.0 / 3, -0.0};
+  s.ledger.drag_impulse = {5e-324, 1.7976931348623157e308, 2};
+  s.ledger.gravity_impulse = {0, -9.8 / 7, 3};
+  s.ledger.removed_momentum = {1, 2, 1e-300};
+  s.ledger.removed_energy = 12.5;
+  s.ledger.removed = 0xffffffffffffffffU;
+  s.initial_energy = 1e15 / 3;
+  s.initial_momentum = {-1, 0.1, 7};
+  return s;
+}
+
+SeriesRow series_row(std::int64_t step) {
+  SeriesRow row;
+  row.step = step;
+  row.time = static_cast<double>(step) * 0.005;
+  row.measurements.kinetic_energy = static_cast<double>(step) / 3;
+  row.measurements.max = {1.5, 2.5, 3.5};
+  return row;
+}
+
+namespace {
+
+bool same(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
+  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](const Vec3d& u, const Vec3d& v) {
+    return bits(u.x) == bits(v.x) && bits(u.y) == bits(v.y) && bits(u.z) == bits(v.z);
+  });
+}
+
+}  // namespace
+
+bool same(const ParticleSet& a, const ParticleSet& b) {
+  return a.id == b.id && a.material == b.material && same(a.position, b.position) && same(a.velocity, b.velocity) &&
+         same(a.acceleration, b.acceleration);
+}
+
+bool same(const Snapshot& a, const Snapshot& b) {
+  return a.step == b.step && a.time == b.time && same(a.particles, b.particles);
+}
+
+std::string read_file(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write_file(const fs::path& file, const std::string& content) {
+  std::ofstream out(file, std::ios::binary);
+  out << content;
+}
+
+std::vector<std::string> files_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace hooke::samples

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "hooke/io/run_folder.h"
+
+namespace hooke::samples {
+
+/// A folder of its own that goes away with it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::filesystem::path operator/(const std::filesystem::path& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Two materials, dt 0.005 s.
+RunInfo run_info(Precision precision = Precision::single_precision);
+
+/// `n` particles with random positions and velocities that follow from the step: the same call gives the same bits.
+ParticleSet particles(std::int64_t step, std::size_t n, Precision precision);
+Snapshot snapshot(std::int64_t step, std::size_t n, Precision precision = Precision::single_precision);
+/// A state with every field set.
+SimulationState state(std::int64_t step, std::size_t n);
+SeriesRow series_row(std::int64_t step);
+
+/// Whether ids, materials, positions and velocities (and accelerations) are the same bits.
+bool same(const ParticleSet& a, const ParticleSet& b);
+bool same(const Snapshot& a, const Snapshot& b);
+
+std::string read_file(const std::filesystem::path& file);
+void write_file(const std::filesystem::path& file, const std::string& content);
+std::vector<std::string> files_in(const std::filesystem::path& folder);
+
+}  // namespace hooke::samples
