@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "hooke/base/parallel.h"
@@ -54,18 +55,57 @@ struct NeighbourSearch {
 
 namespace detail {
 
-// The points near one cell, copied together: what the particles of that cell choose from.
+// Columns that grow together and keep their room. Plain arrays: the loops over them vectorise.
 template <class Real>
 struct Candidates {
-  std::vector<Real> x, y, z, reach;      // reach: radius + skin
-  std::vector<std::uint64_t> rank_index; // rank in the upper half, index in the lower
+  std::vector<Real> x, y, z, reach;        // reach: radius + skin, m
+  std::vector<std::int32_t> rank, index;   // below 2^31
+  std::vector<std::int32_t> near;          // 1 where the candidate is a neighbour of the particle in hand, else 0
+  std::size_t count = 0;
 
-  void clear() {
-    x.clear();
-    y.clear();
-    z.clear();
-    reach.clear();
-    rank_index.clear();
+  void make_room(std::size_t more) {
+    if (count + more <= x.size()) return;
+    const std::size_t room = 2 * (count + more) + 64;
+    x.resize(room);
+    y.resize(room);
+    z.resize(room);
+    reach.resize(room);
+    rank.resize(room);
+    index.resize(room);
+    near.resize(room);
+  }
+};
+
+// One particle's neighbours.
+struct Row {
+  std::vector<std::int32_t> rank, index, sorted;
+  std::size_t count = 0;
+
+  void make_room(std::size_t room) {
+    if (room <= rank.size()) return;
+    rank.resize(2 * room);
+    index.resize(2 * room);
+    sorted.resize(2 * room);
+  }
+
+  // sorted[0 .. count): the indices in ascending order of rank. For the usual dozen each goes straight to its place, the
+  // number of smaller ranks, which the compiler counts in SIMD and without a branch.
+  void sort_by_rank() {
+    constexpr std::size_t kCountingLimit = 64;
+    if (count <= kCountingLimit) {
+      std::int32_t place[kCountingLimit];
+      std::fill(place, place + count, 0);
+      for (std::size_t other = 0; other < count; ++other) {
+        const std::int32_t other_rank = rank[other];
+        for (std::size_t k = 0; k < count; ++k) place[k] += other_rank < rank[k] ? 1 : 0;
+      }
+      for (std::size_t k = 0; k < count; ++k) sorted[static_cast<std::size_t>(place[k])] = index[k];
+      return;
+    }
+    std::vector<std::pair<std::int32_t, std::int32_t>> pairs(count);
+    for (std::size_t k = 0; k < count; ++k) pairs[k] = {rank[k], index[k]};
+    std::sort(pairs.begin(), pairs.end());
+    for (std::size_t k = 0; k < count; ++k) sorted[k] = pairs[k].second;
   }
 };
 
@@ -92,116 +132,121 @@ class KeyCursor {
   std::size_t at_ = 0;
 };
 
-inline void sort_row(std::vector<std::uint64_t>& row) {
-  constexpr std::size_t kInsertionLimit = 40;
-  if (row.size() > kInsertionLimit) {
-    std::sort(row.begin(), row.end());
-    return;
+// What one thread builds rows with.
+template <class Real, class Points>
+class RowBuilder {
+ public:
+  RowBuilder(const NeighbourSearch<Real>& search, const Points& points) : search_(search), points_(points) {}
+
+  // Neighbours of point i, by rank. Points of one cell come after each other and share their candidates.
+  void fill(std::size_t i, Row& row) {
+    if (search_.keys[i] != key_) gather(search_.keys[i]);
+    const bool any_periodic = search_.periodic[0] || search_.periodic[1] || search_.periodic[2];
+    any_periodic ? mark_near<true>(i) : mark_near<false>(i);
+
+    row.make_room(near_.count + 1);
+    std::int32_t* __restrict__ rank = row.rank.data();
+    std::int32_t* __restrict__ index = row.index.data();
+    std::size_t kept = 0;
+    for (std::size_t c = 0; c < near_.count; ++c) {  // every candidate is written, the next one over it if it is far
+      rank[kept] = near_.rank[c];
+      index[kept] = near_.index[c];
+      kept += static_cast<std::size_t>(near_.near[c]);
+    }
+    row.count = kept;
+    row.sort_by_rank();
   }
-  for (std::size_t i = 1; i < row.size(); ++i) {
-    const std::uint64_t value = row[i];
-    std::size_t k = i;
-    for (; k > 0 && row[k - 1] > value; --k) row[k] = row[k - 1];
-    row[k] = value;
+
+ private:
+  void gather(std::uint64_t key) {
+    key_ = key;
+    near_.count = 0;
+    CellGrid::KeyRange ranges[18];
+    const std::size_t range_count = search_.grid->neighbour_ranges(key, ranges);
+    for (std::size_t r = 0; r < range_count; ++r) {
+      const std::size_t first = cursors_[r].seek(search_.keys, ranges[r].first);
+      std::size_t last = first;
+      while (last < search_.count && search_.keys[last] <= ranges[r].last) ++last;
+      near_.make_room(last - first);
+      std::size_t c = near_.count;
+      for (std::size_t p = first; p < last; ++p, ++c) {
+        const Vec3<Real> x = points_.position(p);
+        near_.x[c] = x.x;
+        near_.y[c] = x.y;
+        near_.z[c] = x.z;
+        near_.reach[c] = points_.radius(p) + search_.skin;
+        near_.rank[c] = static_cast<std::int32_t>(points_.rank(p));
+        near_.index[c] = static_cast<std::int32_t>(p);
+      }
+      near_.count = c;
+    }
   }
-}
+
+  template <bool kPeriodic>
+  void mark_near(std::size_t i) {
+    const Vec3<Real> x = points_.position(i);
+    const Real radius = points_.radius(i);
+    const auto self = search_.list_self ? std::int32_t{-1} : static_cast<std::int32_t>(i);
+    const auto displacement = [&](Real x_i, Real x_p, int axis) {
+      const Real d = x_i - x_p;
+      if (!kPeriodic || !search_.periodic[axis]) return d;
+      const Real length = component(search_.length, axis);
+      const Real half = Real(0.5) * length;
+      return d > half ? d - length : d < -half ? d + length : d;
+    };
+    for (std::size_t c = 0; c < near_.count; ++c) {
+      const Real dx = displacement(x.x, near_.x[c], 0);
+      const Real dy = displacement(x.y, near_.y[c], 1);
+      const Real dz = displacement(x.z, near_.z[c], 2);
+      const Real reach = radius + near_.reach[c];
+      near_.near[c] = (dx * dx + dy * dy + dz * dz < reach * reach ? 1 : 0) & (near_.index[c] != self ? 1 : 0);
+    }
+  }
+
+  const NeighbourSearch<Real>& search_;
+  const Points& points_;
+  std::uint64_t key_ = ~std::uint64_t{0};
+  Candidates<Real> near_;
+  std::array<KeyCursor, 18> cursors_;
+};
 
 }  // namespace detail
 
-/// Builds `list` anew. `points` gives position(i), radius(i) and rank(i) (unique, below 2^32) of the points in the order
+/// Builds `list` anew. `points` gives position(i), radius(i) and rank(i) (unique, below 2^31) of the points in the order
 /// of `search.keys`; `entry(i)` what the list stores for point i.
 template <class Real, class Points, class Entry>
 void build_neighbour_list(const NeighbourSearch<Real>& search, const Points& points, const Entry& entry,
                           NeighbourList& list) {
+  constexpr std::size_t kLanes = NeighbourList::kLanes;
   list.segments.resize((search.count + NeighbourList::kSegment - 1) / NeighbourList::kSegment);
 
   parallel_ranges(list.segments.size(), 1, [&](std::size_t first_segment, std::size_t last_segment) {
-    detail::Candidates<Real> near;
-    std::array<detail::KeyCursor, 18> cursors;
-    std::array<std::vector<std::uint64_t>, NeighbourList::kLanes> lanes;
-    std::vector<unsigned char> keep;
-    CellGrid::KeyRange ranges[18];
-
-    const auto gather_candidates = [&](std::uint64_t key) {
-      near.clear();
-      const std::size_t range_count = search.grid->neighbour_ranges(key, ranges);
-      for (std::size_t r = 0; r < range_count; ++r) {
-        std::size_t p = cursors[r].seek(search.keys, ranges[r].first);
-        for (; p < search.count && search.keys[p] <= ranges[r].last; ++p) {
-          const Vec3<Real> x = points.position(p);
-          near.x.push_back(x.x);
-          near.y.push_back(x.y);
-          near.z.push_back(x.z);
-          near.reach.push_back(points.radius(p) + search.skin);
-          near.rank_index.push_back((std::uint64_t{points.rank(p)} << 32U) | p);
-        }
-      }
-      keep.resize(near.x.size());
-    };
-
-    const auto nearest = [&](Real d, int axis) {
-      const Real length = component(search.length, axis);
-      const Real half = Real(0.5) * length;
-      return d > half ? d - length : d < -half ? d + length : d;
-    };
-
-    const auto fill_lane = [&](std::size_t i, std::vector<std::uint64_t>& row) {
-      const Vec3<Real> x = points.position(i);
-      const Real radius = points.radius(i);
-      const bool any_periodic = search.periodic[0] || search.periodic[1] || search.periodic[2];
-      const std::size_t n = near.x.size();
-      if (!any_periodic) {
-        for (std::size_t c = 0; c < n; ++c) {
-          const Real dx = x.x - near.x[c], dy = x.y - near.y[c], dz = x.z - near.z[c];
-          const Real reach = radius + near.reach[c];
-          keep[c] = dx * dx + dy * dy + dz * dz < reach * reach ? 1 : 0;
-        }
-      } else {
-        for (std::size_t c = 0; c < n; ++c) {
-          Real dx = x.x - near.x[c], dy = x.y - near.y[c], dz = x.z - near.z[c];
-          if (search.periodic[0]) dx = nearest(dx, 0);
-          if (search.periodic[1]) dy = nearest(dy, 1);
-          if (search.periodic[2]) dz = nearest(dz, 2);
-          const Real reach = radius + near.reach[c];
-          keep[c] = dx * dx + dy * dy + dz * dz < reach * reach ? 1 : 0;
-        }
-      }
-      row.resize(n);
-      std::size_t kept = 0;
-      for (std::size_t c = 0; c < n; ++c) {
-        row[kept] = near.rank_index[c];
-        const bool self = static_cast<std::uint32_t>(near.rank_index[c]) == i;
-        kept += keep[c] != 0 && (!self || search.list_self) ? 1 : 0;
-      }
-      row.resize(kept);
-      detail::sort_row(row);
-    };
-
+    detail::RowBuilder<Real, Points> builder(search, points);
+    std::array<detail::Row, kLanes> lanes;
+    std::vector<std::uint32_t> entries;  // grows here, so that no segment keeps room that it does not use
     for (std::size_t s = first_segment; s < last_segment; ++s) {
       NeighbourList::Segment& segment = list.segments[s];
-      segment.entries.clear();
+      entries.clear();
       segment.first_row[0] = 0;
-      std::uint64_t current_key = ~std::uint64_t{0};
       for (std::size_t g = 0; g < NeighbourList::kGroups; ++g) {
-        const std::size_t first = s * NeighbourList::kSegment + g * NeighbourList::kLanes;
+        const std::size_t first = s * NeighbourList::kSegment + g * kLanes;
         std::size_t rows = 0;
-        for (std::size_t lane = 0; lane < NeighbourList::kLanes; ++lane) {
-          const std::size_t i = first + lane;
-          lanes[lane].clear();
-          if (i >= search.count) continue;
-          if (search.keys[i] != current_key) gather_candidates(current_key = search.keys[i]);
-          fill_lane(i, lanes[lane]);
-          rows = std::max(rows, lanes[lane].size());
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+          lanes[lane].count = 0;
+          if (first + lane < search.count) builder.fill(first + lane, lanes[lane]);
+          rows = std::max(rows, lanes[lane].count);
         }
-        const std::size_t start = segment.entries.size();
-        segment.entries.resize(start + rows * NeighbourList::kLanes, search.dummy);
-        for (std::size_t lane = 0; lane < NeighbourList::kLanes; ++lane) {
-          for (std::size_t k = 0; k < lanes[lane].size(); ++k) {
-            segment.entries[start + k * NeighbourList::kLanes + lane] = entry(static_cast<std::uint32_t>(lanes[lane][k]));
+        const std::size_t start = entries.size();
+        entries.resize(start + rows * kLanes, search.dummy);
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+          std::uint32_t* to = entries.data() + start + lane;
+          for (std::size_t k = 0; k < lanes[lane].count; ++k) {
+            to[k * kLanes] = entry(static_cast<std::uint32_t>(lanes[lane].sorted[k]));
           }
         }
         segment.first_row[g + 1] = segment.first_row[g] + static_cast<std::uint32_t>(rows);
       }
+      segment.entries.assign(entries.begin(), entries.end());
     }
   });
 }

@@ -323,7 +323,10 @@ class CpuBackend final : public Backend {
     const std::vector<MaterialRow<Real>>& materials;
 
     Vec3<Real> position(std::size_t i) const { return records[i].x; }
-    Real radius(std::size_t i) const { return materials[static_cast<std::size_t>(records[i].material)].radius; }
+    Real radius(std::size_t i) const {
+      const bool one = materials.size() == 1;
+      return materials[one ? 0 : static_cast<std::size_t>(records[i].material)].radius;
+    }
     std::uint32_t rank(std::size_t i) const { return rank_of(records[i].rank); }
   };
 
@@ -395,7 +398,7 @@ class CpuBackend final : public Backend {
     search.length = pass_.length;
     search.list_self = pass_.periodic_kind == PeriodicKind::images;
     search.dummy = record_offset<Real>(static_cast<std::uint32_t>(records_.size() - 1));
-    build_neighbour_list(search, Points{records_, materials_}, record_offset<Real>, list_);
+    build_neighbour_list(search, Points{records_, materials_}, [](std::uint32_t i) { return record_offset<Real>(i); }, list_);
 
     listed_at_.resize(padded(count_));
     parallel_ranges(listed_at_.size(), kSegment, [&](std::size_t first, std::size_t last) {
