@@ -6,12 +6,13 @@
 
 #include "hooke/io/failure.h"
 #include "hooke/io/hdf5_driver.h"
+#include "hooke/io/shuffle_deflate.h"
 
 namespace hooke::hdf5 {
 
 namespace {
 
-constexpr unsigned kDeflateLevel = 1;  // higher levels gain next to nothing on positions
+constexpr unsigned kDeflateLevel = 1;
 
 /// The name of the file that an object is in, for messages.
 std::filesystem::path file_of(hid_t object) {
@@ -181,6 +182,32 @@ void Column::read(hsize_t start, hsize_t count, hid_t type, void* data) const {
     return H5Dread(dataset_.get(), type, memory, file, H5P_DEFAULT, data);
   });
 }
+
+hsize_t Column::next_chunk(hsize_t rows) const { return (rows + chunk_rows_ - 1) / chunk_rows_ * chunk_rows_; }
+
+template <class Real>
+hsize_t Column::append_chunks(const Real* values, hsize_t count) {
+  const hsize_t first = next_chunk(rows_);
+  resize(next_chunk(first + count));
+  std::vector<Real> last;  // filled up with zeros
+  for (hsize_t start = 0; start < count; start += chunk_rows_) {
+    const Real* chunk = values + start * width_;
+    if (count - start < chunk_rows_) {
+      last.assign(chunk, values + count * width_);
+      last.resize(chunk_rows_ * width_);
+      chunk = last.data();
+    }
+    const std::string bytes = shuffle_deflate(chunk, chunk_rows_ * width_, sizeof(Real));
+    const hsize_t at[2] = {first + start, 0};
+    if (H5Dwrite_chunk(dataset_.get(), H5P_DEFAULT, 0, at, bytes.size(), bytes.data()) < 0) {
+      fail("a table can't be written");
+    }
+  }
+  return first;
+}
+
+template hsize_t Column::append_chunks(const float*, hsize_t);
+template hsize_t Column::append_chunks(const double*, hsize_t);
 
 Handle create_group(hid_t parent, const char* name) {
   return Handle(check(H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), parent,

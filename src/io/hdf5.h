@@ -76,12 +76,18 @@ class Column {
   static Column create(hid_t parent, const char* name, hid_t type, hsize_t width, hsize_t chunk_rows, bool compressed);
 
   hsize_t rows() const { return rows_; }
-  hsize_t chunk_rows() const { return chunk_rows_; }
+  /// The first row at or behind `rows` that starts a chunk.
+  hsize_t next_chunk(hsize_t rows) const;
   void resize(hsize_t rows);
 
   /// `count` rows from `start` on, all within rows().
   void write(hsize_t start, hsize_t count, hid_t type, const void* data);
   void read(hsize_t start, hsize_t count, hid_t type, void* data) const;
+
+  /// Appends rows of floating-point numbers at the next whole chunk, compressed by shuffle_deflate; returns where they
+  /// start. For columns that were made compressed.
+  template <class Real>
+  hsize_t append_chunks(const Real* values, hsize_t count);
 
   /// Throws the Failure that this table's file is damaged, and how.
   [[noreturn]] void fail(const std::string& how) const;

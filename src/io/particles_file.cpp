@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 #include "hooke/io/failure.h"
 #include "hooke/io/run_info_json.h"
@@ -24,30 +25,31 @@ std::int64_t at(const hdf5::Column& column, hsize_t row) {
 
 void put(hdf5::Column& column, std::int64_t value) { column.append(std::vector<std::int64_t>{value}); }
 
-/// First row behind `rows` at which a snapshot may start.
-hsize_t next_start(const hdf5::Column& column, hsize_t rows) {
-  const hsize_t chunk = column.chunk_rows();
-  return (rows + chunk - 1) / chunk * chunk;
-}
-
-/// Appends rows at a whole chunk; returns where they start.
+/// Appends rows of whole numbers at a whole chunk; returns where they start.
 std::int64_t append_rows(hdf5::Column& column, hsize_t count, hid_t type, const void* data) {
-  const hsize_t start = next_start(column, column.rows());
-  column.resize(next_start(column, start + count));
+  const hsize_t start = column.next_chunk(column.rows());
+  column.resize(column.next_chunk(start + count));
   column.write(start, count, type, data);
   return static_cast<std::int64_t>(start);
 }
 
+/// The same for numbers in the precision of the run; `values` are `count` rows.
 template <class Real>
-std::int64_t append_vectors(hdf5::Column& column, const std::vector<Vec3d>& values) {
-  std::vector<Vec3<Real>> converted(values.size());
-  std::transform(values.begin(), values.end(), converted.begin(), vec_cast<Real, double>);
-  return append_rows(column, converted.size(), hdf5::memory_type<Real>(), converted.data());
+std::int64_t append_reals(hdf5::Column& column, hsize_t count, std::span<const double> values) {
+  std::vector<Real> converted(values.size());
+  std::transform(values.begin(), values.end(), converted.begin(), [](double x) { return static_cast<Real>(x); });
+  return static_cast<std::int64_t>(column.append_chunks(converted.data(), count));
+}
+
+std::int64_t append_reals(hdf5::Column& column, hsize_t count, std::span<const double> values, Precision precision) {
+  return precision == Precision::single_precision ? append_reals<float>(column, count, values)
+                                                  : append_reals<double>(column, count, values);
 }
 
 std::int64_t append_vectors(hdf5::Column& column, const std::vector<Vec3d>& values, Precision precision) {
-  if (precision == Precision::single_precision) return append_vectors<float>(column, values);
-  return append_rows(column, values.size(), hdf5::memory_type<double>(), values.data());
+  static_assert(sizeof(Vec3d) == 3 * sizeof(double));
+  const double* first = values.empty() ? nullptr : &values.front().x;
+  return append_reals(column, values.size(), {first, 3 * values.size()}, precision);
 }
 
 std::size_t count_snapshots(hid_t file) {
@@ -137,7 +139,7 @@ void ParticlesFile::Columns::append_identity(const ParticleSet& p, const RunInfo
   for (std::size_t i = 0; i < p.size(); ++i) radii[i] = info.materials.at(p.material[i]).radius;
   last_id_offset = append_rows(id, p.size(), hdf5::memory_type<std::int64_t>(), p.id.data());
   last_material_offset = append_rows(material, p.size(), hdf5::memory_type<std::uint16_t>(), p.material.data());
-  last_radius_offset = append_rows(radius, p.size(), hdf5::memory_type<double>(), radii.data());
+  last_radius_offset = append_reals(radius, p.size(), radii, info.precision);
   last_id = p.id;
   last_material = p.material;
 }
@@ -214,7 +216,7 @@ void ParticlesFile::cut(std::size_t snapshots) {
   }
   // Offsets never go back, so the last snapshot's rows are the last that are needed.
   const auto end_of = [&](const hdf5::Column& column, const hdf5::Column& offsets) {
-    return snapshots == 0 ? 0 : next_start(column, static_cast<hsize_t>(at(offsets, snapshots - 1)) + particles);
+    return snapshots == 0 ? 0 : column.next_chunk(static_cast<hsize_t>(at(offsets, snapshots - 1)) + particles);
   };
   c.points.resize(end_of(c.points, c.point_offsets));
   c.velocity.resize(end_of(c.velocity, c.velocity_offsets));
