@@ -45,7 +45,7 @@ std::size_t CellGrid::neighbour_ranges(std::uint64_t key, KeyRange (&out)[18]) c
   std::int64_t xs[3], ys[3], zs[3];
   const int nx = around(0, xs), ny = around(1, ys), nz = around(2, zs);
   for (int d = 1; d < nx; ++d) {
-    for (int k = d; k > 0 && xs[k] < xs[k - 1]; --k) std::swap(xs[k], xs[k - 1]);
+    for (int e = d; e > 0 && xs[e] < xs[e - 1]; --e) std::swap(xs[e], xs[e - 1]);
   }
 
   std::size_t ranges = 0;
