@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
 #include <ostream>
 
 #include "program.h"
@@ -31,6 +32,18 @@ TEST_P(Determinism, AnyNumberOfThreadsGivesTheSameBits) {
     hooke_ok({"run", "s.json", "-o", threads, "--threads", threads});
     EXPECT_EQ(state_hash(threads), state_hash("one")) << threads;
     EXPECT_EQ(export_all(threads), exported) << threads;
+  }
+}
+
+TEST_P(Determinism, AnyInstructionSetGivesTheSameBits) {
+  hooke_ok({"run", "s.json", "-o", "widest"});
+  for (const char* isa : {"portable", "avx2", "avx512"}) {
+    setenv("HOOKE_ISA", isa, 1);
+    const Outcome outcome = hooke({"run", "s.json", "-o", isa});
+    unsetenv("HOOKE_ISA");
+    if (outcome.status == 2 && std::string(isa) != "portable") continue;  // this processor has none
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(state_hash(isa), state_hash("widest")) << isa;
   }
 }
 

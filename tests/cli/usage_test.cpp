@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 #include <gmock/gmock.h>
+#include <cstdlib>
+
 #include "program.h"
 
 namespace hooke::test {
@@ -62,6 +64,13 @@ TEST_F(Usage, WrongUsageIsStatus2) {
   }
   EXPECT_FALSE(exists("s"));
   EXPECT_THAT(hooke({"run", "s.json", "--device", "cuda"}).err, HasSubstr("cuda is not in this build"));
+}
+
+TEST_F(Usage, AnUnknownInstructionSetIsRefused) {
+  write("s.json", small_scene());
+  setenv("HOOKE_ISA", "sse9", 1);
+  expect_refused({"s.json"}, {"sse9", "portable"});
+  unsetenv("HOOKE_ISA");
 }
 
 TEST_F(Usage, EveryFindingOfASceneAtOnce) {
