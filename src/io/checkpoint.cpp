@@ -38,9 +38,9 @@ void for_each_real(State& s, Visit&& visit) {
   visit(s.ledger.last.dissipated_power);
   visit(s.ledger.last.wall_power);
   visit(s.initial_energy);
-  for (auto* v : {&s.ledger.wall_impulse, &s.ledger.drag_impulse, &s.ledger.gravity_impulse,
-                  &s.ledger.removed_momentum, &s.ledger.last.wall_force, &s.ledger.last.drag_force,
-                  &s.ledger.last.gravity_force, &s.initial_momentum}) {
+  for (auto* v :
+       {&s.ledger.wall_impulse, &s.ledger.drag_impulse, &s.ledger.gravity_impulse, &s.ledger.removed_momentum,
+        &s.ledger.last.wall_force, &s.ledger.last.drag_force, &s.ledger.last.gravity_force, &s.initial_momentum}) {
     visit(v->x);
     visit(v->y);
     visit(v->z);
@@ -203,10 +203,11 @@ Expected<void> write_checkpoint(const std::filesystem::path& path, const Simulat
 }
 
 bool is_checkpoint(const std::filesystem::path& path) {
-  return guarded(path, [&] {
-           const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-           return file && read_seal(file.get(), std::filesystem::file_size(path), path).magic == Seal{}.magic;
-         })
+  return guarded(path,
+                 [&] {
+                   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+                   return file && read_seal(file.get(), std::filesystem::file_size(path), path).magic == Seal{}.magic;
+                 })
       .value_or(false);
 }
 

@@ -60,9 +60,12 @@ Expected<FileDescription> describe_file(const fs::path& file) {
 
 const char* to_string(FileDescription::Kind kind) {
   switch (kind) {
-    case FileDescription::Kind::run_folder: return "run folder";
-    case FileDescription::Kind::particles_file: return "snapshots";
-    case FileDescription::Kind::checkpoint: break;
+    case FileDescription::Kind::run_folder:
+      return "run folder";
+    case FileDescription::Kind::particles_file:
+      return "snapshots";
+    case FileDescription::Kind::checkpoint:
+      break;
   }
   return "checkpoint";
 }

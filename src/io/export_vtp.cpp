@@ -32,10 +32,10 @@ class AppendedArrays {
   /// The XML element of an array whose values come next.
   template <class T>
   std::string declare(const char* name, const std::vector<T>& values, int components) {
-    const std::string element = fmt::format(
-        R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>)"
-        "\n",
-        kTypeName<T>, name, components, bytes_.size());
+    const std::string element =
+        fmt::format(R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>)"
+                    "\n",
+                    kTypeName<T>, name, components, bytes_.size());
     const std::uint64_t size = values.size() * sizeof(T);
     bytes_.append(reinterpret_cast<const char*>(&size), sizeof size);
     bytes_.append(reinterpret_cast<const char*>(values.data()), size);
@@ -113,10 +113,17 @@ std::string xml_text(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
     switch (c) {
-      case '&': escaped += "&amp;"; break;
-      case '<': escaped += "&lt;"; break;
-      case '"': escaped += "&quot;"; break;
-      default: escaped += c;
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
     }
   }
   return escaped;

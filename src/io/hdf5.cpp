@@ -43,13 +43,26 @@ std::unique_lock<std::recursive_mutex> lock() {
 Handle::~Handle() {
   if (id_ < 0) return;
   switch (H5Iget_type(id_)) {
-    case H5I_FILE: H5Fclose(id_); break;
-    case H5I_GENPROP_LST: H5Pclose(id_); break;
-    case H5I_ATTR: H5Aclose(id_); break;
-    case H5I_DATASPACE: H5Sclose(id_); break;
-    case H5I_DATATYPE: H5Tclose(id_); break;
-    case H5I_BADID: break;  // closed with its file
-    default: H5Oclose(id_); break;
+    case H5I_FILE:
+      H5Fclose(id_);
+      break;
+    case H5I_GENPROP_LST:
+      H5Pclose(id_);
+      break;
+    case H5I_ATTR:
+      H5Aclose(id_);
+      break;
+    case H5I_DATASPACE:
+      H5Sclose(id_);
+      break;
+    case H5I_DATATYPE:
+      H5Tclose(id_);
+      break;
+    case H5I_BADID:
+      break;  // closed with its file
+    default:
+      H5Oclose(id_);
+      break;
   }
 }
 
@@ -60,10 +73,10 @@ File::File(const std::filesystem::path& path, JournaledFile::Mode mode)
   }
   const Handle access = access_through(*bytes_);
   const std::string name = path.string();
-  file_ = Handle(mode == JournaledFile::Mode::create
-                     ? H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get())
-                     : H5Fopen(name.c_str(), mode == JournaledFile::Mode::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR,
-                               access.get()));
+  file_ = Handle(
+      mode == JournaledFile::Mode::create
+          ? H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get())
+          : H5Fopen(name.c_str(), mode == JournaledFile::Mode::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR, access.get()));
   if (file_.get() < 0) {
     throw Failure(Error::Kind::bad_input, path, "is damaged, cut short, or no HDF5 file");
   }
@@ -80,34 +93,58 @@ void File::commit() {
   bytes_->commit();
 }
 
-void File::close() {
-  file_ = Handle();
+void File::check_writes() const {
   if (const int error = bytes_->write_error()) {
     throw Failure(Error::Kind::io, bytes_->path(), "can't be written: " + system_message(error));
   }
 }
 
-template <>
-hid_t memory_type<float>() { return H5T_NATIVE_FLOAT; }
-template <>
-hid_t memory_type<double>() { return H5T_NATIVE_DOUBLE; }
-template <>
-hid_t memory_type<std::int64_t>() { return H5T_NATIVE_INT64; }
-template <>
-hid_t memory_type<std::uint64_t>() { return H5T_NATIVE_UINT64; }
-template <>
-hid_t memory_type<std::uint16_t>() { return H5T_NATIVE_UINT16; }
+void File::close() {
+  file_ = Handle();
+  check_writes();
+}
 
 template <>
-hid_t file_type<float>() { return H5T_IEEE_F32LE; }
+hid_t memory_type<float>() {
+  return H5T_NATIVE_FLOAT;
+}
 template <>
-hid_t file_type<double>() { return H5T_IEEE_F64LE; }
+hid_t memory_type<double>() {
+  return H5T_NATIVE_DOUBLE;
+}
 template <>
-hid_t file_type<std::int64_t>() { return H5T_STD_I64LE; }
+hid_t memory_type<std::int64_t>() {
+  return H5T_NATIVE_INT64;
+}
 template <>
-hid_t file_type<std::uint64_t>() { return H5T_STD_U64LE; }
+hid_t memory_type<std::uint64_t>() {
+  return H5T_NATIVE_UINT64;
+}
 template <>
-hid_t file_type<std::uint16_t>() { return H5T_STD_U16LE; }
+hid_t memory_type<std::uint16_t>() {
+  return H5T_NATIVE_UINT16;
+}
+
+template <>
+hid_t file_type<float>() {
+  return H5T_IEEE_F32LE;
+}
+template <>
+hid_t file_type<double>() {
+  return H5T_IEEE_F64LE;
+}
+template <>
+hid_t file_type<std::int64_t>() {
+  return H5T_STD_I64LE;
+}
+template <>
+hid_t file_type<std::uint64_t>() {
+  return H5T_STD_U64LE;
+}
+template <>
+hid_t file_type<std::uint16_t>() {
+  return H5T_STD_U16LE;
+}
 
 Column Column::create(hid_t parent, const char* name, hid_t type, hsize_t width, hsize_t chunk_rows, bool compressed) {
   const int rank = width == 1 ? 1 : 2;
@@ -130,7 +167,8 @@ Column Column::create(hid_t parent, const char* name, hid_t type, hsize_t width,
 }
 
 Column::Column(hid_t parent, const char* name, hsize_t width)
-    : dataset_(H5Dopen2(parent, name, H5P_DEFAULT)), width_(width) {
+    : dataset_(H5Dopen2(parent, name, H5P_DEFAULT)),
+      width_(width) {
   check(dataset_.get(), parent, std::string("it has no ") + name);
   const Handle space(H5Dget_space(dataset_.get()));
   const Handle properties(H5Dget_create_plist(dataset_.get()));
@@ -172,15 +210,13 @@ void with_rows(hid_t dataset, hsize_t start, hsize_t count, hsize_t width, Trans
 }  // namespace
 
 void Column::write(hsize_t start, hsize_t count, hid_t type, const void* data) {
-  with_rows(dataset_.get(), start, count, width_, [&](hid_t memory, hid_t file) {
-    return H5Dwrite(dataset_.get(), type, memory, file, H5P_DEFAULT, data);
-  });
+  with_rows(dataset_.get(), start, count, width_,
+            [&](hid_t memory, hid_t file) { return H5Dwrite(dataset_.get(), type, memory, file, H5P_DEFAULT, data); });
 }
 
 void Column::read(hsize_t start, hsize_t count, hid_t type, void* data) const {
-  with_rows(dataset_.get(), start, count, width_, [&](hid_t memory, hid_t file) {
-    return H5Dread(dataset_.get(), type, memory, file, H5P_DEFAULT, data);
-  });
+  with_rows(dataset_.get(), start, count, width_,
+            [&](hid_t memory, hid_t file) { return H5Dread(dataset_.get(), type, memory, file, H5P_DEFAULT, data); });
 }
 
 hsize_t Column::next_chunk(hsize_t rows) const { return (rows + chunk_rows_ - 1) / chunk_rows_ * chunk_rows_; }
@@ -266,7 +302,8 @@ void write_text(hid_t parent, const char* name, const std::string& text) {
   H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
   const Handle space(H5Screate(H5S_SCALAR));
   const Handle dataset(H5Dcreate2(parent, name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-  const bool good = dataset.get() >= 0 && H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) >= 0;
+  const bool good =
+      dataset.get() >= 0 && H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) >= 0;
   if (!good) fail_at(parent, std::string("can't make ") + name);
 }
 

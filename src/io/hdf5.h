@@ -53,6 +53,8 @@ class File {
 
   /// Everything written so far becomes the committed state.
   void commit();
+  /// Throws the error of the first write that failed, if one did.
+  void check_writes() const;
   /// Flushes and closes; for files that were written without a commit. The last error, if there was one.
   void close();
 
@@ -119,7 +121,8 @@ bool exists(hid_t parent, const char* name);
 void remove(hid_t parent, const char* name);
 
 /// Scalar or short vector attributes, 64-bit whole numbers or doubles.
-void write_integer_attribute(hid_t object, const char* name, const std::vector<std::int64_t>& values, bool scalar = false);
+void write_integer_attribute(hid_t object, const char* name, const std::vector<std::int64_t>& values,
+                             bool scalar = false);
 void write_text_attribute(hid_t object, const char* name, const std::string& text);
 std::int64_t read_integer_attribute(hid_t object, const char* name);
 void set_integer_attribute(hid_t object, const char* name, std::int64_t value);

@@ -40,9 +40,12 @@ void lock_against_readers(int fd) {
 
 int open_flags(JournaledFile::Mode mode) {
   switch (mode) {
-    case JournaledFile::Mode::read: return O_RDONLY;
-    case JournaledFile::Mode::update: return O_RDWR;
-    case JournaledFile::Mode::create: break;
+    case JournaledFile::Mode::read:
+      return O_RDONLY;
+    case JournaledFile::Mode::update:
+      return O_RDWR;
+    case JournaledFile::Mode::create:
+      break;
   }
   return O_RDWR | O_CREAT | O_TRUNC;
 }
@@ -50,7 +53,9 @@ int open_flags(JournaledFile::Mode mode) {
 }  // namespace
 
 JournaledFile::JournaledFile(const std::filesystem::path& file, Mode mode)
-    : file_(file), mode_(mode), fd_(::open(file.c_str(), open_flags(mode) | O_CLOEXEC, 0666)) {
+    : file_(file),
+      mode_(mode),
+      fd_(::open(file.c_str(), open_flags(mode) | O_CLOEXEC, 0666)) {
   if (!fd_) {
     throw Failure(errno == ENOENT && mode == Mode::read ? Error::Kind::bad_input : Error::Kind::io, file,
                   "can't be opened: " + system_message(errno));
@@ -79,7 +84,7 @@ std::filesystem::path JournaledFile::journal_path() const {
 }
 
 std::uint64_t JournaledFile::size() const {
-  struct stat status {};
+  struct stat status{};
   std::uint64_t bytes = ::fstat(fd_.get(), &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
   if (!pages_.empty()) bytes = std::max(bytes, (pages_.rbegin()->first + 1) * kPageBytes);
   return bytes;
@@ -88,7 +93,7 @@ std::uint64_t JournaledFile::size() const {
 // A journal is words: magic, number of pages, then each page's index and content, then the checksum of all that.
 bool JournaledFile::load_journal() {
   const Descriptor journal(::open(journal_path().c_str(), O_RDONLY | O_CLOEXEC));
-  struct stat status {};
+  struct stat status{};
   if (!journal || ::fstat(journal.get(), &status) != 0) return false;
   const auto bytes = static_cast<std::size_t>(status.st_size);
   constexpr std::size_t kEntryWords = 1 + kPageBytes / sizeof(std::uint64_t);
@@ -186,7 +191,8 @@ void JournaledFile::commit() {
 
 void JournaledFile::trim() {
   // Best effort: what lies there does no harm but takes space.
-  if (writable()) [[maybe_unused]] const int ignored = ::ftruncate(fd_.get(), static_cast<off_t>(committed_end_));
+  if (writable()) [[maybe_unused]]
+    const int ignored = ::ftruncate(fd_.get(), static_cast<off_t>(committed_end_));
 }
 
 void JournaledFile::sync() {

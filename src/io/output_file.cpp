@@ -92,7 +92,8 @@ void publish(const std::filesystem::path& file) {
 }
 
 OutputFile::OutputFile(const std::filesystem::path& file)
-    : file_(file), fd_(::open(unfinished_name(file).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+    : file_(file),
+      fd_(::open(unfinished_name(file).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
   if (!fd_) throw Failure(Error::Kind::io, file_, "can't be written: " + system_message(errno));
   buffer_.reserve(kBufferBytes);
 }

@@ -80,7 +80,8 @@ Snapshot read_snapshot(const VtkhdfColumns& columns, std::size_t index) {
   const auto row = [index](const hdf5::Column& offsets) { return static_cast<hsize_t>(at(offsets, index)); };
   const auto n = static_cast<hsize_t>(at(columns.number_of_points, row(columns.part_offsets)));
   // A damaged count must not make us ask for more memory than there are rows to fill it.
-  if (row(columns.point_offsets) + n > columns.points.rows()) columns.points.fail("a snapshot is longer than its table");
+  if (row(columns.point_offsets) + n > columns.points.rows())
+    columns.points.fail("a snapshot is longer than its table");
   ParticleSet& p = snapshot.particles;
   p.id.resize(n);
   p.material.resize(n);
@@ -234,6 +235,19 @@ void ParticlesFile::cut(std::size_t snapshots) {
 }
 
 void ParticlesFile::append(const Snapshot& snapshot) {
+  try {
+    write_snapshot(snapshot);
+    file_.commit();
+    last_step_ = snapshot.step;
+  } catch (const std::exception&) {
+    file_.bytes().trim();
+    // HDF5 may have stumbled over what is not on the disk; the disk is the cause.
+    file_.check_writes();
+    throw;
+  }
+}
+
+void ParticlesFile::write_snapshot(const Snapshot& snapshot) {
   const ParticleSet& p = snapshot.particles;
   if (!columns_) {
     columns_ = std::make_unique<Columns>(VtkhdfColumns::create(file_.id(), p.size(), info_.precision));
@@ -257,13 +271,6 @@ void ParticlesFile::append(const Snapshot& snapshot) {
   put(c.step, snapshot.step);
   const hdf5::Handle steps = hdf5::open_group(file_.id(), "VTKHDF/Steps");
   hdf5::set_integer_attribute(steps.get(), "NSteps", static_cast<std::int64_t>(c.step.rows()));
-  try {
-    file_.commit();
-  } catch (const Failure&) {
-    file_.bytes().trim();
-    throw;
-  }
-  last_step_ = snapshot.step;
 }
 
 void ParticlesFile::sync() { file_.bytes().sync(); }

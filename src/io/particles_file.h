@@ -49,6 +49,7 @@ class ParticlesFile {
  private:
   struct Columns;
   ParticlesFile(hdf5::File file, RunInfo info);
+  void write_snapshot(const Snapshot& snapshot);
   void cut(std::size_t snapshots);
 
   RunInfo info_;

@@ -72,14 +72,10 @@ std::string to_json(const RunReport& r) {
   json["precision"] = to_string(r.precision);
   json["peak_bytes"] = r.peak_bytes;
   json["state_hash"] = fmt::format("{:016x}", r.state_hash);
-  json["energy"] = {{"kinetic", m.kinetic_energy},
-                    {"potential", m.potential_energy},
-                    {"elastic", m.elastic_energy},
-                    {"wall_elastic", m.wall_elastic_energy},
-                    {"dissipated", r.ledger.dissipated},
-                    {"work_by_walls", r.ledger.wall_work},
-                    {"removed", r.ledger.removed_energy},
-                    {"initial", r.initial_energy},
+  json["energy"] = {{"kinetic", m.kinetic_energy},        {"potential", m.potential_energy},
+                    {"elastic", m.elastic_energy},        {"wall_elastic", m.wall_elastic_energy},
+                    {"dissipated", r.ledger.dissipated},  {"work_by_walls", r.ledger.wall_work},
+                    {"removed", r.ledger.removed_energy}, {"initial", r.initial_energy},
                     {"balance", r.energy_balance()}};
   json["momentum"] = to_array(m.momentum);
   json["momentum_drift"] = r.momentum_drift;

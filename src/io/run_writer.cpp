@@ -110,6 +110,8 @@ struct RunWriter::Impl {
     std::unique_lock lock(mutex);
     changed.wait(lock, [&] { return queue.empty() || error; });
     if (error) return hooke::fail(*error);
+    if (stopping)
+      return hooke::fail(Error::Kind::bad_input, folder.string(), "is finished: nothing more can be written");
     queue.push_back(std::move(item));
     changed.notify_all();
     return {};
@@ -181,8 +183,7 @@ Expected<RunWriter> RunWriter::create(const fs::path& folder, const RunInfo& inf
       // Nothing half-made stays behind; what made this fail is what gets reported.
       try {
         remove_run(folder);
-      } catch (const Failure&) {
-      }
+      } catch (const Failure&) {}
       if (!made.empty()) fs::remove_all(made, ignored);
       throw;
     }

@@ -27,7 +27,8 @@ void write_whole(const std::filesystem::path& path, std::string_view text) {
 }  // namespace
 
 SeriesFile::SeriesFile(const std::filesystem::path& path)
-    : path_(path), fd_(::open(path.c_str(), O_WRONLY | O_CLOEXEC)) {
+    : path_(path),
+      fd_(::open(path.c_str(), O_WRONLY | O_CLOEXEC)) {
   if (!fd_) throw Failure(Error::Kind::io, path, "can't be opened: " + system_message(errno));
   size_ = std::filesystem::file_size(path);
 }

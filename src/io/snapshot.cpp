@@ -25,9 +25,7 @@ Snapshot take_snapshot(const Simulation& simulation) {
   return {simulation.step_count(), simulation.time(), {now.id, now.material, now.position, now.velocity, {}}};
 }
 
-const char* to_string(Precision precision) {
-  return precision == Precision::single_precision ? "single" : "double";
-}
+const char* to_string(Precision precision) { return precision == Precision::single_precision ? "single" : "double"; }
 
 const char* to_string(Integrator integrator) {
   return integrator == Integrator::symplectic_euler ? "symplectic-euler" : "velocity-verlet";

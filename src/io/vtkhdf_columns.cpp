@@ -69,15 +69,15 @@ VtkhdfColumns VtkhdfColumns::create(hid_t file, std::size_t particles, Precision
   hdf5::write_integer_attribute(steps.get(), "NSteps", {0}, true);
   hdf5::create_group(steps.get(), "PointDataOffsets");
 
-  const hid_t real =
-      precision == Precision::single_precision ? hdf5::file_type<float>() : hdf5::file_type<double>();
+  const hid_t real = precision == Precision::single_precision ? hdf5::file_type<float>() : hdf5::file_type<double>();
   VtkhdfColumns columns;
-  visit_all(columns, file,
-            [&](hdf5::Column& column, const hdf5::Handle& group, const char* name, hid_t type, hsize_t width, Rows rows) {
-              const hsize_t chunk_rows = rows == Rows::table ? kTableRows : chunk_rows_for(particles);
-              column = hdf5::Column::create(group.get(), name, type == 0 ? real : type, width, chunk_rows,
-                                            rows != Rows::table);
-            });
+  visit_all(
+      columns, file,
+      [&](hdf5::Column& column, const hdf5::Handle& group, const char* name, hid_t type, hsize_t width, Rows rows) {
+        const hsize_t chunk_rows = rows == Rows::table ? kTableRows : chunk_rows_for(particles);
+        column =
+            hdf5::Column::create(group.get(), name, type == 0 ? real : type, width, chunk_rows, rows != Rows::table);
+      });
   return columns;
 }
 

@@ -94,7 +94,9 @@ void expect_csv_round_trip(Precision precision) {
   EXPECT_FALSE(std::getline(lines, line));
 }
 
-TEST(ExportCsv, FloatsReadBackToTheSameFloat) { expect_csv_round_trip<float, std::uint32_t>(Precision::single_precision); }
+TEST(ExportCsv, FloatsReadBackToTheSameFloat) {
+  expect_csv_round_trip<float, std::uint32_t>(Precision::single_precision);
+}
 TEST(ExportCsv, DoublesReadBackToTheSameDouble) {
   expect_csv_round_trip<double, std::uint64_t>(Precision::double_precision);
 }

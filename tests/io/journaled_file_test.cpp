@@ -66,18 +66,55 @@ TEST_F(Journaled, WhatIsNotCommittedIsForgotten) {
   EXPECT_EQ(read(*file, 98, 8), std::string(8, 'a'));
 }
 
-// A commit that stops anywhere: the journal cut short at every length that matters, and whole but not applied.
+// A commit that stops anywhere: in the journal, after it, or while its pages are put in place.
 TEST_F(Journaled, AnInterruptedCommitIsWholeOrNothing) {
   write(0, std::string(3 * 4096, 'a'));
   file->commit();
   const std::string before = samples::read_file(path);
-  // A folder in the journal's place keeps it from being written; to get at one, take the library's own.
   write(1000, "new");
   write(9000, "new");
+  // A second name for the journal keeps it when the commit is done.
+  samples::write_file(folder / "kept", "");
+  std::filesystem::create_hard_link(folder / "kept", journal);
+  file->commit();
+  file.reset();
+  const std::string after = samples::read_file(path);
+  const std::string whole_journal = samples::read_file(folder / "kept");
+  ASSERT_GT(whole_journal.size(), 2 * 4096U);
+  ASSERT_NE(after, before);
+  const std::string half_applied = after.substr(0, 5000) + before.substr(5000);
+
+  const auto content = [&] { return committed(0, before.size()); };
+  for (std::size_t size = 0; size < whole_journal.size(); size += 41) {
+    samples::write_file(path, before);
+    samples::write_file(journal, whole_journal.substr(0, size));
+    ASSERT_EQ(content(), before) << size;
+    JournaledFile(path, Mode::update);
+    ASSERT_EQ(samples::read_file(path), before);
+    ASSERT_FALSE(std::filesystem::exists(journal));
+  }
+  for (const std::string& interrupted : {before, half_applied, after}) {
+    samples::write_file(path, interrupted);
+    samples::write_file(journal, whole_journal);
+    EXPECT_EQ(content(), after);
+    JournaledFile(path, Mode::update);
+    EXPECT_EQ(samples::read_file(path), after);
+    EXPECT_FALSE(std::filesystem::exists(journal));
+  }
+  std::string damaged = whole_journal;
+  damaged[100] = static_cast<char>(damaged[100] ^ 1);
+  samples::write_file(path, before);
+  samples::write_file(journal, damaged);
+  EXPECT_EQ(content(), before);
+}
+
+TEST_F(Journaled, ACommitThatCantWriteItsJournalChangesNothing) {
+  write(0, std::string(3 * 4096, 'a'));
+  file->commit();
+  write(1000, "new");
   std::filesystem::create_directory(journal);
   EXPECT_THROW(file->commit(), std::exception);
-  EXPECT_EQ(samples::read_file(path), before);
-  std::filesystem::remove(journal);
+  EXPECT_EQ(samples::read_file(path), std::string(3 * 4096, 'a'));
 }
 
 TEST_F(Journaled, AFailedWriteStaysAnError) {

@@ -111,8 +111,8 @@ TEST_F(RunFolder, WritesAStepOnceAndInOrder) {
   for (const std::int64_t step : {0, 8, 8}) ASSERT_TRUE(writer->write_series(samples::series_row(step)));
   ASSERT_TRUE(writer->finish());
   expect_snapshots({samples::snapshot(8, 4)});
-  EXPECT_EQ(samples::read_file(run / "series.csv"), series_header() + '\n' + to_csv(samples::series_row(0)) + '\n' +
-                                                        to_csv(samples::series_row(8)) + '\n');
+  EXPECT_EQ(samples::read_file(run / "series.csv"),
+            series_header() + '\n' + to_csv(samples::series_row(0)) + '\n' + to_csv(samples::series_row(8)) + '\n');
 }
 
 TEST_F(RunFolder, RefusesARunThatIsThereUnlessToldTo) {
@@ -239,15 +239,14 @@ TEST_F(RunFolder, ResumingFromAnOlderCheckpointCutsWhatCameAfter) {
   ASSERT_TRUE(resumed);
   ASSERT_TRUE(resumed->finish());
   expect_snapshots({samples::snapshot(0, 2000), samples::snapshot(8, 2000), samples::snapshot(16, 2000)});
-  EXPECT_EQ(samples::read_file(run / "series.csv"),
-            series_header() + '\n' + to_csv(samples::series_row(0)) + '\n' + to_csv(samples::series_row(8)) + '\n' +
-                to_csv(samples::series_row(16)) + '\n');
+  EXPECT_EQ(samples::read_file(run / "series.csv"), series_header() + '\n' + to_csv(samples::series_row(0)) + '\n' +
+                                                        to_csv(samples::series_row(8)) + '\n' +
+                                                        to_csv(samples::series_row(16)) + '\n');
 }
 
 TEST_F(RunFolder, ResumingAnotherKindOfRunIsRefused) {
   ASSERT_TRUE(create()->finish());
-  const auto other =
-      RunWriter::resume(run, samples::run_info(Precision::double_precision), "{}", 0, kEveryEight);
+  const auto other = RunWriter::resume(run, samples::run_info(Precision::double_precision), "{}", 0, kEveryEight);
   ASSERT_FALSE(other);
   EXPECT_NE(other.error().text().find("is of another run"), std::string::npos);
   EXPECT_FALSE(RunWriter::resume(folder / "none", samples::run_info(), "{}", 0, kEveryEight));

@@ -29,7 +29,7 @@ class SharedNumber {
  public:
   SharedNumber()
       : memory_(::mmap(nullptr, sizeof(Number), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)),
-        number_(new (memory_) Number(-1)) {}
+        number_(new(memory_) Number(-1)) {}
   ~SharedNumber() { ::munmap(memory_, sizeof(Number)); }
   SharedNumber(const SharedNumber&) = delete;
   SharedNumber& operator=(const SharedNumber&) = delete;

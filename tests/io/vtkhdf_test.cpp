@@ -55,8 +55,8 @@ class Vtkhdf : public testing::Test {
   std::string stored_type(const std::string& name) {
     const hid_t dataset = H5Dopen2(file, ("VTKHDF/" + name).c_str(), H5P_DEFAULT);
     const hid_t type = H5Dget_type(dataset);
-    const std::string text = std::string(H5Tget_class(type) == H5T_FLOAT ? "float" : "int") +
-                             std::to_string(8 * H5Tget_size(type));
+    const std::string text =
+        std::string(H5Tget_class(type) == H5T_FLOAT ? "float" : "int") + std::to_string(8 * H5Tget_size(type));
     H5Tclose(type);
     H5Dclose(dataset);
     return text;
@@ -138,8 +138,8 @@ TEST_F(Vtkhdf, EveryStepIsWhereTheSpecificationLooksForIt) {
     const auto offset_of = [&](const char* array) {
       return static_cast<hsize_t>(whole(std::string("Steps/PointDataOffsets/") + array, k, 1)[0]);
     };
-    const auto points = read<float>("Points", H5T_NATIVE_FLOAT,
-                                    static_cast<hsize_t>(whole("Steps/PointOffsets", k, 1)[0]), n, 3);
+    const auto points =
+        read<float>("Points", H5T_NATIVE_FLOAT, static_cast<hsize_t>(whole("Steps/PointOffsets", k, 1)[0]), n, 3);
     const auto velocity = read<float>("PointData/velocity", H5T_NATIVE_FLOAT, offset_of("velocity"), n, 3);
     const auto id = whole("PointData/id", offset_of("id"), n);
     const auto material = whole("PointData/material", offset_of("material"), n);
