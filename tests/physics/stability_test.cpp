@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+// The largest stable step of a pile, found by running one: a face-centred cubic block, touching by a hair.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "hooke/physics/stability.h"
+#include "support/engines.h"
+#include "support/particles.h"
+
+namespace hooke::test {
+namespace {
+
+constexpr int kCells = 2;  // an axis; the fastest mode alternates within one
+constexpr double kOverlap = 1e-3;
+
+Scene fcc_scene(const ContactCoefficients<double>& contact) {
+  Scene scene = open_scene();
+  scene.materials[0].contact = contact;
+  const double edge = std::sqrt(2.0) * (1 - kOverlap);
+  scene.domain.min = {0, 0, 0};
+  scene.domain.max = kCells * edge * Vec3d{1, 1, 1};
+  scene.domain.boundary = {Boundary::periodic, Boundary::periodic, Boundary::periodic};
+  return scene;
+}
+
+ParticleSet fcc_block(const Scene& scene) {
+  const double half = component(scene.domain.max, 0) / (2 * kCells);
+  ParticleSet particles;
+  for (int z = 0; z < 2 * kCells; ++z) {
+    for (int y = 0; y < 2 * kCells; ++y) {
+      for (int x = 0; x < 2 * kCells; ++x) {
+        if ((x + y + z) % 2 == 0) add(particles, half * Vec3d{x + 0.5, y + 0.5, z + 0.5}, {0, 0, 0});
+      }
+    }
+  }
+  return particles;
+}
+
+// How far a displacement of 1e-10 m grows in `steps` of `dt`.
+double growth(const ContactCoefficients<double>& contact, double dt, int steps = 80) {
+  constexpr double kStart = 1e-10;
+  Scene scene = fcc_scene(contact);
+  scene.time_step = dt;
+  ParticleSet particles = fcc_block(scene);
+  const ParticleSet at_rest = particles;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const auto u = random4(1, i);
+    particles.position[i] += kStart * Vec3d{2 * u[0] - 1, 2 * u[1] - 1, 2 * u[2] - 1};
+    particles.velocity[i] = (kStart / dt) * Vec3d{2 * u[1] - 1, 2 * u[2] - 1, 2 * u[3] - 1};
+  }
+  Simulation simulation = simulate(scene, particles, kReference);
+  EXPECT_EQ(measured(simulation).contacts, 6 * particles.size()) << "twelve neighbours each";
+  if (!advance(simulation, steps)) return INFINITY;
+  double furthest = 0;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const Vec3d moved = simulation.positions()[i] - at_rest.position[i];
+    furthest = std::max(furthest, std::sqrt(dot(moved, moved)));
+  }
+  return furthest / kStart;
+}
+
+// The block is 0.1 % compressed, which lowers its eigenvalues by as little.
+constexpr double kNear = 0.02;
+constexpr int kManySteps = 300;  // a mode of dashpots grows by 4 % a step there
+
+TEST(FccPile, SpringsHaveTheEigenvalueEightKOverM) {
+  const ContactCoefficients<double> springs{1000, 0, 0};
+  const double critical = critical_step(8 * 1000, 0);
+  EXPECT_LT(growth(springs, (1 - kNear) * critical), 100);
+  EXPECT_GT(growth(springs, (1 + kNear) * critical), 1e5);
+}
+
+TEST(FccPile, DashpotsHaveTheEigenvalueSixteenCOverM) {
+  const ContactCoefficients<double> dashpots{0, 0, 10};
+  const double critical = critical_step(0, 16 * 10);
+  EXPECT_LT(growth(dashpots, (1 - kNear) * critical, kManySteps), 100);
+  EXPECT_GT(growth(dashpots, (1 + kNear) * critical, kManySteps), 1e4);
+}
+
+TEST(FccPile, BothTogetherObeyTheCombinedBound) {
+  const ContactCoefficients<double> both{1000, 0, 10};
+  // The two largest eigenvalues belong to the same mode of the fcc lattice.
+  const double critical = critical_step(8 * 1000, 16 * 10);
+  EXPECT_LT(growth(both, (1 - kNear) * critical, kManySteps), 100);
+  EXPECT_GT(growth(both, (1 + kNear) * critical, kManySteps), 1e4);
+}
+
+TEST(StableStep, IsOnTheSafeSideOfAnFccPile) {
+  for (const ContactCoefficients<double>& c :
+       {ContactCoefficients<double>{1000, 0, 0}, {0, 0, 10}, {1000, 5, 10}, {0, 3, 0}, {1000, 0.1, 0.1}}) {
+    const double stable = stable_step(fcc_scene(c)).seconds;
+    EXPECT_LT(stable, critical_step(8 * c.stiffness, 16 * (c.shear + c.damping)));
+    EXPECT_LT(growth(c, stable), 100);
+  }
+}
+
+TEST(StableStep, NamesThePairThatLimits) {
+  Scene scene = open_scene();
+  scene.materials = {{"soft", 0.5, 1, {10, 0, 0}, 0, ""}, {"hard", 0.5, 1, {1e6, 0, 0}, 0, ""}};
+  EXPECT_EQ(stable_step(scene).limit, "stiffness of hard - hard");
+  EXPECT_DOUBLE_EQ(stable_step(scene).seconds, critical_step(kPileSpringFactor * 1e6, 0));
+  scene.contacts = {{0, 1, {1e8, 0, 0}}};
+  EXPECT_EQ(stable_step(scene).limit, "stiffness of soft - hard");
+  scene.contacts = {{0, ContactEntry::kWall, {1e9, 0, 0}}};
+  EXPECT_EQ(stable_step(scene).limit, "stiffness and damping of soft - wall");
+  scene.contacts = {};
+  scene.materials[1].contact = {0, 1000, 1000};
+  EXPECT_EQ(stable_step(scene).limit, "shear and damping of hard - hard");
+}
+
+TEST(StableStep, IsInfiniteWhereNothingOscillates) {
+  Scene scene = open_scene();
+  scene.materials[0].contact = {0, 0, 0};
+  EXPECT_EQ(stable_step(scene).seconds, INFINITY);
+  scene.materials.clear();
+  EXPECT_EQ(stable_step(scene).seconds, INFINITY);
+}
+
+}  // namespace
+}  // namespace hooke::test

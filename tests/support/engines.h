@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "hooke/core/simulation.h"
+
+namespace hooke::test {
+
+/// A back end to test with.
+struct Engine {
+  std::string device = "cpu";  ///< "cpu" or "reference"
+  Precision precision = Precision::double_precision;
+  int threads = 1;
+  std::string isa;  ///< empty: the widest
+
+  std::string name() const;  ///< "cpu_double", for messages and names of tests
+};
+
+inline const Engine kReference{"reference", Precision::double_precision, 1, ""};
+inline const Engine kCpuDouble{"cpu", Precision::double_precision, 1, ""};
+inline const Engine kCpuSingle{"cpu", Precision::single_precision, 1, ""};
+
+std::unique_ptr<Backend> make_backend(const Engine& engine);
+
+/// A simulation of `particles` on `engine`, the scene's precision set to the engine's. Fails the test, with the
+/// findings, and throws where it can't be had.
+Simulation simulate(Scene scene, const ParticleSet& particles, const Engine& engine);
+
+/// Goes on from `state` likewise.
+Simulation resume(Scene scene, const SimulationState& state, const Engine& engine);
+
+/// Takes `steps` steps; false, with the error as a test failure, where the run goes bad.
+bool advance(Simulation& simulation, std::int64_t steps);
+
+/// The figures of this instant; a test failure where there are none.
+Measurements measured(const Simulation& simulation);
+
+/// Kinetic, potential and elastic energy plus what dashpots and departures took less what walls gave, J: what stays the
+/// same but for the integrator's error.
+double accounted_energy(const Simulation& simulation);
+
+}  // namespace hooke::test
