@@ -23,8 +23,8 @@ HOOKE_HD R nearest_image(const R& x_i, const R& x_p, const R& length) {
 }
 
 /// `x` (m) brought back into [min, max) after a drift across a periodic face. A particle that moved by several
-/// lengths of the axis in one step comes back too. The result is never max itself, which the subtraction may round
-/// to. NaN, and what is a billion lengths away, stay as they are: the step reports them.
+/// lengths of the axis in one step comes back too. The result is always inside, also where the subtraction rounds to
+/// max or, after very many lengths, misses the domain: then it is min. NaN, and what is a billion lengths away, stay as they are: the step reports them.
 template <class R>
 HOOKE_HD R wrap_coordinate(R x, R min, R max) {
   if (x >= min && x < max) return x;
@@ -35,7 +35,7 @@ HOOKE_HD R wrap_coordinate(R x, R min, R max) {
   if (turns < R(0)) --whole;
   x = x - static_cast<R>(whole) * length;
   if (x < min) x = x + length;
-  return x >= max ? min : x;
+  return x >= min && x < max ? x : min;
 }
 
 }  // namespace hooke
