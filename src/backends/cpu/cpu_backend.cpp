@@ -3,6 +3,7 @@
 
 #include "hooke/backends/cpu/cpu_backend.h"
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
@@ -217,7 +218,7 @@ class CpuBackend final : public Backend {
   Expected<Measurements> measure() override {
     if (!listed_) {
       if (const Condition found = build_neighbours(); !found.good()) {
-        return fail(Error::Kind::run_failed, "particle " + std::to_string(found.particle), "is at no finite position");
+        return fail(Error::Kind::run_failed, fmt::format("particle {}", found.particle), "is at no finite position");
       }
     }
     MeasurementSums total;
@@ -608,7 +609,7 @@ class CpuBackend final : public Backend {
 Expected<std::unique_ptr<Backend>> make_cpu_backend(const CpuOptions& options) {
   constexpr int kMostThreads = 1024;
   if (options.threads < 0 || options.threads > kMostThreads) {
-    return fail(Error::Kind::bad_input, "threads", std::to_string(options.threads) + " is not between 1 and 1024");
+    return fail(Error::Kind::bad_input, "threads", fmt::format("{} is not between 1 and 1024", options.threads));
   }
   const auto isa = choose_isa(options.isa);
   if (!isa) return fail(isa.error());

@@ -3,6 +3,8 @@
 
 #include "hooke/backends/cpu/isa.h"
 
+#include <fmt/format.h>
+
 namespace hooke {
 
 std::vector<Isa> available_isas() {
@@ -23,9 +25,10 @@ Expected<Isa> choose_isa(const std::string& name) {
   std::string known;
   for (const Isa& isa : isas) {
     if (name == isa.name) return isa;
-    known += std::string(known.empty() ? "" : ", ") + isa.name;
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", isa.name);
   }
-  return fail(Error::Kind::bad_input, "instruction set", "\"" + name + "\" is not to be had on this processor; it has " + known);
+  return fail(Error::Kind::bad_input, "instruction set",
+              fmt::format("\"{}\" is not to be had on this processor; it has {}", name, known));
 }
 
 }  // namespace hooke
