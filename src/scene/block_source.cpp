@@ -25,12 +25,24 @@ Lattice lattice_of(const BlockSource& block) {
   return {block.lattice == "hcp" ? LatticeKind::hcp : LatticeKind::cubic, block.box, block.spacing, block.up};
 }
 
-void add_jitter(const BlockSource& block, std::vector<Vec3d>& centres) {
+// `x` moved by `by`; where that leads through a periodic face, in again through the other one.
+double moved(double x, double by, const Domain& domain, int axis) {
+  const double low = component(domain.min, axis);
+  const double high = component(domain.max, axis);
+  const double to = x + by;
+  const bool periodic = domain.boundary[static_cast<std::size_t>(axis)] == Boundary::periodic;
+  if (!periodic || x < low || x >= high || (to >= low && to < high)) return to;
+  const double wrapped = to < low ? to + (high - low) : to - (high - low);
+  return wrapped < high ? wrapped : low;
+}
+
+void add_jitter(const BlockSource& block, const Domain& domain, std::vector<Vec3d>& centres) {
   if (!(block.jitter > 0)) return;
   for (std::size_t i = 0; i < centres.size(); ++i) {
     const auto random = uniform4(block.seed, i, 0);
     for (int axis = 0; axis < 3; ++axis) {
-      component(centres[i], axis) += block.jitter * (2 * random[static_cast<std::size_t>(axis)] - 1);
+      const double by = block.jitter * (2 * random[static_cast<std::size_t>(axis)] - 1);
+      component(centres[i], axis) = moved(component(centres[i], axis), by, domain, axis);
     }
   }
 }
@@ -77,7 +89,7 @@ double expected_count(const BlockSource& block) {
   return static_cast<double>(lattice_of(block).site_count());
 }
 
-std::vector<Vec3d> block_centres(const BlockSource& block, Findings& findings) {
+std::vector<Vec3d> block_centres(const BlockSource& block, const Domain& domain, Findings& findings) {
   std::vector<Vec3d> centres;
   std::uint64_t room = 0;
   if (block.lattice == "random") {
@@ -99,7 +111,7 @@ std::vector<Vec3d> block_centres(const BlockSource& block, Findings& findings) {
                              block.spacing, corner(block.box.min), corner(block.box.max)));
     return {};
   }
-  add_jitter(block, centres);
+  add_jitter(block, domain, centres);
   return centres;
 }
 

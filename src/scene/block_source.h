@@ -34,7 +34,8 @@ std::optional<BlockSource> read_block(const Json& block, const std::string& path
 /// About how many particles a block will have, without making any.
 double expected_count(const BlockSource& block);
 
-/// The centres of a block's particles. A count that does not fit is a finding, which tells how many would.
-std::vector<Vec3d> block_centres(const BlockSource& block, Findings& findings);
+/// The centres of a block's particles. Jitter wraps around at periodic faces. A count that does not fit is a finding,
+/// which tells how many would.
+std::vector<Vec3d> block_centres(const BlockSource& block, const Domain& domain, Findings& findings);
 
 }  // namespace hooke

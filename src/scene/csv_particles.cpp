@@ -119,11 +119,13 @@ class Reader {
     column_.fill(kAbsent);
     bool usable = true;
     std::vector<std::string> unknown;
+    std::vector<std::string> titles;
     for (std::size_t i = 0; i < columns_; ++i) {
       const std::string_view title = fields_.at[i];
+      titles.push_back(printable(title, 40));
       const auto known = std::find(kNames.begin(), kNames.end(), title);
       if (known == kNames.end()) {
-        unknown.push_back(printable(title, 40));
+        unknown.push_back(titles.back());
       } else if (std::size_t& column = column_[static_cast<std::size_t>(known - kNames.begin())]; column != kAbsent) {
         complain(fmt::format("has two columns \"{}\"", title));
         usable = false;
@@ -134,7 +136,7 @@ class Reader {
     for (std::size_t axis = x; axis <= z; ++axis) {
       if (column_[axis] != kAbsent) continue;
       complain(fmt::format("has no column \"{}\"; the header must name x, y and z, and names {}", kNames[axis],
-                           quoted_list({fields_.at.begin(), fields_.at.end()})));
+                           quoted_list(titles)));
       usable = false;
     }
     if (usable && column_[material] == kAbsent && !defaults_.material) {

@@ -22,7 +22,7 @@ class Findings {
 
   /// Lines that are added to the messages about paths of the document itself.
   void set_lines(LineMap lines) { lines_ = std::move(lines); }
-  /// Forgets the lines at and below `path`: its value does not come from the text.
+  /// No line is named any more at and below `path`: its value does not come from the text.
   void forget_lines(std::string_view path);
 
   /// About the value at a JSON path; "" is the whole document.
@@ -35,12 +35,17 @@ class Findings {
   /// Whether there is a finding about just this path.
   bool touches_at(std::string_view path) const;
   bool empty() const { return all_.empty(); }
-  std::vector<Finding> take() { return std::move(all_); }
+  /// All of them: by line as far as they have one.
+  std::vector<Finding> take();
 
  private:
   std::string document_;
+  // 0 where the value at `path` stands on no line.
+  int line_of(const std::string& path) const;
+
   LineMap lines_;
-  std::vector<Finding> all_;
+  std::vector<std::string> without_line_;
+  std::vector<std::pair<int, Finding>> all_;  // with its line
   std::vector<std::string> paths_;  // of the findings about the document
 };
 

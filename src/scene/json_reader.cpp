@@ -260,8 +260,11 @@ std::string printable(std::string_view text, std::size_t most) {
 std::string brief(const Json& value) {
   constexpr std::size_t kMost = 60;
   if (value.is_string()) return '"' + printable(value.get_ref<const std::string&>(), kMost) + '"';
-  if (value.is_object() && !value.empty()) return fmt::format("an object of {} keys", value.size());
-  if (value.is_array() && value.size() > 6) return fmt::format("a list of {} entries", value.size());
+  if (value.is_object() && !value.empty()) return "an object";
+  const auto is_plain = [](const Json& item) { return !item.is_structured(); };
+  if (value.is_array() && (value.size() > 6 || !std::all_of(value.begin(), value.end(), is_plain))) {
+    return fmt::format("a list of {} entr{}", value.size(), value.size() == 1 ? "y" : "ies");
+  }
   return printable(value.dump(-1, ' ', false, Json::error_handler_t::replace), kMost);
 }
 

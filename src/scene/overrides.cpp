@@ -74,8 +74,8 @@ class Setter {
   bool descend(std::size_t index) {
     if (!at_->is_array() || index > at_->size()) {
       findings_.add(join_path(where_, index),
-                    fmt::format("can't be set: {} is {}{}", where_, brief(*at_),
-                                at_->is_array() ? fmt::format(", {} entries counted from 0", at_->size()) : ", no list"));
+                    fmt::format("can't be set: {} is {}, {}", where_, brief(*at_),
+                                at_->is_array() ? "counted from 0" : "no list"));
       return false;
     }
     if (schema_ != nullptr) schema_ = schema_of_part(*schema_, *at_, index);

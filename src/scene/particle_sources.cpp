@@ -143,7 +143,7 @@ class Loader {
   }
 
   void append_block(const Source& source) {
-    const std::vector<Vec3d> centres = block_centres(*source.block, findings_);
+    const std::vector<Vec3d> centres = block_centres(*source.block, scene_.domain, findings_);
     const Span span{&source, particles_.size(), particles_.size() + centres.size(), {}};
     particles_.position.insert(particles_.position.end(), centres.begin(), centres.end());
     append_common(span, std::vector<std::uint16_t>(centres.size(), *source.material),
@@ -179,15 +179,21 @@ class Loader {
     spans_.push_back(std::move(span));
   }
 
+  // The two faces of a periodic axis are the same place; it belongs to the lower one.
+  bool is_on_periodic_face(const Vec3d& x) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool periodic = scene_.domain.boundary[static_cast<std::size_t>(axis)] == Boundary::periodic;
+      if (periodic && component(x, axis) == component(scene_.domain.max, axis)) return true;
+    }
+    return false;
+  }
+
   bool is_inside(const Vec3d& x) const {
     for (int axis = 0; axis < 3; ++axis) {
       const double value = component(x, axis);
-      const double upper = component(scene_.domain.max, axis);
-      if (!(value >= component(scene_.domain.min, axis) && value <= upper)) return false;
-      // The two faces of a periodic axis are the same place; it belongs to the lower one.
-      if (scene_.domain.boundary[static_cast<std::size_t>(axis)] == Boundary::periodic && value == upper) return false;
+      if (!(value >= component(scene_.domain.min, axis) && value <= component(scene_.domain.max, axis))) return false;
     }
-    return true;
+    return !is_on_periodic_face(x);
   }
 
   void refuse_outside(const Span& span) {
@@ -197,13 +203,24 @@ class Loader {
     const std::size_t most = span.lines.empty() ? 1 : kMostFindings;
     for (std::size_t i = span.begin; i < span.end; ++i) {
       if (is_inside(particles_.position[i]) || ++outside > most) continue;
-      findings_.add_elsewhere(span.where(i), fmt::format("centre {} is outside the domain {} to {}",
-                                                         text(particles_.position[i]), text(scene_.domain.min),
-                                                         text(scene_.domain.max)));
+      const Vec3d& x = particles_.position[i];
+      complain(span, span.where(i),
+               fmt::format("centre {} is outside the domain {} to {}{}", text(x), text(scene_.domain.min),
+                           text(scene_.domain.max),
+                           is_on_periodic_face(x) ? "; the upper face of a periodic axis is its lower one" : ""));
     }
     if (outside > most) {
-      findings_.add_elsewhere(span.lines.empty() ? span.source->path : span.source->file_name,
-                              fmt::format("{} of {} centres are outside the domain", outside, span.end - span.begin));
+      complain(span, span.lines.empty() ? span.source->path : span.source->file_name,
+               fmt::format("{} of {} centres are outside the domain", outside, span.end - span.begin));
+    }
+  }
+
+  // A block's findings are about the scene's text, a file's about a text of its own.
+  void complain(const Span& span, const std::string& where, std::string message) {
+    if (span.lines.empty()) {
+      findings_.add(where, std::move(message));
+    } else {
+      findings_.add_elsewhere(where, std::move(message));
     }
   }
 
@@ -216,16 +233,17 @@ class Loader {
     std::size_t doubled = 0;
     for (std::size_t i = 1; i < order.size(); ++i) {
       if (id[order[i]] != id[order[i - 1]] || ++doubled > kMostFindings) continue;
-      findings_.add_elsewhere(where(order[i]), fmt::format("id {} is taken, by {}", id[order[i]], where(order[i - 1])));
+      const Span& second = span_of(order[i]);
+      const Span& first = span_of(order[i - 1]);
+      complain(second, second.where(order[i]), fmt::format("id {} is taken, by {}", id[order[i]], first.where(order[i - 1])));
     }
     if (doubled > kMostFindings) {
       findings_.add("particles", fmt::format("{} ids are given more than once", doubled));
     }
   }
 
-  std::string where(std::size_t particle) const {
-    const auto span = std::find_if(spans_.begin(), spans_.end(), [particle](const Span& s) { return particle < s.end; });
-    return span->where(particle);
+  const Span& span_of(std::size_t particle) const {
+    return *std::find_if(spans_.begin(), spans_.end(), [particle](const Span& s) { return particle < s.end; });
   }
 
   const Scene& scene_;

@@ -44,10 +44,10 @@ class Packing {
 
   std::vector<Vec3d> run() {
     constexpr int kMostSplits = 6;  // what is free then is less than 1e-5 of the box
-    for (int splits = 0; splits <= kMostSplits; ++splits) {
-      while (centres_.size() < count_ && throw_darts()) {
+    for (int splits = 0; splits <= kMostSplits && !voxels_.empty(); ++splits) {
+      while (throw_darts()) {
       }
-      if (centres_.size() >= count_ || voxels_.empty()) break;
+      if (centres_.size() >= count_) break;
       split_voxels();
     }
     return std::move(centres_);
@@ -86,7 +86,7 @@ class Packing {
       }
       if (inside && is_free(dart)) keep(dart);
     }
-    return (centres_.size() - before) * 32 >= darts;
+    return centres_.size() < count_ && (centres_.size() - before) * 32 >= darts;
   }
 
   Index3 cell_of(const Vec3d& x) const {

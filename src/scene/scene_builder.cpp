@@ -71,12 +71,13 @@ void build_domain(const Json& domain, Scene& scene, const Findings& findings) {
   }
 }
 
-void build_materials(const Json& materials, Scene& scene, const Findings& findings) {
+void build_materials(const Json& materials, Scene& scene, Findings& findings) {
   if (!materials.is_object()) return;
   for (const auto& [name, entry] : materials.items()) {
     Material material;
     material.name = name;
     const std::string where = join_path("materials", name);
+    if (name.empty()) findings.add(where, "the name of a material must not be empty");
     // A value that the schema refused stays at its default: it has been spoken of.
     const auto value = [&, &values = entry](const char* key, double fallback) {
       return findings.touches(join_path(where, key)) ? fallback : number_or(member(values, key), fallback);
@@ -130,7 +131,9 @@ class ContactBuilder {
       if (name == "wall") {
         index[k] = ContactEntry::kWall;
       } else if (found == names_.end()) {
-        const std::string hint = did_you_mean(name, names_);
+        std::vector<std::string> allowed = names_;
+        allowed.emplace_back("wall");
+        const std::string hint = did_you_mean(name, allowed);
         findings_.add(join_path(join_path(where, "between"), k),
                       fmt::format("is \"{}\", which is no material{}{} the scene has {} and \"wall\"", printable(name, 60),
                                   hint, hint.empty() ? ";" : "", quoted_list(names_)));

@@ -70,13 +70,13 @@ std::string allowed_number(const Json& schema) {
 std::string allowed_list(const Json& schema) {
   if (!schema.contains("items")) return "a list";
   const Json& items = schema.at("items");
-  const std::string of = items.contains("enum") ? " of " + allowed_by(items)
-                         : items.value("type", "") == "number" ? " of numbers"
-                         : items.value("type", "") == "string" ? " of texts"
-                                                                : "";
   const bool fixed = schema.contains("minItems") && schema.contains("maxItems");
-  return fixed ? fmt::format("a list of {}{}", schema.at("minItems").dump(), of.empty() ? " entries" : of.substr(3))
-               : "a list" + of;
+  if (items.contains("enum")) {
+    return fmt::format("a list{}, each {}", fixed ? " of " + schema.at("minItems").dump() : "", allowed_by(items));
+  }
+  const std::string type = items.value("type", "");
+  const char* const of = type == "number" ? "numbers" : type == "string" ? "texts" : "objects";
+  return fixed ? fmt::format("a list of {} {}", schema.at("minItems").dump(), of) : fmt::format("a list of {}", of);
 }
 
 bool breaks_range(const Json& schema, const Json& value) {
@@ -153,7 +153,7 @@ class Wording {
   void say_length() {
     const std::size_t size = value_.size();
     if (size >= schema_.value("minItems", std::size_t{0}) && size <= schema_.value("maxItems", size)) return;
-    complain(path_, fmt::format("is {}, {} entries; must be {}", brief(value_), size, allowed_by(schema_)));
+    complain(path_, fmt::format("is {}; must be {}", brief(value_), allowed_by(schema_)));
   }
 
   void say_missing_keys() {
@@ -165,7 +165,6 @@ class Wording {
   }
 
   void say_unknown_keys() {
-    if (schema_.contains("propertyNames") && value_.contains("")) complain(join_path(path_, ""), "a name must not be empty");
     if (schema_.value("additionalProperties", Json()) != false) return;
     std::vector<std::string> known;
     for (const auto& property : schema_.at("properties").items()) {

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+// Every broken/NAME.json is refused with the findings of broken/NAME.expected, all of them and no others.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include "hooke/scene/load_scene.h"
+#include "hooke/scene/text_file.h"
+
+namespace hooke {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path kFolder = HOOKE_SOURCE_DIR "/tests/scene/broken";
+
+std::vector<std::string> names() {
+  std::vector<std::string> all;
+  for (const auto& entry : fs::directory_iterator(kFolder)) {
+    if (entry.path().extension() == ".json") all.push_back(entry.path().stem().string());
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+std::string read(const fs::path& file) {
+  const auto text = read_text_file(file, std::uint64_t{1} << 20U);
+  return text ? *text : "";
+}
+
+class BrokenScene : public testing::TestWithParam<std::string> {};
+
+TEST_P(BrokenScene, IsRefusedWithItsMessage) {
+  LoadOptions options;
+  options.memory_limit = std::uint64_t{1} << 30U;
+  const auto loaded = parse_scene(read(kFolder / (GetParam() + ".json")), GetParam() + ".json", kFolder, options);
+  ASSERT_FALSE(loaded) << "was taken for good";
+  EXPECT_EQ(loaded.error().kind, Error::Kind::bad_input);
+  EXPECT_EQ(loaded.error().text() + "\n", read(kFolder / (GetParam() + ".expected")));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BrokenScene, testing::ValuesIn(names()), [](const auto& test) {
+  std::string name = test.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace hooke

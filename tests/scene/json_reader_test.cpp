@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/scene/json_reader.h"
+
+#include <gtest/gtest.h>
+
+namespace hooke {
+namespace {
+
+TEST(JsonReader, KeepsOrderLinesAndComments) {
+  const JsonReading r = read_json("// a scene\n{\n  \"b\": 1, /* two */\n  \"a\": [\n 1.5,\n\"x\"],\n\"c\": 12\n}", "t");
+  ASSERT_TRUE(r.value);
+  EXPECT_EQ(r.value->dump(), R"({"b":1,"a":[1.5,"x"],"c":12})");
+  EXPECT_EQ(r.lines.at(""), 2);
+  EXPECT_EQ(r.lines.at("b"), 3);
+  EXPECT_EQ(r.lines.at("a"), 4);
+  EXPECT_EQ(r.lines.at("a[0]"), 5);
+  EXPECT_EQ(r.lines.at("a[1]"), 6);
+  EXPECT_EQ(r.lines.at("c"), 7);  // a number is known to end only on the next line
+  EXPECT_TRUE(r.faults.empty());
+}
+
+TEST(JsonReader, NamesThePlaceOfASyntaxError) {
+  const JsonReading r = read_json("{\n  \"a\": 1,\n  \"b\" 2\n}", "scene.json");
+  EXPECT_FALSE(r.value);
+  EXPECT_TRUE(r.syntax_error);
+  ASSERT_TRUE(r.stopped);
+  EXPECT_EQ(r.stopped->where, "scene.json:3:7");
+}
+
+TEST(JsonReader, KeepsTheFirstOfDoubledKeys) {
+  const JsonReading r = read_json("{\"a\": {\"x\": 1, \"x\": {\"y\": [1, 2]}}, \"b\": 2,\n\"b\": 3}", "t");
+  ASSERT_TRUE(r.value);
+  EXPECT_EQ(r.value->dump(), R"({"a":{"x":1},"b":2})");
+  ASSERT_EQ(r.faults.size(), 2U);
+  EXPECT_EQ(r.faults[0].first, "a.x");
+  EXPECT_EQ(r.faults[1].first, "b");
+  EXPECT_EQ(r.faults[1].second, "is given twice in one object, the second time on line 2");
+}
+
+TEST(JsonReader, ReportsEveryNumberThatOverflows) {
+  const JsonReading r = read_json("{\"a\": 1e999, \"b\": [2, -1e400], \"a\": 0}", "t");
+  ASSERT_TRUE(r.value);
+  ASSERT_EQ(r.faults.size(), 3U);
+  EXPECT_EQ(r.faults[0].first, "a");
+  EXPECT_EQ(r.faults[0].second, "is 1e999, beyond the largest number (1.8e308)");
+  EXPECT_EQ(r.faults[1].first, "b[1]");
+  EXPECT_EQ(r.faults[2].first, "a");
+  EXPECT_EQ(r.value->dump(), R"({"a":0,"b":[2,0]})");
+}
+
+TEST(JsonReader, LimitsDepth) {
+  const auto nested = [](std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
+  EXPECT_TRUE(read_json(nested(64), "t").value);
+  const JsonReading r = read_json(nested(65), "t");
+  EXPECT_FALSE(r.value);
+  EXPECT_FALSE(r.syntax_error);
+  ASSERT_TRUE(r.stopped);
+  EXPECT_EQ(r.stopped->where, "t:1:65");
+  EXPECT_FALSE(read_json(nested(1000000), "t").value);
+}
+
+TEST(JsonReader, TakesWholeNumbersInAnyNotation) {
+  const JsonReading r = read_json("[1e6, 4.0, -2.0, 0.5, 1e300, -0.0]", "t");
+  ASSERT_TRUE(r.value);
+  EXPECT_TRUE((*r.value)[0].is_number_integer());
+  EXPECT_EQ(r.value->dump(), "[1000000,4,-2,0.5,1e+300,-0.0]");
+}
+
+TEST(JsonReader, SaysValuesInFewWords) {
+  EXPECT_EQ(brief(Json(0.25)), "0.25");
+  EXPECT_EQ(brief(Json("text")), "\"text\"");
+  EXPECT_EQ(brief(Json::parse("[1,2,3]")), "[1,2,3]");
+  EXPECT_EQ(brief(Json::parse("{\"a\":1}")), "an object");
+  EXPECT_EQ(brief(Json(std::string(500, 'x'))).size(), 65U);
+  EXPECT_EQ(printable("a\xff\n"), "a\xef\xbf\xbd\\n");
+}
+
+TEST(JsonReader, WritesForPeopleAndReadsBack) {
+  const Json value = Json::parse(R"({"a":[0.1,-9.8,1e-300],"b":{"c":[{"d":true}],"e":{}},"f":[]})");
+  const std::string text = pretty(value);
+  EXPECT_EQ(text, "{\n  \"a\": [0.1, -9.8, 1e-300],\n  \"b\": {\n    \"c\": [\n      {\n        \"d\": true\n      }\n"
+                  "    ],\n    \"e\": {}\n  },\n  \"f\": []\n}\n");
+  EXPECT_EQ(Json::parse(text), value);
+}
+
+}  // namespace
+}  // namespace hooke

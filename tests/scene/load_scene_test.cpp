@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/scene/load_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "hooke/scene/json_reader.h"
+#include "minimal_scene.h"
+#include "scratch_folder.h"
+
+namespace hooke {
+namespace {
+
+// The minimal scene with some of it replaced.
+Expected<LoadedScene> load(std::vector<std::string> overrides, const std::filesystem::path& folder = ".") {
+  LoadOptions options;
+  options.overrides = std::move(overrides);
+  return parse_scene(kMinimalScene, "scene.json", folder, options);
+}
+
+// The minimal scene with this one source.
+LoadedScene with_source(const std::string& source, std::vector<std::string> overrides = {}) {
+  overrides.push_back("particles=[" + source + "]");
+  auto loaded = load(std::move(overrides));
+  if (loaded) return std::move(*loaded);
+  ADD_FAILURE() << loaded.error().text();
+  return {};
+}
+
+TEST(LoadScene, FillsInEveryDefault) {
+  const auto loaded = load({});
+  ASSERT_TRUE(loaded) << loaded.error().text();
+  const Json resolved = Json::parse(loaded->resolved);
+  EXPECT_EQ(resolved.at("time").at("integrator"), "symplectic-euler");
+  EXPECT_EQ(resolved.at("precision"), "single");
+  EXPECT_EQ(resolved.at("domain").at("walls"), "spring");
+  EXPECT_EQ(resolved.at("materials").at("water").at("drag"), 0);
+  EXPECT_EQ(resolved.at("particles")[0].at("block").at("lattice"), "cubic");
+  EXPECT_EQ(resolved.at("output").at("every"), 0.04);
+  EXPECT_EQ(loaded->scene.steps, 100);
+  EXPECT_EQ(loaded->scene.output.seconds, 0.04);
+  EXPECT_EQ(loaded->particles.id, (std::vector<std::uint64_t>{1, 2}));
+  EXPECT_EQ(loaded->particles.position, (std::vector<Vec3d>{{1, 1, 1}, {2, 1, 1}}));
+}
+
+TEST(LoadScene, EndsWithTheFirstStepAtOrAfterTheEnd) {
+  EXPECT_EQ(load({"time.step=0.005", "time.end=10"})->scene.steps, 2000);
+  EXPECT_EQ(load({"time.step=0.1", "time.end=0.3"})->scene.steps, 3);
+  EXPECT_EQ(load({"time.step=0.1", "time.end=0.31"})->scene.steps, 4);
+  EXPECT_EQ(load({"time.end=0"})->scene.steps, 0);
+  EXPECT_EQ(load({"time.step=1e-5", "time.end=1e4"})->scene.steps, 1000000000);
+  EXPECT_EQ(load({"time.steps=1e6"})->scene.steps, 1000000);
+}
+
+TEST(LoadScene, ContactsTakeTheMixedValueWhereTheyNameNone) {
+  const auto loaded = load({"materials.oil={\"radius\":1,\"mass\":1,\"stiffness\":300,\"damping\":4}",
+                            "contacts=[{\"between\":[\"water\",\"oil\"],\"shear\":7},{\"between\":[\"wall\",\"oil\"]}]"});
+  ASSERT_TRUE(loaded) << loaded.error().text();
+  EXPECT_EQ(loaded->scene.contacts[0].coefficients, (ContactCoefficients<double>{150, 7, 2}));
+  EXPECT_EQ(loaded->scene.contacts[1].coefficients, (ContactCoefficients<double>{300, 0, 4}));
+  EXPECT_EQ(loaded->scene.contacts[1].a, 1U);
+  EXPECT_EQ(loaded->scene.contacts[1].b, ContactEntry::kWall);
+  EXPECT_EQ(Json::parse(loaded->resolved).at("contacts")[0].at("stiffness"), 150);
+}
+
+TEST(LoadScene, CountFillsWholeLayersFromTheLowest) {
+  const auto loaded = with_source(R"({"material":"water","velocity":[1,2,3],
+                                      "block":{"min":[0.5,0.5,0.5],"count":250,"spacing":1}})");
+  const ParticleSet& p = loaded.particles;
+  ASSERT_EQ(p.size(), 250U);
+  // Ten by ten in a layer: from min up to one radius from the far faces.
+  for (std::size_t i = 0; i < p.size(); ++i) EXPECT_EQ(p.position[i].y, 0.5 + static_cast<double>(i / 100));
+  for (const Vec3d& x : p.position) EXPECT_LE(std::max(x.x, x.z), 9.5);
+  EXPECT_EQ(p.velocity[249], (Vec3d{1, 2, 3}));
+}
+
+TEST(LoadScene, CountLeavesASpacingAcrossPeriodicFaces) {
+  const auto loaded = with_source(R"({"material":"water","block":{"min":[0,0.5,0],"count":100,"spacing":1}})",
+                                  {"domain.walls=[\"periodic\",\"spring\",\"periodic\"]"});
+  for (const Vec3d& x : loaded.particles.position) EXPECT_EQ(x.y, 0.5);
+  EXPECT_EQ(loaded.particles.size(), 100U);
+}
+
+TEST(LoadScene, JitterIsBoundedAndOfItsSeed) {
+  const auto source = [](int seed) {
+    return R"({"material":"water","block":{"min":[1,1,1],"max":[8,8,8],"spacing":1,"jitter":0.1,"seed":)" +
+           std::to_string(seed) + "}}";
+  };
+  const auto one = with_source(source(1)).particles.position;
+  EXPECT_EQ(one, with_source(source(1)).particles.position);
+  EXPECT_NE(one, with_source(source(2)).particles.position);
+  const auto plain = with_source(R"({"material":"water","block":{"min":[1,1,1],"max":[8,8,8],"spacing":1}})");
+  double largest = 0;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    const Vec3d d = one[i] - plain.particles.position[i];
+    for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(component(d, axis)));
+  }
+  EXPECT_LE(largest, 0.1 + 1e-12);
+  EXPECT_GT(largest, 0.09);
+  // The same on every machine.
+  EXPECT_EQ(one[0], (Vec3d{1.0780518345534802, 1.0789369432255627, 1.0171451896429062}));
+}
+
+TEST(LoadScene, JitterWrapsAcrossPeriodicFaces) {
+  const auto loaded = with_source(R"({"material":"water","block":{"min":[0,0,0],"max":[9,9,9],"spacing":1,"jitter":0.1}})",
+                                  {"domain.walls=periodic"});
+  EXPECT_EQ(loaded.particles.size(), 1000U);
+  const auto wrapped = std::count_if(loaded.particles.position.begin(), loaded.particles.position.end(),
+                                     [](const Vec3d& x) { return x.x > 9.8; });
+  EXPECT_NEAR(static_cast<double>(wrapped), 50, 30);
+}
+
+TEST(LoadScene, RandomBlocksTakeMaxAndCount) {
+  const auto loaded = with_source(R"({"material":"water","block":{"min":[1,1,1],"max":[9,9,9],"spacing":1,
+                                      "lattice":"random","count":120,"jitter":0.5}})");
+  EXPECT_EQ(loaded.particles.size(), 120U);
+  ASSERT_EQ(loaded.warnings.size(), 1U);
+  EXPECT_EQ(loaded.warnings[0].where, "particles[0].block.jitter");
+  EXPECT_EQ(with_source(R"({"material":"water","block":{"min":[1,1,1],"spacing":1,"lattice":"random","count":50}})")
+                .particles.size(),
+            50U);
+}
+
+TEST(LoadScene, RandomBlocksKeepApartAcrossPeriodicFaces) {
+  const auto loaded = with_source(R"({"material":"water","block":{"min":[0,0,0],"max":[10,10,10],"spacing":1,
+                                      "lattice":"random"}})",
+                                  {"domain.walls=periodic"});
+  const auto& x = loaded.particles.position;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      Vec3d d = x[i] - x[j];
+      for (int axis = 0; axis < 3; ++axis) component(d, axis) -= 10 * std::round(component(d, axis) / 10);
+      ASSERT_GE(dot(d, d), 1 - 1e-12);
+    }
+  }
+  EXPECT_GT(x.size(), 500U);
+}
+
+TEST(LoadScene, SourcesWithoutIdsNumberOn) {
+  const ScratchFolder folder;
+  folder.write("a.csv", "x,y,z,id,material\n5,5,5,40,water\n6,6,6,7,water\n");
+  const auto loaded = load({"particles[1]={\"file\":\"a.csv\"}", "particles[2].material=water",
+                            "particles[2].block={\"min\":[8,8,8],\"max\":[8,8,9],\"spacing\":1}"},
+                           folder.path());
+  ASSERT_TRUE(loaded) << loaded.error().text();
+  EXPECT_EQ(loaded->particles.id, (std::vector<std::uint64_t>{1, 2, 7, 40, 41, 42}));
+  EXPECT_EQ(loaded->particles.position[2], (Vec3d{6, 6, 6}));
+  EXPECT_EQ(loaded->particles.position[5], (Vec3d{8, 8, 9}));
+}
+
+TEST(LoadScene, WithoutParticlesNothingIsRead) {
+  LoadOptions options;
+  options.with_particles = false;
+  options.overrides = {"particles[0]={\"material\":\"water\",\"file\":\"not-there.csv\"}",
+                       "particles[1]={\"material\":\"wine\",\"file\":\"not-there.csv\"}"};
+  const auto refused = parse_scene(kMinimalScene, "scene.json", "/nowhere", options);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().findings.size(), 1U);
+  options.overrides.pop_back();
+  const auto loaded = parse_scene(kMinimalScene, "scene.json", "/nowhere", options);
+  ASSERT_TRUE(loaded) << loaded.error().text();
+  EXPECT_TRUE(loaded->particles.empty());
+}
+
+TEST(LoadScene, ASceneMayHaveNoParticles) {
+  const auto loaded = load({"particles=[]"});
+  ASSERT_TRUE(loaded) << loaded.error().text();
+  EXPECT_TRUE(loaded->particles.empty());
+}
+
+TEST(LoadScene, LoadsTheSameFromTheCurrentFolder) {
+  const ScratchFolder folder;
+  const auto file = folder.write("scene.json", kMinimalScene);
+  const auto loaded = load_scene(file);
+  ASSERT_TRUE(loaded) << loaded.error().text();
+  EXPECT_EQ(loaded->particles.size(), 2U);
+}
+
+TEST(LoadScene, NamesAFileThatCannotBeRead) {
+  const auto missing = load_scene("/nowhere/scene.json");
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().text(), "/nowhere/scene.json: can't be opened: No such file or directory");
+  const auto folder = load_scene("/tmp");
+  ASSERT_FALSE(folder);
+  EXPECT_EQ(folder.error().text(), "/tmp: can't be read: it is a folder");
+}
+
+TEST(LoadScene, ReadsThousandsOfSourcesQuickly) {
+  std::string sources = "particles=[";
+  for (int i = 0; i < 5000; ++i) {
+    sources += std::string(i ? "," : "") + R"({"material":"water","block":{"min":[1,1,1],"max":[1,1,1],"spacing":1}})";
+  }
+  const auto loaded = load({sources + "]"});
+  ASSERT_TRUE(loaded) << loaded.error().text();
+  EXPECT_EQ(loaded->particles.size(), 5000U);
+}
+
+}  // namespace
+}  // namespace hooke

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/scene/nearest.h"
+
+#include <gtest/gtest.h>
+
+namespace hooke {
+namespace {
+
+TEST(Nearest, FindsMisspellings) {
+  const std::vector<std::string> names{"radius", "mass", "stiffness", "shear", "damping", "drag"};
+  EXPECT_EQ(nearest_name("radus", names), "radius");     // a letter left out
+  EXPECT_EQ(nearest_name("raduis", names), "radius");    // two swapped
+  EXPECT_EQ(nearest_name("mas", names), "mass");
+  EXPECT_EQ(nearest_name("dampening", names), "damping");
+  EXPECT_EQ(nearest_name("stifness", names), "stiffness");
+  EXPECT_EQ(nearest_name("temperature", names), "");
+  EXPECT_EQ(nearest_name("xy", {"ab"}), "");  // nothing in common
+  EXPECT_EQ(nearest_name("", names), "");
+  EXPECT_EQ(nearest_name(std::string(1000, 'r'), names), "");
+}
+
+TEST(Nearest, WordsIt) {
+  EXPECT_EQ(did_you_mean("watr", {"water"}), "; did you mean \"water\"?");
+  EXPECT_EQ(did_you_mean("gas", {"water"}), "");
+  EXPECT_EQ(quoted_list({"a", "b"}), "\"a\", \"b\"");
+  EXPECT_EQ(quoted_list(std::vector<std::string>(22, "a")).substr(93), ", \"a\" and 2 more");
+}
+
+}  // namespace
+}  // namespace hooke

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+// Writes docs/scene.md from the schema and the example beside it:
+//     scene_reference schema/scene.json schema/example.json > docs/scene.md
+
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string type_of(const Json& part) {
+  if (part.contains("const")) return part.at("const").dump();
+  if (part.contains("anyOf")) {
+    std::string types;
+    for (const Json& branch : part.at("anyOf")) types += (types.empty() ? "" : ", or ") + type_of(branch);
+    return types;
+  }
+  if (part.contains("enum")) {
+    std::string names;
+    for (const Json& name : part.at("enum")) names += (names.empty() ? "`" : ", `") + name.dump() + "`";
+    return names;
+  }
+  const std::string type = part.at("type");
+  if (type == "integer") return "whole number";
+  if (type == "string") return "text";
+  if (type != "array") return type;
+  const std::string of = part.contains("items") && part.at("items").contains("type") ? type_of(part.at("items")) : "value";
+  if (!part.contains("maxItems")) return "list of " + of + "s";
+  return "list of " + part.at("maxItems").dump() + (part.at("items").contains("enum") ? ", each " + of : " " + of + "s");
+}
+
+std::string range_of(const Json& part) {
+  std::string range;
+  const auto add = [&](const char* keyword, const char* sign) {
+    if (part.contains(keyword)) range += (range.empty() ? "" : ", ") + (sign + part.at(keyword).dump());
+  };
+  add("exclusiveMinimum", "> ");
+  add("minimum", ">= ");
+  // The limit of exact whole numbers would only be noise here.
+  if (part.contains("maximum") && part.at("maximum") != 9007199254740992) add("maximum", "<= ");
+  return range;
+}
+
+bool is_required(const Json& object, const std::string& key) {
+  for (const Json& name : object.value("required", Json::array())) {
+    if (name == key) return true;
+  }
+  return false;
+}
+
+std::string fallback_of(const Json& object, const std::string& key, const Json& part) {
+  if (is_required(object, key)) return "required";
+  return part.contains("default") ? "`" + part.at("default").dump() + "`" : "";
+}
+
+// The object that an entry of the scene holds, if it holds any: itself, an entry of a list, or a named one.
+const Json* object_in(const Json& part, std::string& path) {
+  if (part.contains("properties")) return &part;
+  if (part.contains("items") && part.at("items").contains("properties")) {
+    path += "[]";
+    return &part.at("items");
+  }
+  if (part.contains("additionalProperties") && part.at("additionalProperties").is_object()) {
+    path += "." + part.at("placeholder").get<std::string>();
+    return &part.at("additionalProperties");
+  }
+  return nullptr;
+}
+
+void write_object(const Json& object, const std::string& path) {
+  std::cout << "\n## " << (path.empty() ? "The scene" : "`" + path + "`") << "\n\n"
+            << object.at("description").get<std::string>() << "\n\n"
+            << "| key | what | type | unit | range | default |\n|---|---|---|---|---|---|\n";
+  for (const auto& [key, part] : object.at("properties").items()) {
+    std::string description = part.at("description");
+    if (part.contains("examples")) description += " For instance `" + part.at("examples").front().dump() + "`.";
+    std::cout << "| `" << key << "` | " << description << " | " << type_of(part) << " | " << part.value("unit", "") << " | "
+              << range_of(part) << " | " << fallback_of(object, key, part) << " |\n";
+  }
+  for (const auto& [key, part] : object.at("properties").items()) {
+    std::string below = path.empty() ? key : path + "." + key;
+    if (const Json* inner = object_in(part, below)) write_object(*inner, below);
+  }
+}
+
+std::string read(const char* file) {
+  std::ifstream stream(file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  if (argc != 3) {
+    std::cerr << "usage: scene_reference SCHEMA EXAMPLE\n";
+    return 2;
+  }
+  std::cout << "<!-- Made from schema/scene.json and schema/example.json by tools/scene_reference.cpp; edit those. -->\n"
+               "# Scene files\n\n"
+               "A scene is JSON with `//` and `/* */` comments, UTF-8, at most 64 levels deep. SI units. Everything is\n"
+               "checked before anything runs: unknown keys, wrong types and values out of range are errors that name the\n"
+               "JSON path, the value and what is allowed, all of them at once. `hooke schema` prints the JSON Schema\n"
+               "behind this page; an editor that is pointed to it completes and checks as you type.\n\n"
+               "```jsonc\n"
+            << read(argv[2])
+            << "```\n\n"
+               "## Particle files\n\n"
+               "CSV with a header. Columns `x`, `y`, `z` (m) are required; `id`, `vx`, `vy`, `vz` (m/s) and `material` (a\n"
+               "name) are read where present and go before what the entry says; other columns are ignored, with a\n"
+               "warning. Particles without an id number on from the largest one so far. A path is relative to the\n"
+               "scene's folder and may not leave it without `--allow-outside`. Errors name file and line, the header\n"
+               "being line 1.\n\n"
+               "## Changing a value for one run\n\n"
+               "`--set PATH=VALUE` puts a JSON value at a path, and is checked like the scene: `--set time.step=0.002`,\n"
+               "`--set particles[0].block.count=1000`, `--set 'materials[\"salt water\"].radius=0.1'`. A key that excludes\n"
+               "another (`time.end`, `time.steps`) takes its place.\n";
+  write_object(Json::parse(read(argv[1])), "");
+  return 0;
+} catch (const std::exception& fault) {
+  std::cerr << "scene_reference: " << fault.what() << '\n';
+  return 1;
+}
