@@ -80,8 +80,7 @@ Snapshot read_snapshot(const VtkhdfColumns& columns, std::size_t index) {
   const auto row = [index](const hdf5::Column& offsets) { return static_cast<hsize_t>(at(offsets, index)); };
   const auto n = static_cast<hsize_t>(at(columns.number_of_points, row(columns.part_offsets)));
   // A damaged count must not make us ask for more memory than there are rows to fill it.
-  if (row(columns.point_offsets) + n > columns.points.rows())
-    columns.points.fail("a snapshot is longer than its table");
+  if (n > columns.points.rows()) columns.points.fail("a snapshot is longer than its table");
   ParticleSet& p = snapshot.particles;
   p.id.resize(n);
   p.material.resize(n);
