@@ -38,8 +38,9 @@ class FloatingPointGuard {
   FloatingPointGuard& operator=(const FloatingPointGuard&) = delete;
 };
 
-/// body(first, last) on disjoint ranges that cover [0, count), each but the last a whole number of `grain`. Ranges run on
-/// the threads of the task arena that this is called in, in no order; what they compute must not depend on the split.
+/// body(first, last) on disjoint ranges that cover [0, count), each but the last a whole number of `grain`. Ranges run
+/// on the threads of the task arena that this is called in, in no order; what they compute must not depend on the
+/// split.
 template <class Body>
 void parallel_ranges(std::size_t count, std::size_t grain, const Body& body) {
   const std::size_t blocks = (count + grain - 1) / grain;

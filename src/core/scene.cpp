@@ -77,8 +77,8 @@ void check_periods(const Scene& scene, Checker& check) {
     const double length = scene.domain.length(axis);
     if (std::isfinite(length) && length > 0 && length < largest) {
       check.add(fmt::format("domain.max[{}]", axis),
-                fmt::format("the periodic {} axis is {} m long, less than the largest radius {} m", kAxisName[axis], length,
-                            largest));
+                fmt::format("the periodic {} axis is {} m long, less than the largest radius {} m", kAxisName[axis],
+                            length, largest));
     }
   }
 }
@@ -105,11 +105,12 @@ void check_contacts(const Scene& scene, Checker& check) {
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const ContactEntry& entry = scene.contacts[i];
     const std::string where = fmt::format("contacts[{}]", i);
-    const bool known = entry.a < scene.materials.size() &&
-                       (entry.b < scene.materials.size() || entry.b == ContactEntry::kWall);
+    const bool known =
+        entry.a < scene.materials.size() && (entry.b < scene.materials.size() || entry.b == ContactEntry::kWall);
     if (!known) check.add(where + ".between", "names a material that does not exist");
-    const auto pair = entry.b == ContactEntry::kWall ? std::pair{entry.a, entry.b}
-                                                           : std::pair{std::min(entry.a, entry.b), std::max(entry.a, entry.b)};
+    const auto pair = entry.b == ContactEntry::kWall
+                          ? std::pair{entry.a, entry.b}
+                          : std::pair{std::min(entry.a, entry.b), std::max(entry.a, entry.b)};
     if (!seen.insert(pair).second) check.add(where + ".between", "a second entry for the same pair");
     check.coefficients(where, entry.coefficients);
   }

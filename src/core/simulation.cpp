@@ -50,9 +50,10 @@ std::vector<Finding> check_columns(const ParticleSet& p, bool with_acceleration)
   const std::size_t n = p.size();
   if (p.material.size() != n || p.position.size() != n || p.velocity.size() != n ||
       (with_acceleration && p.acceleration.size() != n)) {
-    return {{"particles", fmt::format("columns of different length: {} ids, {} materials, {} positions, {} velocities, "
-                                      "{} accelerations",
-                                      n, p.material.size(), p.position.size(), p.velocity.size(), p.acceleration.size())}};
+    return {
+        {"particles", fmt::format("columns of different length: {} ids, {} materials, {} positions, {} velocities, "
+                                  "{} accelerations",
+                                  n, p.material.size(), p.position.size(), p.velocity.size(), p.acceleration.size())}};
   }
   return {};
 }
@@ -68,8 +69,7 @@ std::vector<Finding> check_ids(const ParticleSet& p) {
 }
 
 std::vector<Finding> check_particles(const Scene& scene, const ParticleSet& p, bool restored) {
-  std::vector<Finding> findings =
-      check_columns(p, restored && scene.integrator == Integrator::velocity_verlet);
+  std::vector<Finding> findings = check_columns(p, restored && scene.integrator == Integrator::velocity_verlet);
   if (!findings.empty()) return findings;
   findings = check_ids(p);
   for (std::size_t i = 0; i < p.size() && findings.size() < kMostFindings; ++i) {
@@ -131,25 +131,29 @@ struct Simulation::Impl {
   Expected<void> check(const Condition& condition) {
     if (condition.good()) return {};
     failed = true;
-    failure = Error{Error::Kind::run_failed, {{fmt::format("step {} (t = {:.6g} s)", step, static_cast<double>(step) * scene.time_step),
-                                               describe(condition)}}};
+    failure = Error{Error::Kind::run_failed,
+                    {{fmt::format("step {} (t = {:.6g} s)", step, static_cast<double>(step) * scene.time_step),
+                      describe(condition)}}};
     return fail(failure);
   }
 
   std::string describe(const Condition& condition) const {
     const double moved = condition.speed * scene.time_step;
     switch (condition.kind) {
-      case Condition::Kind::good: break;
+      case Condition::Kind::good:
+        break;
       case Condition::Kind::not_finite:
         return fmt::format("particle {} is no longer at a finite position; {}", condition.particle, likely_cause());
       case Condition::Kind::grid_overflow:
         return fmt::format("particle {} is too far away for the cell grid; {}", condition.particle, likely_cause());
       case Condition::Kind::approach_too_fast:
-        return fmt::format("particles {} and {} approach at {:.6g} m/s, {:.3g} m in one step: more than the smaller radius; {}",
-                           condition.particle, condition.partner, condition.speed, moved, likely_cause());
+        return fmt::format(
+            "particles {} and {} approach at {:.6g} m/s, {:.3g} m in one step: more than the smaller radius; {}",
+            condition.particle, condition.partner, condition.speed, moved, likely_cause());
       case Condition::Kind::wall_approach_too_fast:
-        return fmt::format("particle {} approaches a wall at {:.6g} m/s, {:.3g} m in one step: more than its radius; {}",
-                           condition.particle, condition.speed, moved, likely_cause());
+        return fmt::format(
+            "particle {} approaches a wall at {:.6g} m/s, {:.3g} m in one step: more than its radius; {}",
+            condition.particle, condition.speed, moved, likely_cause());
     }
     return {};
   }
@@ -158,19 +162,21 @@ struct Simulation::Impl {
     const StableStep stable = stable_step(scene);
     const double ratio = scene.time_step / stable.seconds;
     if (ratio > 1) {
-      return fmt::format("time.step {:.6g} s is {:.3g} times the stable step {:.6g} s, which the {} sets", scene.time_step,
-                         ratio, stable.seconds, stable.limit);
+      return fmt::format("time.step {:.6g} s is {:.3g} times the stable step {:.6g} s, which the {} sets",
+                         scene.time_step, ratio, stable.seconds, stable.limit);
     }
-    return fmt::format("time.step {:.6g} s is below the stable step {:.6g} s, so look at the start (overlaps, speeds) or "
-                       "take a smaller step",
-                       scene.time_step, stable.seconds);
+    return fmt::format(
+        "time.step {:.6g} s is below the stable step {:.6g} s, so look at the start (overlaps, speeds) or "
+        "take a smaller step",
+        scene.time_step, stable.seconds);
   }
 
   // A back end of the reference's kind computes in double whatever is asked; one in single must not be given a
   // scene that asks for double.
   Expected<void> check_precision() const {
     if (scene.precision == Precision::single_precision || backend->info().precision == scene.precision) return {};
-    return fail(Error::Kind::bad_input, "precision", "the scene asks for double, the back end computes in single precision");
+    return fail(Error::Kind::bad_input, "precision",
+                "the scene asks for double, the back end computes in single precision");
   }
 
   Expected<void> start(const ParticleSet& particles, std::uint64_t first_new, const Ledger& ledger) {
@@ -179,7 +185,8 @@ struct Simulation::Impl {
       backend->configure(scene);
       return check(backend->upload(particles, first_new, ledger));
     } catch (const std::bad_alloc&) {
-      return fail(Error::Kind::bad_input, "particles", fmt::format("{} particles do not fit into memory", particles.size()));
+      return fail(Error::Kind::bad_input, "particles",
+                  fmt::format("{} particles do not fit into memory", particles.size()));
     }
   }
 };
@@ -281,7 +288,8 @@ Expected<void> Simulation::remove_particles(std::span<const std::uint64_t> ids) 
   std::vector<char> gone(now.size(), 0);
   for (const std::uint64_t id : ids) {
     const std::size_t i = now.find(id);
-    if (i == now.size()) return fail(Error::Kind::bad_input, fmt::format("particle {}", id), "there is none of this id");
+    if (i == now.size())
+      return fail(Error::Kind::bad_input, fmt::format("particle {}", id), "there is none of this id");
     gone[i] = 1;
   }
   ParticleSet& host = s.edit();
@@ -305,7 +313,8 @@ Expected<void> Simulation::remove_particles(std::span<const std::uint64_t> ids) 
 Expected<void> Simulation::apply_impulse(std::uint64_t id, const Vec3d& impulse) {
   Impl& s = *impl_;
   const std::size_t i = s.particles().find(id);
-  if (i == s.host.size()) return fail(Error::Kind::bad_input, fmt::format("particle {}", id), "there is none of this id");
+  if (i == s.host.size())
+    return fail(Error::Kind::bad_input, fmt::format("particle {}", id), "there is none of this id");
   const double mass = s.scene.materials[s.host.material[i]].mass;
   return set_particle(id, s.host.position[i], s.host.velocity[i] + (1 / mass) * impulse);
 }
@@ -313,7 +322,8 @@ Expected<void> Simulation::apply_impulse(std::uint64_t id, const Vec3d& impulse)
 Expected<void> Simulation::set_particle(std::uint64_t id, const Vec3d& position, const Vec3d& velocity) {
   Impl& s = *impl_;
   const std::size_t i = s.particles().find(id);
-  if (i == s.host.size()) return fail(Error::Kind::bad_input, fmt::format("particle {}", id), "there is none of this id");
+  if (i == s.host.size())
+    return fail(Error::Kind::bad_input, fmt::format("particle {}", id), "there is none of this id");
   std::string fault = particle_fault(s.scene, s.host.material[i], position, velocity);
   if (!fault.empty()) return fail(Error::Kind::bad_input, fmt::format("particle {}", id), std::move(fault));
   ParticleSet& host = s.edit();
@@ -351,7 +361,8 @@ Expected<void> Simulation::restore(SimulationState state) {
   std::vector<Finding> findings = check_particles(s.scene, state.particles, true);
   if (state.step < 0) findings.push_back({"step", fmt::format("{} must be 0 or more", state.step)});
   if (!state.particles.empty() && state.particles.id.back() >= state.next_id) {
-    findings.push_back({"next_id", fmt::format("{} is not above the largest id {}", state.next_id, state.particles.id.back())});
+    findings.push_back(
+        {"next_id", fmt::format("{} is not above the largest id {}", state.next_id, state.particles.id.back())});
   }
   if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});
   s.step = state.step;

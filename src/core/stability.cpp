@@ -20,8 +20,9 @@ double pile_step(const ContactCoefficients<double>& c, double mass) {
 std::string limiting(const ContactCoefficients<double>& c, double mass, const std::string& pair) {
   const double by_spring = critical_step(kPileSpringFactor * c.stiffness / mass, 0);
   const double by_dashpots = critical_step(0, kPileDampingFactor * (c.shear + c.damping) / mass);
-  const char* which = by_spring < by_dashpots / 4 ? "stiffness" : by_dashpots < by_spring / 4 ? "shear and damping"
-                                                                                              : "stiffness, shear and damping";
+  const char* which = by_spring < by_dashpots / 4   ? "stiffness"
+                      : by_dashpots < by_spring / 4 ? "shear and damping"
+                                                    : "stiffness, shear and damping";
   return fmt::format("{} of {}", which, pair);
 }
 

@@ -66,7 +66,7 @@ void MeasurementSums::add_particle(double mass, const Vec3d& x, const Vec3d& v, 
   mass_moment_.add(mass * x);
   momentum_scale_.add(mass * speed);
   max_speed_ = std::max(max_speed_, speed);
-  const auto grow = [&](double Vec3d::*c) {
+  const auto grow = [&](double Vec3d::* c) {
     min_.*c = particles_ == 0 ? x.*c : std::min(min_.*c, x.*c);
     max_.*c = particles_ == 0 ? x.*c : std::max(max_.*c, x.*c);
   };
@@ -91,7 +91,7 @@ void MeasurementSums::add_wall_contact(double stiffness, double overlap, const V
 
 void MeasurementSums::add(const MeasurementSums& other) {
   if (other.particles_ > 0) {
-    const auto grow = [&](double Vec3d::*c) {
+    const auto grow = [&](double Vec3d::* c) {
       min_.*c = particles_ == 0 ? other.min_.*c : std::min(min_.*c, other.min_.*c);
       max_.*c = particles_ == 0 ? other.max_.*c : std::max(max_.*c, other.max_.*c);
     };

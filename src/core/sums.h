@@ -38,8 +38,8 @@ struct StepSums {
   StepRates rates(const Vec3d& gravity, double mass) const;
 };
 
-/// Books what `now` did over one step of `dt` (s). Symplectic Euler kicks once, by dt; velocity Verlet by half a dt with
-/// the rates of the last evaluation and half a dt with these, which it keeps as the last.
+/// Books what `now` did over one step of `dt` (s). Symplectic Euler kicks once, by dt; velocity Verlet by half a dt
+/// with the rates of the last evaluation and half a dt with these, which it keeps as the last.
 void book_step(Ledger& ledger, const StepRates& now, double dt, Integrator integrator);
 
 /// Books a particle that left through an open face.

@@ -32,7 +32,7 @@ std::size_t CellGrid::neighbour_ranges(std::uint64_t key, KeyRange (&out)[18]) c
   const std::int64_t at[3] = {k % stride_y_, k / stride_y_ % (axes_[1].count + 2), k / stride_z_};
 
   // The up to three indices next to at[i]; on a periodic axis of one or two cells each only once.
-  const auto around = [&](int i, std::int64_t (&index)[3]) {
+  const auto around = [&](int i, std::int64_t(&index)[3]) {
     const std::int64_t n = axes_[i].count;
     if (!axes_[i].periodic) {
       for (int d = 0; d < 3; ++d) index[d] = at[i] + d - 1;

@@ -10,10 +10,10 @@
 
 namespace hooke {
 
-/// A uniform grid over the box that the points fill, and the points' order by cell (the thesis's Algorithm 3). Cells are
-/// numbered along x first, so the cells x-1, x, x+1 of one row are one range of numbers and, after the sort, one range
-/// of points. There is no table of cells: a sparse cloud in a domain of a million cells an axis needs no more memory
-/// than a dense one.
+/// A uniform grid over the box that the points fill, and the points' order by cell (the thesis's Algorithm 3). Cells
+/// are numbered along x first, so the cells x-1, x, x+1 of one row are one range of numbers and, after the sort, one
+/// range of points. There is no table of cells: a sparse cloud in a domain of a million cells an axis needs no more
+/// memory than a dense one.
 class CellGrid {
  public:
   /// One axis of the grid.

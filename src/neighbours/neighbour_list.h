@@ -18,9 +18,9 @@ namespace hooke {
 
 /// A full neighbour list in lanes: 16 consecutive particles form a group, and row k of a group holds the k-th neighbour
 /// of each of them, one a lane (the sliced-ELLPACK layout: Kreutzer et al., "A unified sparse matrix data format", SIAM
-/// J. Sci. Comput. 2014). Each lane's neighbours are in ascending order of rank, so a force pass that adds row after row
-/// sums in canonical order. Short lanes are filled up with a dummy. An entry is whatever the caller's `entry` makes of a
-/// particle's index, e.g. an address offset.
+/// J. Sci. Comput. 2014). Each lane's neighbours are in ascending order of rank, so a force pass that adds row after
+/// row sums in canonical order. Short lanes are filled up with a dummy. An entry is whatever the caller's `entry` makes
+/// of a particle's index, e.g. an address offset.
 struct NeighbourList {
   static constexpr std::size_t kLanes = 16;
   static constexpr std::size_t kGroups = 64;  // groups a segment
@@ -28,8 +28,8 @@ struct NeighbourList {
 
   /// The rows of 1024 consecutive particles: what one thread builds and later walks over.
   struct Segment {
-    std::vector<std::uint32_t> entries;               // rows of kLanes
-    std::array<std::uint32_t, kGroups + 1> first_row; // group g: rows first_row[g] to first_row[g + 1]
+    std::vector<std::uint32_t> entries;  // rows of kLanes
+    std::array<std::uint32_t, kGroups + 1> first_row;  // group g: rows first_row[g] to first_row[g + 1]
   };
   std::vector<Segment> segments;
 
@@ -46,11 +46,11 @@ struct NeighbourSearch {
   std::size_t count = 0;
   std::span<const std::uint64_t> keys;  // ascending, of `count` points
   const CellGrid* grid = nullptr;
-  Real skin{};                // m; a pair is listed when nearer than r_i + r_p + skin
-  bool periodic[3]{};         // then the nearest image counts
-  Vec3<Real> length{};        // m, of periodic axes
-  bool list_self = false;     // whether a particle may touch an image of its own
-  std::uint32_t dummy = 0;    // entry that fills short lanes
+  Real skin{};  // m; a pair is listed when nearer than r_i + r_p + skin
+  bool periodic[3]{};  // then the nearest image counts
+  Vec3<Real> length{};  // m, of periodic axes
+  bool list_self = false;  // whether a particle may touch an image of its own
+  std::uint32_t dummy = 0;  // entry that fills short lanes
 };
 
 namespace detail {
@@ -58,9 +58,9 @@ namespace detail {
 // Columns that grow together and keep their room. Plain arrays: the loops over them vectorise.
 template <class Real>
 struct Candidates {
-  std::vector<Real> x, y, z, reach;        // reach: radius + skin, m
-  std::vector<std::int32_t> rank, index;   // below 2^31
-  std::vector<std::int32_t> near;          // 1 where the candidate is a neighbour of the particle in hand, else 0
+  std::vector<Real> x, y, z, reach;  // reach: radius + skin, m
+  std::vector<std::int32_t> rank, index;  // below 2^31
+  std::vector<std::int32_t> near;  // 1 where the candidate is a neighbour of the particle in hand, else 0
   std::size_t count = 0;
 
   void make_room(std::size_t more) {
@@ -88,8 +88,8 @@ struct Row {
     sorted.resize(2 * room);
   }
 
-  // sorted[0 .. count): the indices in ascending order of rank. For the usual dozen each goes straight to its place, the
-  // number of smaller ranks, which the compiler counts in SIMD and without a branch.
+  // sorted[0 .. count): the indices in ascending order of rank. For the usual dozen each goes straight to its place,
+  // the number of smaller ranks, which the compiler counts in SIMD and without a branch.
   void sort_by_rank() {
     constexpr std::size_t kCountingLimit = 64;
     if (count <= kCountingLimit) {
@@ -212,8 +212,8 @@ class RowBuilder {
 
 }  // namespace detail
 
-/// Builds `list` anew. `points` gives position(i), radius(i) and rank(i) (unique, below 2^31) of the points in the order
-/// of `search.keys`; `entry(i)` what the list stores for point i.
+/// Builds `list` anew. `points` gives position(i), radius(i) and rank(i) (unique, below 2^31) of the points in the
+/// order of `search.keys`; `entry(i)` what the list stores for point i.
 template <class Real, class Points, class Entry>
 void build_neighbour_list(const NeighbourSearch<Real>& search, const Points& points, const Entry& entry,
                           NeighbourList& list) {

@@ -24,7 +24,8 @@ HOOKE_HD R nearest_image(const R& x_i, const R& x_p, const R& length) {
 
 /// `x` (m) brought back into [min, max) after a drift across a periodic face. A particle that moved by several
 /// lengths of the axis in one step comes back too. The result is always inside, also where the subtraction rounds to
-/// max or, after very many lengths, misses the domain: then it is min. NaN, and what is a billion lengths away, stay as they are: the step reports them.
+/// max or, after very many lengths, misses the domain: then it is min. NaN, and what is a billion lengths away, stay as
+/// they are: the step reports them.
 template <class R>
 HOOKE_HD R wrap_coordinate(R x, R min, R max) {
   if (x >= min && x < max) return x;

@@ -18,7 +18,9 @@ template <class Real>
 class ContactScan {
  public:
   ContactScan(const ForcePass<Real>& pass, const ParticleRecord<Real>* records, const NeighbourList& list)
-      : pass_(pass), records_(records), list_(list) {}
+      : pass_(pass),
+        records_(records),
+        list_(list) {}
 
   /// visit(p, normal, overlap) for every touching neighbour p of particle i, by id and image.
   template <class Visit>
@@ -62,8 +64,8 @@ class ContactScan {
         from[axis] = -pass_.images[axis];
         to[axis] = pass_.images[axis];
       } else {
-        from[axis] = to[axis] = static_cast<int>(
-            nearest_image(component(records_[i].x, axis), component(records_[p].x, axis), component(pass_.length, axis)));
+        from[axis] = to[axis] = static_cast<int>(nearest_image(
+            component(records_[i].x, axis), component(records_[p].x, axis), component(pass_.length, axis)));
       }
     }
     for (int sx = from[0]; sx <= to[0]; ++sx) {
@@ -84,7 +86,8 @@ class ContactScan {
                      image_displacement(x_i.z, x_p.z, s.z, length.z)};
     const double distance = std::sqrt(dot(x_ip, x_ip));
     const double overlap = static_cast<double>(pair(i, p).reach) - distance;
-    if (overlap > 0) visit(p, contact_normal(x_ip, distance, records_[i].rank > records_[p].rank ? 1.0 : -1.0), overlap);
+    if (overlap > 0)
+      visit(p, contact_normal(x_ip, distance, records_[i].rank > records_[p].rank ? 1.0 : -1.0), overlap);
   }
 
   const ForcePass<Real>& pass_;

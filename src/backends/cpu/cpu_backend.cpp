@@ -73,7 +73,9 @@ class CpuBackend final : public Backend {
 
  public:
   CpuBackend(const Isa& isa, ForcePassFunction<Real> force_pass, int threads)
-      : isa_name_(isa.name), force_pass_(force_pass), threads_(threads) {}
+      : isa_name_(isa.name),
+        force_pass_(force_pass),
+        threads_(threads) {}
 
   BackendInfo info() const override {
     const auto precision = sizeof(Real) == 4 ? Precision::single_precision : Precision::double_precision;
@@ -266,15 +268,20 @@ class CpuBackend final : public Backend {
     for (std::size_t a = 0; a < n; ++a) {
       const Material& m = scene_.materials[a];
       const ContactCoefficients<double>& wall = table.wall(a);
-      materials_[a] = {real(wall.stiffness), real(wall.shear), real(wall.damping), real(m.radius),
-                       Real(1) / real(m.mass), real(m.drag), {}};
+      materials_[a] = {real(wall.stiffness),
+                       real(wall.shear),
+                       real(wall.damping),
+                       real(m.radius),
+                       Real(1) / real(m.mass),
+                       real(m.drag),
+                       {}};
       has_drag_ = has_drag_ || m.drag > 0;
       largest_radius_ = std::max(largest_radius_, m.radius);
       smallest_radius_ = std::min(smallest_radius_, m.radius);
       for (std::size_t b = 0; b < n; ++b) {
         const ContactCoefficients<double>& c = table.pair(a, b);
-        pairs_[a * n + b] = {real(c.stiffness), real(c.shear), real(c.damping),
-                             real(m.radius) + real(scene_.materials[b].radius), {}};
+        pairs_[a * n + b] = {
+            real(c.stiffness), real(c.shear), real(c.damping), real(m.radius) + real(scene_.materials[b].radius), {}};
       }
     }
     pass_.pairs = pairs_.data();
@@ -399,7 +406,8 @@ class CpuBackend final : public Backend {
     search.length = pass_.length;
     search.list_self = pass_.periodic_kind == PeriodicKind::images;
     search.dummy = record_offset<Real>(static_cast<std::uint32_t>(records_.size() - 1));
-    build_neighbour_list(search, Points{records_, materials_}, [](std::uint32_t i) { return record_offset<Real>(i); }, list_);
+    build_neighbour_list(
+        search, Points{records_, materials_}, [](std::uint32_t i) { return record_offset<Real>(i); }, list_);
 
     listed_at_.resize(padded(count_));
     parallel_ranges(listed_at_.size(), kSegment, [&](std::size_t first, std::size_t last) {
@@ -414,7 +422,8 @@ class CpuBackend final : public Backend {
     Vec3<Real> moved = p.x - listed_at_[i];
     for (int axis = 0; axis < 3; ++axis) {
       if (!pass_.periodic[axis]) continue;
-      const Real now = component(p.x, axis), then = component(listed_at_[i], axis), length = component(pass_.length, axis);
+      const Real now = component(p.x, axis), then = component(listed_at_[i], axis),
+                 length = component(pass_.length, axis);
       component(moved, axis) = image_displacement(now, then, nearest_image(now, then, length), length);
     }
     return !(dot(moved, moved) <= pass_.stale_distance2);
@@ -467,7 +476,8 @@ class CpuBackend final : public Backend {
       scan.for_each_contact(i, [&](std::size_t p, const Vec3d& normal, double) {
         const double approach = dot(vec_cast<double>(records_[p].v) - v, normal);
         if (approach > std::min(radius, material_of(records_[p]).radius) / scene_.time_step) {
-          found = Condition::first(found, {Condition::Kind::approach_too_fast, id, ids_[rank_of(records_[p].rank)], approach});
+          found = Condition::first(found,
+                                   {Condition::Kind::approach_too_fast, id, ids_[rank_of(records_[p].rank)], approach});
         }
       });
       scan.for_each_wall(i, [&](const Vec3d& normal, double) {
@@ -586,20 +596,20 @@ class CpuBackend final : public Backend {
   bool has_drag_ = false;
   ForcePass<Real> pass_;
 
-  std::vector<std::uint64_t> ids_;          // by rank
-  std::size_t count_ = 0;                   // records in use, those gone since the last sort included
+  std::vector<std::uint64_t> ids_;  // by rank
+  std::size_t count_ = 0;  // records in use, those gone since the last sort included
   std::size_t alive_ = 0;
-  double total_mass_ = 0;                   // kg, of those alive
-  std::vector<Record> records_, next_;      // the state, and where a pass writes the next; both end with a dummy
-  std::vector<Vec3<Real>> acceleration_;    // velocity Verlet only, m/s^2
+  double total_mass_ = 0;  // kg, of those alive
+  std::vector<Record> records_, next_;  // the state, and where a pass writes the next; both end with a dummy
+  std::vector<Vec3<Real>> acceleration_;  // velocity Verlet only, m/s^2
   Ledger ledger_;
 
   CellGrid grid_;
   std::vector<std::uint64_t> keys_;
   std::vector<std::uint32_t> order_;
   NeighbourList list_;
-  std::vector<Vec3<Real>> listed_at_;       // m
-  double skin_ = 0;                         // m
+  std::vector<Vec3<Real>> listed_at_;  // m
+  double skin_ = 0;  // m
   bool listed_ = false;
   std::uint64_t rebuilds_ = 0;
 };

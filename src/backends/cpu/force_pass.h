@@ -10,8 +10,8 @@
 
 namespace hooke {
 
-// The force pass as seen from outside: plain data in, plain data out. This header and what it includes are compiled with
-// the flags of every instruction set, so nothing in them may emit an inline function that the linker could share.
+// The force pass as seen from outside: plain data in, plain data out. This header and what it includes are compiled
+// with the flags of every instruction set, so nothing in them may emit an inline function that the linker could share.
 
 /// Coefficients of one pair of materials, or of one material: eight numbers, laid out like a particle record so that a
 /// pack of rows loads like a pack of particles.
@@ -89,10 +89,10 @@ constexpr std::uint32_t record_offset(std::uint32_t index) {
   return index * static_cast<std::uint32_t>(sizeof(ParticleRecord<Real>) / 8);
 }
 
-#define HOOKE_DECLARE_FORCE_PASS(isa)                                                  \
-  namespace isa {                                                                      \
-  void force_pass(const ForcePass<float>& pass, const SegmentWork<float>& work);       \
-  void force_pass(const ForcePass<double>& pass, const SegmentWork<double>& work);     \
+#define HOOKE_DECLARE_FORCE_PASS(isa)                                              \
+  namespace isa {                                                                  \
+  void force_pass(const ForcePass<float>& pass, const SegmentWork<float>& work);   \
+  void force_pass(const ForcePass<double>& pass, const SegmentWork<double>& work); \
   }
 HOOKE_DECLARE_FORCE_PASS(portable)
 HOOKE_DECLARE_FORCE_PASS(avx2)

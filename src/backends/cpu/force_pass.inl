@@ -189,7 +189,7 @@ HOOKE_HD Mask<Real> left_domain(const ForcePass<Real>& pass, const Vec3<Pack<Rea
 template <class Real, PeriodicKind kPeriodic>
 HOOKE_HD Mask<Real> moved_far(const ForcePass<Real>& pass, const Vec3<Pack<Real>>& x, std::size_t first) {
   using P = Pack<Real>;
-  const auto load_axis = [&](Real Vec3<Real>::*c) {
+  const auto load_axis = [&](Real Vec3<Real>::* c) {
     P a(Real(0));
     for (std::size_t lane = 0; lane < P::kLanes; ++lane) a.v[lane] = pass.listed_at[first + lane].*c;
     return a;
@@ -278,9 +278,12 @@ void run_segment(const ForcePass<Real>& pass, const SegmentWork<Real>& work) {
 template <class Real, bool kOneMaterial>
 void choose_periodic(const ForcePass<Real>& pass, const SegmentWork<Real>& work) {
   switch (pass.periodic_kind) {
-    case PeriodicKind::none: return run_segment<Real, kOneMaterial, PeriodicKind::none>(pass, work);
-    case PeriodicKind::nearest: return run_segment<Real, kOneMaterial, PeriodicKind::nearest>(pass, work);
-    case PeriodicKind::images: return run_segment<Real, kOneMaterial, PeriodicKind::images>(pass, work);
+    case PeriodicKind::none:
+      return run_segment<Real, kOneMaterial, PeriodicKind::none>(pass, work);
+    case PeriodicKind::nearest:
+      return run_segment<Real, kOneMaterial, PeriodicKind::nearest>(pass, work);
+    case PeriodicKind::images:
+      return run_segment<Real, kOneMaterial, PeriodicKind::images>(pass, work);
   }
 }
 

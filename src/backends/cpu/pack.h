@@ -60,7 +60,8 @@ struct Pack {
   Vector v;
 
   Pack() = default;
-  HOOKE_HD Pack(Real s) : v(s - Vector{}) {}  // NOLINT: a number stands for a pack of it, as in the laws; s - 0 keeps -0
+  HOOKE_HD Pack(Real s)
+      : v(s - Vector{}) {}  // NOLINT: a number stands for a pack of it, as in the laws; s - 0 keeps -0
   HOOKE_HD explicit Pack(Vector vector) : v(vector) {}
 
   friend HOOKE_HD Pack operator+(const Pack& a, const Pack& b) { return Pack(a.v + b.v); }
@@ -111,8 +112,10 @@ struct Quad {
 #if defined(__AVX512F__)
 
 HOOKE_HD Quad<float> transpose(__m512 r0, __m512 r1, __m512 r2, __m512 r3) {
-  const __m512d xy01 = _mm512_castps_pd(_mm512_unpacklo_ps(r0, r1)), zw01 = _mm512_castps_pd(_mm512_unpackhi_ps(r0, r1));
-  const __m512d xy23 = _mm512_castps_pd(_mm512_unpacklo_ps(r2, r3)), zw23 = _mm512_castps_pd(_mm512_unpackhi_ps(r2, r3));
+  const __m512d xy01 = _mm512_castps_pd(_mm512_unpacklo_ps(r0, r1)),
+                zw01 = _mm512_castps_pd(_mm512_unpackhi_ps(r0, r1));
+  const __m512d xy23 = _mm512_castps_pd(_mm512_unpacklo_ps(r2, r3)),
+                zw23 = _mm512_castps_pd(_mm512_unpackhi_ps(r2, r3));
   return {Pack<float>((_mm512_castpd_ps(_mm512_unpacklo_pd(xy01, xy23)))),
           Pack<float>((_mm512_castpd_ps(_mm512_unpackhi_pd(xy01, xy23)))),
           Pack<float>((_mm512_castpd_ps(_mm512_unpacklo_pd(zw01, zw23)))),
@@ -156,8 +159,10 @@ HOOKE_HD Quad<double> load_quads(double, const At& at) {
 #elif defined(__AVX2__)
 
 HOOKE_HD Quad<float> transpose(__m256 r0, __m256 r1, __m256 r2, __m256 r3) {
-  const __m256d xy01 = _mm256_castps_pd(_mm256_unpacklo_ps(r0, r1)), zw01 = _mm256_castps_pd(_mm256_unpackhi_ps(r0, r1));
-  const __m256d xy23 = _mm256_castps_pd(_mm256_unpacklo_ps(r2, r3)), zw23 = _mm256_castps_pd(_mm256_unpackhi_ps(r2, r3));
+  const __m256d xy01 = _mm256_castps_pd(_mm256_unpacklo_ps(r0, r1)),
+                zw01 = _mm256_castps_pd(_mm256_unpackhi_ps(r0, r1));
+  const __m256d xy23 = _mm256_castps_pd(_mm256_unpacklo_ps(r2, r3)),
+                zw23 = _mm256_castps_pd(_mm256_unpackhi_ps(r2, r3));
   return {Pack<float>((_mm256_castpd_ps(_mm256_unpacklo_pd(xy01, xy23)))),
           Pack<float>((_mm256_castpd_ps(_mm256_unpackhi_pd(xy01, xy23)))),
           Pack<float>((_mm256_castpd_ps(_mm256_unpacklo_pd(zw01, zw23)))),
@@ -182,11 +187,13 @@ HOOKE_HD void store_quads(const Quad<float>& q, const At& at) {
 }
 template <class At>
 HOOKE_HD Quad<double> load_quads(double, const At& at) {
-  const __m256d r0 = _mm256_load_pd(at(0)), r1 = _mm256_load_pd(at(1)), r2 = _mm256_load_pd(at(2)), r3 = _mm256_load_pd(at(3));
+  const __m256d r0 = _mm256_load_pd(at(0)), r1 = _mm256_load_pd(at(1)), r2 = _mm256_load_pd(at(2)),
+                r3 = _mm256_load_pd(at(3));
   const __m256d xz0 = _mm256_unpacklo_pd(r0, r1), yw0 = _mm256_unpackhi_pd(r0, r1);
   const __m256d xz1 = _mm256_unpacklo_pd(r2, r3), yw1 = _mm256_unpackhi_pd(r2, r3);
-  return {Pack<double>((_mm256_permute2f128_pd(xz0, xz1, 0x20))), Pack<double>((_mm256_permute2f128_pd(yw0, yw1, 0x20))),
-          Pack<double>((_mm256_permute2f128_pd(xz0, xz1, 0x31))), Pack<double>((_mm256_permute2f128_pd(yw0, yw1, 0x31)))};
+  return {
+      Pack<double>((_mm256_permute2f128_pd(xz0, xz1, 0x20))), Pack<double>((_mm256_permute2f128_pd(yw0, yw1, 0x20))),
+      Pack<double>((_mm256_permute2f128_pd(xz0, xz1, 0x31))), Pack<double>((_mm256_permute2f128_pd(yw0, yw1, 0x31)))};
 }
 
 #else

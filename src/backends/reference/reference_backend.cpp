@@ -147,8 +147,8 @@ class ReferenceBackend final : public Backend {
         dissipated += contact.dissipation;
         const double approach = dot(w, normal);
         if (approach > std::min(m.radius, material(p).radius) / dt) {
-          out.condition = Condition::first(
-              out.condition, {Condition::Kind::approach_too_fast, p_.id[i], p_.id[p], approach});
+          out.condition =
+              Condition::first(out.condition, {Condition::Kind::approach_too_fast, p_.id[i], p_.id[p], approach});
         }
       });
 
