@@ -30,9 +30,11 @@ std::string type_of(const Json& part) {
   if (type == "integer") return "whole number";
   if (type == "string") return "text";
   if (type != "array") return type;
-  const std::string of = part.contains("items") && part.at("items").contains("type") ? type_of(part.at("items")) : "value";
+  const std::string of =
+      part.contains("items") && part.at("items").contains("type") ? type_of(part.at("items")) : "value";
   if (!part.contains("maxItems")) return "list of " + of + "s";
-  return "list of " + part.at("maxItems").dump() + (part.at("items").contains("enum") ? ", each " + of : " " + of + "s");
+  return "list of " + part.at("maxItems").dump() +
+         (part.at("items").contains("enum") ? ", each " + of : " " + of + "s");
 }
 
 std::string range_of(const Json& part) {
@@ -80,8 +82,8 @@ void write_object(const Json& object, const std::string& path) {
   for (const auto& [key, part] : object.at("properties").items()) {
     std::string description = part.at("description");
     if (part.contains("examples")) description += " For instance `" + part.at("examples").front().dump() + "`.";
-    std::cout << "| `" << key << "` | " << description << " | " << type_of(part) << " | " << part.value("unit", "") << " | "
-              << range_of(part) << " | " << fallback_of(object, key, part) << " |\n";
+    std::cout << "| `" << key << "` | " << description << " | " << type_of(part) << " | " << part.value("unit", "")
+              << " | " << range_of(part) << " | " << fallback_of(object, key, part) << " |\n";
   }
   for (const auto& [key, part] : object.at("properties").items()) {
     std::string below = path.empty() ? key : path + "." + key;
@@ -103,25 +105,26 @@ int main(int argc, char** argv) try {
     std::cerr << "usage: scene_reference SCHEMA EXAMPLE\n";
     return 2;
   }
-  std::cout << "<!-- Made from schema/scene.json and schema/example.json by tools/scene_reference.cpp; edit those. -->\n"
-               "# Scene files\n\n"
-               "A scene is JSON with `//` and `/* */` comments, UTF-8, at most 64 levels deep. SI units. Everything is\n"
-               "checked before anything runs: unknown keys, wrong types and values out of range are errors that name the\n"
-               "JSON path, the value and what is allowed, all of them at once. `hooke schema` prints the JSON Schema\n"
-               "behind this page; an editor that is pointed to it completes and checks as you type.\n\n"
-               "```jsonc\n"
-            << read(argv[2])
-            << "```\n\n"
-               "## Particle files\n\n"
-               "CSV with a header. Columns `x`, `y`, `z` (m) are required; `id`, `vx`, `vy`, `vz` (m/s) and `material` (a\n"
-               "name) are read where present and go before what the entry says; other columns are ignored, with a\n"
-               "warning. Particles without an id number on from the largest one so far. A path is relative to the\n"
-               "scene's folder and may not leave it without `--allow-outside`. Errors name file and line, the header\n"
-               "being line 1.\n\n"
-               "## Changing a value for one run\n\n"
-               "`--set PATH=VALUE` puts a JSON value at a path, and is checked like the scene: `--set time.step=0.002`,\n"
-               "`--set particles[0].block.count=1000`, `--set 'materials[\"salt water\"].radius=0.1'`. A key that excludes\n"
-               "another (`time.end`, `time.steps`) takes its place.\n";
+  std::cout
+      << "<!-- Made from schema/scene.json and schema/example.json by tools/scene_reference.cpp; edit those. -->\n"
+         "# Scene files\n\n"
+         "A scene is JSON with `//` and `/* */` comments, UTF-8, at most 64 levels deep. SI units. Everything is\n"
+         "checked before anything runs: unknown keys, wrong types and values out of range are errors that name the\n"
+         "JSON path, the value and what is allowed, all of them at once. `hooke schema` prints the JSON Schema\n"
+         "behind this page; an editor that is pointed to it completes and checks as you type.\n\n"
+         "```jsonc\n"
+      << read(argv[2])
+      << "```\n\n"
+         "## Particle files\n\n"
+         "CSV with a header. Columns `x`, `y`, `z` (m) are required; `id`, `vx`, `vy`, `vz` (m/s) and `material` (a\n"
+         "name) are read where present and go before what the entry says; other columns are ignored, with a\n"
+         "warning. Particles without an id number on from the largest one so far. A path is relative to the\n"
+         "scene's folder and may not leave it without `--allow-outside`. Errors name file and line, the header\n"
+         "being line 1.\n\n"
+         "## Changing a value for one run\n\n"
+         "`--set PATH=VALUE` puts a JSON value at a path, and is checked like the scene: `--set time.step=0.002`,\n"
+         "`--set particles[0].block.count=1000`, `--set 'materials[\"salt water\"].radius=0.1'`. A key that excludes\n"
+         "another (`time.end`, `time.steps`) takes its place.\n";
   write_object(Json::parse(read(argv[1])), "");
   return 0;
 } catch (const std::exception& fault) {

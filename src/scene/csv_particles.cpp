@@ -80,7 +80,9 @@ struct Fields {
 class Reader {
  public:
   Reader(const std::string& name, const CsvDefaults& defaults, Findings& findings)
-      : name_(name), defaults_(defaults), findings_(findings) {}
+      : name_(name),
+        defaults_(defaults),
+        findings_(findings) {}
 
   CsvParticles read(std::string_view text) {
     constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";

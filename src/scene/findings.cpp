@@ -10,9 +10,7 @@
 
 namespace hooke {
 
-void Findings::forget_lines(std::string_view path) {
-  without_line_.emplace_back(path);
-}
+void Findings::forget_lines(std::string_view path) { without_line_.emplace_back(path); }
 
 void Findings::add(const std::string& path, std::string message) {
   const int line = line_of(path);

@@ -37,7 +37,6 @@ struct CountingIterator {
     return before;
   }
   friend bool operator==(const CountingIterator& a, const CountingIterator& b) { return a.at == b.at; }
-  friend bool operator!=(const CountingIterator& a, const CountingIterator& b) { return a.at != b.at; }
 };
 
 struct Overflow {
@@ -49,7 +48,12 @@ struct Overflow {
 class Builder : public nlohmann::json_sax<Json> {
  public:
   Builder(std::string_view text, const std::string& name, const std::string& path, JsonReading& out)
-      : text_(text), name_(name), root_path_(path), out_(out), read_to_(text.data()), counted_to_(text.data()) {}
+      : text_(text),
+        name_(name),
+        root_path_(path),
+        out_(out),
+        read_to_(text.data()),
+        counted_to_(text.data()) {}
 
   CountingIterator begin() { return {text_.data(), &read_to_}; }
   CountingIterator end() { return {text_.data() + text_.size(), &read_to_}; }
@@ -88,7 +92,8 @@ class Builder : public nlohmann::json_sax<Json> {
     constexpr int kNumberOverflow = 406;
     if (fault.id == kNumberOverflow) {
       overflow_ = {position - token.size(), token.size()};
-      out_.faults.emplace_back(next_path(), fmt::format("is {}, beyond the largest number (1.8e308)", printable(token, 40)));
+      out_.faults.emplace_back(next_path(),
+                               fmt::format("is {}, beyond the largest number (1.8e308)", printable(token, 40)));
       return false;
     }
     // "[json.exception.parse_error.101] parse error at line 3, column 7: what": the place is named our own way.

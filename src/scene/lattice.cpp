@@ -43,7 +43,12 @@ UpDirection up_against(const Vec3d& gravity) {
 }
 
 Lattice::Lattice(LatticeKind kind, const CentreBox& box, double spacing, UpDirection up)
-    : kind_(kind), box_(box), spacing_(spacing), up_(up), row_axis_((up.axis + 1) % 3), third_axis_((up.axis + 2) % 3) {
+    : kind_(kind),
+      box_(box),
+      spacing_(spacing),
+      up_(up),
+      row_axis_((up.axis + 1) % 3),
+      third_axis_((up.axis + 2) % 3) {
   // Hexagonal close packing: touching rows shifted by half a spacing, layers sqrt(2/3) spacings apart.
   const bool hcp = kind == LatticeKind::hcp;
   row_distance_ = hcp ? spacing * std::sqrt(3.0) / 2 : spacing;

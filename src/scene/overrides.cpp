@@ -16,9 +16,12 @@ namespace {
 std::size_t find_equals(const std::string& text) {
   bool quoted = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    if (quoted && text[i] == '\\') ++i;
-    else if (text[i] == '"') quoted = !quoted;
-    else if (text[i] == '=' && !quoted) return i;
+    if (quoted && text[i] == '\\')
+      ++i;
+    else if (text[i] == '"')
+      quoted = !quoted;
+    else if (text[i] == '=' && !quoted)
+      return i;
   }
   return std::string::npos;
 }
@@ -73,9 +76,8 @@ class Setter {
 
   bool descend(std::size_t index) {
     if (!at_->is_array() || index > at_->size()) {
-      findings_.add(join_path(where_, index),
-                    fmt::format("can't be set: {} is {}, {}", where_, brief(*at_),
-                                at_->is_array() ? "counted from 0" : "no list"));
+      findings_.add(join_path(where_, index), fmt::format("can't be set: {} is {}, {}", where_, brief(*at_),
+                                                          at_->is_array() ? "counted from 0" : "no list"));
       return false;
     }
     if (schema_ != nullptr) schema_ = schema_of_part(*schema_, *at_, index);
@@ -99,7 +101,8 @@ void apply(const std::string& text, Json& scene, Findings& findings) {
   if (equals == std::string::npos) return complain("must be PATH=VALUE, for instance time.step=0.002");
   if (!is_utf8(text)) return complain("is not valid UTF-8");
   const auto path = parse_path(std::string_view(text).substr(0, equals));
-  if (!path) return complain("the path must be keys with dots and indices in brackets, for instance particles[0].block.count");
+  if (!path)
+    return complain("the path must be keys with dots and indices in brackets, for instance particles[0].block.count");
 
   const std::string where = to_text(*path);
   const std::string value_text = text.substr(equals + 1);

@@ -49,7 +49,11 @@ class Loader {
  public:
   Loader(const Scene& scene, const std::filesystem::path& folder, const LoadOptions& options, Findings& findings,
          std::vector<Finding>& warnings)
-      : scene_(scene), folder_(folder), options_(options), findings_(findings), warnings_(warnings) {
+      : scene_(scene),
+        folder_(folder),
+        options_(options),
+        findings_(findings),
+        warnings_(warnings) {
     for (const Material& m : scene.materials) names_.push_back(m.name);
     domain_known_ = !findings.touches("domain") && !findings.touches("gravity");
   }
@@ -100,7 +104,8 @@ class Loader {
                     fmt::format("is missing; must be one of the scene's materials: {}", quoted_list(names_)));
     }
     if (entry.contains("file") && !findings_.touches(join_path(path, "file"))) plan_file(entry.at("file"), source);
-    if (is_block && !findings_.touches(join_path(path, "block")) && domain_known_) plan_block(entry.at("block"), source);
+    if (is_block && !findings_.touches(join_path(path, "block")) && domain_known_)
+      plan_block(entry.at("block"), source);
     if (findings_.touches(path)) return;
     source.velocity = vec3_or(entry.at("velocity"), {});
     if (source.block || !source.file.empty()) sources_.push_back(std::move(source));
@@ -113,8 +118,8 @@ class Loader {
     const auto found = std::find(names_.begin(), names_.end(), name);
     if (found == names_.end()) {
       const std::string hint = did_you_mean(name, names_);
-      findings_.add(where, fmt::format("is \"{}\", which is no material{}{} the scene has {}", printable(name, 60), hint,
-                                       hint.empty() ? ";" : "", quoted_list(names_)));
+      findings_.add(where, fmt::format("is \"{}\", which is no material{}{} the scene has {}", printable(name, 60),
+                                       hint, hint.empty() ? ";" : "", quoted_list(names_)));
       return;
     }
     source.material = static_cast<std::uint16_t>(found - names_.begin());
@@ -151,8 +156,8 @@ class Loader {
   }
 
   void append_file(const Source& source) {
-    CsvParticles rows = read_csv_particles(source.file, source.file_name, {names_, source.material, source.velocity},
-                                           findings_);
+    CsvParticles rows =
+        read_csv_particles(source.file, source.file_name, {names_, source.material, source.velocity}, findings_);
     if (!rows.ignored_columns.empty()) {
       warnings_.push_back({source.file_name, fmt::format("columns that Hooke does not read are ignored: {}",
                                                          quoted_list(rows.ignored_columns))});
@@ -235,7 +240,8 @@ class Loader {
       if (id[order[i]] != id[order[i - 1]] || ++doubled > kMostFindings) continue;
       const Span& second = span_of(order[i]);
       const Span& first = span_of(order[i - 1]);
-      complain(second, second.where(order[i]), fmt::format("id {} is taken, by {}", id[order[i]], first.where(order[i - 1])));
+      complain(second, second.where(order[i]),
+               fmt::format("id {} is taken, by {}", id[order[i]], first.where(order[i - 1])));
     }
     if (doubled > kMostFindings) {
       findings_.add("particles", fmt::format("{} ids are given more than once", doubled));

@@ -22,7 +22,10 @@ using Index3 = std::array<std::uint64_t, 3>;
 class Packing {
  public:
   Packing(const CentreBox& box, double spacing, std::uint64_t count, std::uint64_t seed)
-      : box_(box), spacing_squared_(spacing * spacing), count_(count), seed_(seed) {
+      : box_(box),
+        spacing_squared_(spacing * spacing),
+        count_(count),
+        seed_(seed) {
     // Cells at least a spacing wide: whoever is nearer is in one of the 27 around. No more of them than about two
     // a centre, so that a few centres in a vast box need little memory.
     width_ = spacing;
@@ -45,8 +48,7 @@ class Packing {
   std::vector<Vec3d> run() {
     constexpr int kMostSplits = 6;  // what is free then is less than 1e-5 of the box
     for (int splits = 0; splits <= kMostSplits && !voxels_.empty(); ++splits) {
-      while (throw_darts()) {
-      }
+      while (throw_darts()) {}
       if (centres_.size() >= count_) break;
       split_voxels();
     }

@@ -48,7 +48,8 @@ void build_time(const Json& time, Scene& scene, Findings& findings) {
   if (member(time, "end").is_number() && !findings.touches("time.end") && !findings.touches("time.step")) {
     const double steps = steps_until(time.at("end").get<double>(), scene.time_step);
     if (steps > static_cast<double>(kMostSteps)) {
-      findings.add("time.end", fmt::format("is {}, {:.3g} steps; at most 2^53 are possible", brief(time.at("end")), steps));
+      findings.add("time.end",
+                   fmt::format("is {}, {:.3g} steps; at most 2^53 are possible", brief(time.at("end")), steps));
     } else {
       scene.steps = static_cast<std::int64_t>(steps);
     }
@@ -104,7 +105,9 @@ std::vector<std::string> names_of(const std::vector<Material>& materials) {
 class ContactBuilder {
  public:
   ContactBuilder(Scene& scene, Findings& findings)
-      : scene_(scene), findings_(findings), names_(names_of(scene.materials)) {}
+      : scene_(scene),
+        findings_(findings),
+        names_(names_of(scene.materials)) {}
 
   std::vector<std::size_t> index_of;
 
@@ -135,8 +138,8 @@ class ContactBuilder {
         allowed.emplace_back("wall");
         const std::string hint = did_you_mean(name, allowed);
         findings_.add(join_path(join_path(where, "between"), k),
-                      fmt::format("is \"{}\", which is no material{}{} the scene has {} and \"wall\"", printable(name, 60),
-                                  hint, hint.empty() ? ";" : "", quoted_list(names_)));
+                      fmt::format("is \"{}\", which is no material{}{} the scene has {} and \"wall\"",
+                                  printable(name, 60), hint, hint.empty() ? ";" : "", quoted_list(names_)));
         known = false;
       }
     }

@@ -13,7 +13,8 @@ Expected<fs::path> find_scene_file(const fs::path& folder, const std::string& na
   if (name.find('\0') != std::string::npos) return refuse("holds a null character");
   const fs::path relative(name);
   if (!allow_outside) {
-    if (relative.is_absolute()) return refuse("is absolute; paths are relative to the scene's folder (--allow-outside lifts this)");
+    if (relative.is_absolute())
+      return refuse("is absolute; paths are relative to the scene's folder (--allow-outside lifts this)");
     if (std::find(relative.begin(), relative.end(), "..") != relative.end()) {
       return refuse("leads out of the scene's folder by \"..\" (--allow-outside lifts this)");
     }

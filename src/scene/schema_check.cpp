@@ -121,7 +121,10 @@ std::vector<std::string> enum_names(const Json& schema) {
 class Wording {
  public:
   Wording(const Fault& fault, Findings& findings)
-      : path_(fault.path), value_(*fault.value), schema_(chosen_branch(*fault.schema, value_)), findings_(findings) {}
+      : path_(fault.path),
+        value_(*fault.value),
+        schema_(chosen_branch(*fault.schema, value_)),
+        findings_(findings) {}
 
   // Whether there was anything to say.
   bool say() {
@@ -173,9 +176,9 @@ class Wording {
     for (const auto& member : value_.items()) {
       if (schema_.at("properties").contains(member.key())) continue;
       const std::string hint = did_you_mean(member.key(), known);
-      complain(join_path(path_, member.key()), fmt::format("is no key of a scene (its value: {}){}{} keys here: {}",
-                                                           brief(member.value()), hint, hint.empty() ? ";" : "",
-                                                           quoted_list(known)));
+      complain(join_path(path_, member.key()),
+               fmt::format("is no key of a scene (its value: {}){}{} keys here: {}", brief(member.value()), hint,
+                           hint.empty() ? ";" : "", quoted_list(known)));
     }
   }
 
@@ -252,7 +255,8 @@ void check_against_schema(const Json& scene, Findings& findings) {
     if (!Wording(fault, findings).say()) unworded.push_back(std::move(fault));
   }
   for (const Fault& fault : unworded) {
-    if (!findings.touches(fault.path)) findings.add(fault.path, fmt::format("is {}: {}", brief(*fault.value), fault.description));
+    if (!findings.touches(fault.path))
+      findings.add(fault.path, fmt::format("is {}: {}", brief(*fault.value), fault.description));
   }
 }
 

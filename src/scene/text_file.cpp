@@ -47,7 +47,8 @@ std::uint64_t count_lines(const std::filesystem::path& path) {
   std::vector<char> piece(kPiece);
   std::uint64_t lines = 0;
   while (const std::size_t got = std::fread(piece.data(), 1, piece.size(), file.get())) {
-    lines += static_cast<std::uint64_t>(std::count(piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(got), '\n'));
+    lines +=
+        static_cast<std::uint64_t>(std::count(piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(got), '\n'));
   }
   return lines;
 }

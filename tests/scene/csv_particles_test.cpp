@@ -76,7 +76,8 @@ TEST_F(CsvParticlesTest, NamesAFileThatCannotBeRead) {
 
 TEST_F(CsvParticlesTest, ReadsHalfAMillionRowsQuickly) {
   std::string text = "id,x,y,z,vx,vy,vz\n";
-  for (int i = 1; i <= 512000; ++i) text += std::to_string(i) + ",12.345678901,2.3456789012,33.456789012,0.125,-9.8,1e-05\n";
+  for (int i = 1; i <= 512000; ++i)
+    text += std::to_string(i) + ",12.345678901,2.3456789012,33.456789012,0.125,-9.8,1e-05\n";
   const auto file = folder_.write("p.csv", text);
   const auto start = std::chrono::steady_clock::now();
   const auto p = read_csv_particles(file, "p.csv", defaults_, findings_);

@@ -9,7 +9,8 @@ namespace hooke {
 namespace {
 
 TEST(JsonReader, KeepsOrderLinesAndComments) {
-  const JsonReading r = read_json("// a scene\n{\n  \"b\": 1, /* two */\n  \"a\": [\n 1.5,\n\"x\"],\n\"c\": 12\n}", "t");
+  const JsonReading r =
+      read_json("// a scene\n{\n  \"b\": 1, /* two */\n  \"a\": [\n 1.5,\n\"x\"],\n\"c\": 12\n}", "t");
   ASSERT_TRUE(r.value);
   EXPECT_EQ(r.value->dump(), R"({"b":1,"a":[1.5,"x"],"c":12})");
   EXPECT_EQ(r.lines.at(""), 2);
@@ -80,8 +81,9 @@ TEST(JsonReader, SaysValuesInFewWords) {
 TEST(JsonReader, WritesForPeopleAndReadsBack) {
   const Json value = Json::parse(R"({"a":[0.1,-9.8,1e-300],"b":{"c":[{"d":true}],"e":{}},"f":[]})");
   const std::string text = pretty(value);
-  EXPECT_EQ(text, "{\n  \"a\": [0.1, -9.8, 1e-300],\n  \"b\": {\n    \"c\": [\n      {\n        \"d\": true\n      }\n"
-                  "    ],\n    \"e\": {}\n  },\n  \"f\": []\n}\n");
+  EXPECT_EQ(text,
+            "{\n  \"a\": [0.1, -9.8, 1e-300],\n  \"b\": {\n    \"c\": [\n      {\n        \"d\": true\n      }\n"
+            "    ],\n    \"e\": {}\n  },\n  \"f\": []\n}\n");
   EXPECT_EQ(Json::parse(text), value);
 }
 

@@ -65,7 +65,9 @@ TEST(Lattice, HcpIsClosePacked) {
   EXPECT_NEAR(smallest_distance(all), 1, 1e-12);
   // In the middle everyone has twelve neighbours.
   const Vec3d middle{2.5, 2.5, 2.5};
-  const auto nearer = [&](const Vec3d& a, const Vec3d& b) { return dot(a - middle, a - middle) < dot(b - middle, b - middle); };
+  const auto nearer = [&](const Vec3d& a, const Vec3d& b) {
+    return dot(a - middle, a - middle) < dot(b - middle, b - middle);
+  };
   const Vec3d centre = *std::min_element(all.begin(), all.end(), nearer);
   const auto touching = std::count_if(all.begin(), all.end(), [&](const Vec3d& x) {
     const Vec3d d = x - centre;

@@ -56,8 +56,9 @@ TEST(LoadScene, EndsWithTheFirstStepAtOrAfterTheEnd) {
 }
 
 TEST(LoadScene, ContactsTakeTheMixedValueWhereTheyNameNone) {
-  const auto loaded = load({"materials.oil={\"radius\":1,\"mass\":1,\"stiffness\":300,\"damping\":4}",
-                            "contacts=[{\"between\":[\"water\",\"oil\"],\"shear\":7},{\"between\":[\"wall\",\"oil\"]}]"});
+  const auto loaded =
+      load({"materials.oil={\"radius\":1,\"mass\":1,\"stiffness\":300,\"damping\":4}",
+            "contacts=[{\"between\":[\"water\",\"oil\"],\"shear\":7},{\"between\":[\"wall\",\"oil\"]}]"});
   ASSERT_TRUE(loaded) << loaded.error().text();
   EXPECT_EQ(loaded->scene.contacts[0].coefficients, (ContactCoefficients<double>{150, 7, 2}));
   EXPECT_EQ(loaded->scene.contacts[1].coefficients, (ContactCoefficients<double>{300, 0, 4}));
@@ -105,8 +106,9 @@ TEST(LoadScene, JitterIsBoundedAndOfItsSeed) {
 }
 
 TEST(LoadScene, JitterWrapsAcrossPeriodicFaces) {
-  const auto loaded = with_source(R"({"material":"water","block":{"min":[0,0,0],"max":[9,9,9],"spacing":1,"jitter":0.1}})",
-                                  {"domain.walls=periodic"});
+  const auto loaded =
+      with_source(R"({"material":"water","block":{"min":[0,0,0],"max":[9,9,9],"spacing":1,"jitter":0.1}})",
+                  {"domain.walls=periodic"});
   EXPECT_EQ(loaded.particles.size(), 1000U);
   const auto wrapped = std::count_if(loaded.particles.position.begin(), loaded.particles.position.end(),
                                      [](const Vec3d& x) { return x.x > 9.8; });

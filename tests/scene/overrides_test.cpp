@@ -54,8 +54,9 @@ TEST(Overrides, AreCheckedLikeTheSceneItself) {
   EXPECT_EQ(complaints({"time.step=1e999"}), "time.step: is 1e999, beyond the largest number (1.8e308)");
   EXPECT_EQ(complaints({"materials.water.radus=1"}).substr(0, 85),
             "materials.water.radus: is no key of a scene (its value: 1); did you mean \"radius\"? ke");
-  EXPECT_EQ(complaints({"particles[0].material=wter"}),
-            "particles[0].material: is \"wter\", which is no material; did you mean \"water\"? the scene has \"water\"");
+  EXPECT_EQ(
+      complaints({"particles[0].material=wter"}),
+      "particles[0].material: is \"wter\", which is no material; did you mean \"water\"? the scene has \"water\"");
   EXPECT_EQ(complaints({"particles[0].velocity={\"a\":1,\"a\":2}"}).substr(0, 74),
             "particles[0].velocity.a: is given twice in one object, the second time on ");
 }

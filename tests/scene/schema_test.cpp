@@ -17,10 +17,12 @@ template <class Look>
 void walk(const Json& schema, const std::string& path, Look look) {
   look(schema, path);
   for (const char* keyword : {"items", "additionalProperties"}) {
-    if (schema.contains(keyword) && schema.at(keyword).is_object()) walk(schema.at(keyword), path + "." + keyword, look);
+    if (schema.contains(keyword) && schema.at(keyword).is_object())
+      walk(schema.at(keyword), path + "." + keyword, look);
   }
   if (!schema.contains("properties")) return;
-  for (const auto& property : schema.at("properties").items()) walk(property.value(), path + "." + property.key(), look);
+  for (const auto& property : schema.at("properties").items())
+    walk(property.value(), path + "." + property.key(), look);
 }
 
 TEST(Schema, DescribesEveryKey) {
