@@ -103,6 +103,7 @@ class CpuBackend final : public Backend {
     for (std::size_t i = 0; i < count_; ++i) {
       records_[i] = {vec_cast<Real>(particles.position[i]), static_cast<Real>(particles.material[i]),
                      vec_cast<Real>(particles.velocity[i]), rank_code<Real>(static_cast<std::uint32_t>(i))};
+      wrap_periodic(records_[i]);  // a coordinate may have been rounded up to the upper face
       if (verlet() && !particles.acceleration.empty()) acceleration_[i] = vec_cast<Real>(particles.acceleration[i]);
     }
     std::fill(records_.begin() + static_cast<std::ptrdiff_t>(count_), records_.end(), nowhere_record<Real>(Real(0)));
@@ -531,20 +532,27 @@ class CpuBackend final : public Backend {
 
   // Boundaries -------------------------------------------------------------------------------------------------------
 
+  void wrap_periodic(Record& p) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!pass_.periodic[axis]) continue;
+      Real& x = component(p.x, axis);
+      x = wrap_coordinate(x, component(pass_.min, axis), component(pass_.max, axis));
+    }
+  }
+
+  bool is_outside_open_face(const Record& p) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!pass_.open_or_periodic[axis] || pass_.periodic[axis]) continue;
+      const Real x = component(p.x, axis);
+      if (x < component(pass_.min, axis) || x > component(pass_.max, axis)) return true;
+    }
+    return false;
+  }
+
   // Wraps periodic coordinates; a particle outside an open face goes nowhere.
   void apply_boundaries(Record& p, RemovalSums& left) const {
-    bool outside = false;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!pass_.open_or_periodic[axis]) continue;
-      Real& x = component(p.x, axis);
-      const Real min = component(pass_.min, axis), max = component(pass_.max, axis);
-      if (pass_.periodic[axis]) {
-        x = wrap_coordinate(x, min, max);
-      } else {
-        outside = outside || x < min || x > max;
-      }
-    }
-    if (!outside) return;
+    wrap_periodic(p);
+    if (!is_outside_open_face(p)) return;
     left.add_particle(material_of(p).mass, vec_cast<double>(p.x), vec_cast<double>(p.v), scene_.gravity);
     const Real material = p.material;
     p = nowhere_record<Real>(p.rank);

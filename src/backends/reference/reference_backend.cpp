@@ -38,6 +38,7 @@ class ReferenceBackend final : public Backend {
   Condition upload(const ParticleSet& particles, std::uint64_t first_new_id, const Ledger& ledger) override {
     p_ = particles;
     ledger_ = ledger;
+    for (Vec3d& x : p_.position) wrap_periodic(x);
     if (!verlet()) {
       p_.acceleration.clear();
       return {};
@@ -210,18 +211,26 @@ class ReferenceBackend final : public Backend {
     }
   }
 
+  void wrap_periodic(Vec3d& x) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (scene_.domain.boundary[static_cast<std::size_t>(axis)] != Boundary::periodic) continue;
+      component(x, axis) =
+          wrap_coordinate(component(x, axis), component(scene_.domain.min, axis), component(scene_.domain.max, axis));
+    }
+  }
+
   // Wraps periodic coordinates and removes particles outside open faces.
   void apply_boundaries() {
     RemovalSums removed;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < p_.size(); ++i) {
       bool left = false;
+      wrap_periodic(p_.position[i]);
       for (int axis = 0; axis < 3; ++axis) {
-        double& x = component(p_.position[i], axis);
+        const double x = component(p_.position[i], axis);
         const double min = component(scene_.domain.min, axis);
         const double max = component(scene_.domain.max, axis);
         const Boundary boundary = scene_.domain.boundary[static_cast<std::size_t>(axis)];
-        if (boundary == Boundary::periodic) x = wrap_coordinate(x, min, max);
         if (boundary == Boundary::open && (x < min || x > max)) left = true;
       }
       if (left) {
