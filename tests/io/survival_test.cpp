@@ -145,7 +145,7 @@ void limit_file_size(rlim_t bytes) {
 }
 
 TEST(Survival, AFullDiskIsReportedAndWhatWasThereStaysReadable) {
-  for (const rlim_t limit : {300'000, 1'000'000, 1'300'000, 1'700'001}) {
+  for (const rlim_t limit : {300'000U, 1'000'000U, 1'300'000U, 1'700'001U}) {
     const TemporaryFolder folder;
     const fs::path run = folder / "run";
     SharedNumber flushed;
