@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hooke/core/particles.h"
+#include "hooke/core/scene.h"
+
+namespace hooke::test {
+
+/// A scene and its particles, every coordinate of which single precision holds exactly.
+struct Scenario {
+  std::string name;
+  Scene scene;
+  ParticleSet particles;
+  std::int64_t steps = 40;  ///< to compare over
+};
+
+/// Random, negative, huge, degenerate and empty ones, odd counts, mixed radii, every mix of boundaries, tiny periodic
+/// boxes and thin domains.
+std::vector<Scenario> scenarios();
+
+}  // namespace hooke::test
