@@ -114,18 +114,22 @@ bool ProgramTest::wait_until(const std::function<bool()>& holds) {
   return false;
 }
 
-std::string small_scene(const std::string& integrator, const std::string& precision) {
+std::string pool_scene(int side, const std::string& integrator, const std::string& precision) {
+  const std::string room = std::to_string(0.5 * side + 1);
+  const std::string top = std::to_string(0.3 + 0.4 * (side - 1));
   return R"({
   "hooke": 1, "name": "small pool", // a comment
   "time": { "step": 0.005, "steps": 60, "integrator": ")" +
          integrator + R"(" },
   "precision": ")" +
          precision + R"(",
-  "domain": { "min": [0, 0, 0], "max": [4, 6, 3] },
+  "domain": { "min": [0, 0, 0], "max": [)" +
+         room + ", " + room + ", " + room + R"(] },
   "materials": { "water": { "radius": 0.2, "mass": 1, "stiffness": 6000, "shear": 2, "damping": 8 } },
   "particles": [ { "material": "water",
-                   "block": { "min": [0.3, 0.2, 0.3], "max": [2.31, 2.21, 2.31], "spacing": 0.4, "lattice": "cubic",
-                              "jitter": 0.01, "seed": 3 } } ],
+                   "block": { "min": [0.3, 0.3, 0.3], "max": [)" +
+         top + ", " + top + ", " + top + R"(],
+                              "spacing": 0.4, "lattice": "cubic", "jitter": 0.01, "seed": 3 } } ],
   "output": { "every_steps": 7 }
 })";
 }

@@ -60,7 +60,9 @@ class ProgramTest : public testing::Test {
   std::filesystem::path folder_;
 };
 
-/// A small pool that falls, 216 particles; output every 7 steps, so that most ends of runs are off the beat.
-std::string small_scene(const std::string& integrator = "symplectic-euler", const std::string& precision = "single");
+/// A cube of side^3 particles that falls into a pool; output every 7 steps, so that most ends of runs are off the beat.
+std::string pool_scene(int side, const std::string& integrator, const std::string& precision);
+/// The same with 216 particles, as most tests want it.
+inline std::string small_scene() { return pool_scene(6, "symplectic-euler", "single"); }
 
 }  // namespace hooke::test

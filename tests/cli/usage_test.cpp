@@ -145,7 +145,7 @@ TEST_F(Usage, CheckWarnsOfAnUnstableStepAndStrictRefusesIt) {
 
 TEST_F(Usage, CheckWarnsWhereFloatsAreCoarse) {
   write("s.json", small_scene());
-  const std::vector<std::string> far{"check", "s.json", "--set", "domain.max=[100000,6,3]"};
+  const std::vector<std::string> far{"check", "s.json", "--set", "domain.max=[100000,6,4]"};
   EXPECT_THAT(hooke(far).err, HasSubstr("single precision"));
   std::vector<std::string> in_double = far;
   in_double.insert(in_double.end(), {"--set", "precision=double"});
