@@ -15,12 +15,13 @@
 
 namespace hooke::cli {
 
-Expected<std::unique_ptr<Backend>> make_backend(const DeviceArguments& arguments) {
+Expected<std::unique_ptr<Backend>> make_backend(const DeviceArguments& arguments, Precision precision) {
   if (arguments.device == "cuda") {
     return fail(Error::Kind::bad_input, "--device", "cuda is not in this build; cpu and reference are");
   }
   if (arguments.device == "reference") return make_reference_backend();
   CpuOptions options;
+  options.precision = precision;
   options.threads = arguments.threads;
   if (const char* isa = std::getenv("HOOKE_ISA"); isa != nullptr) options.isa = isa;
   return make_cpu_backend(options);
@@ -34,7 +35,7 @@ Expected<OpenedSimulation> open_simulation(const SceneArguments& scene, const De
   options.with_particles = resume.empty();
   auto loaded = load_scene(scene.file, options);
   if (!loaded) return fail(std::move(loaded).error());
-  auto backend = make_backend(device);
+  auto backend = make_backend(device, loaded->scene.precision);
   if (!backend) return fail(std::move(backend).error());
 
   auto simulation = [&]() -> Expected<Simulation> {
@@ -43,8 +44,6 @@ Expected<OpenedSimulation> open_simulation(const SceneArguments& scene, const De
     }
     auto checkpoint = read_checkpoint(resume);
     if (!checkpoint) return fail(std::move(checkpoint).error());
-    // The back end knows its precision only once it has seen the scene.
-    (*backend)->configure(loaded->scene);
     const RunInfo info = describe_run(loaded->scene, (*backend)->info().precision);
     if (auto findings = check_resumable(checkpoint->info, info); !findings.empty()) {
       return fail(Error{Error::Kind::bad_input, std::move(findings)});

@@ -23,7 +23,7 @@ struct OpenedSimulation {
 };
 
 /// The back end that --device and --threads ask for; HOOKE_ISA in the environment picks the instruction set.
-Expected<std::unique_ptr<Backend>> make_backend(const DeviceArguments& arguments);
+Expected<std::unique_ptr<Backend>> make_backend(const DeviceArguments& arguments, Precision precision);
 
 /// Loads the scene and puts its particles, or those of the checkpoint `resume`, into a back end.
 Expected<OpenedSimulation> open_simulation(const SceneArguments& scene, const DeviceArguments& device,

@@ -12,14 +12,14 @@
 namespace hooke {
 namespace {
 
-// The step at which a pile with these coefficients, of particles of `mass`, becomes unstable.
-double pile_step(const ContactCoefficients<double>& c, double mass) {
-  return critical_step(kPileSpringFactor * c.stiffness / mass, kPileDampingFactor * (c.shear + c.damping) / mass);
+// The step at which a pile with these coefficients, of pairs of effective mass `m_eff`, becomes unstable.
+double pile_step(const ContactCoefficients<double>& c, double m_eff) {
+  return critical_step(kPileSpringFactor * c.stiffness / m_eff, kPileDampingFactor * (c.shear + c.damping) / m_eff);
 }
 
-std::string limiting(const ContactCoefficients<double>& c, double mass, const std::string& pair) {
-  const double by_spring = critical_step(kPileSpringFactor * c.stiffness / mass, 0);
-  const double by_dashpots = critical_step(0, kPileDampingFactor * (c.shear + c.damping) / mass);
+std::string limiting(const ContactCoefficients<double>& c, double m_eff, const std::string& pair) {
+  const double by_spring = critical_step(kPileSpringFactor * c.stiffness / m_eff, 0);
+  const double by_dashpots = critical_step(0, kPileDampingFactor * (c.shear + c.damping) / m_eff);
   const char* which = by_spring < by_dashpots / 4   ? "stiffness"
                       : by_dashpots < by_spring / 4 ? "shear and damping"
                                                     : "stiffness, shear and damping";
@@ -31,15 +31,15 @@ std::string limiting(const ContactCoefficients<double>& c, double mass, const st
 StableStep stable_step(const Scene& scene) {
   const ContactTable table(scene.materials, scene.contacts);
   StableStep best{INFINITY, "nothing"};
-  const auto consider = [&](const ContactCoefficients<double>& c, double mass, const std::string& pair) {
-    const double seconds = pile_step(c, mass);
-    if (seconds < best.seconds) best = {seconds, limiting(c, mass, pair)};
+  const auto consider = [&](const ContactCoefficients<double>& c, double m_eff, const std::string& pair) {
+    const double seconds = pile_step(c, m_eff);
+    if (seconds < best.seconds) best = {seconds, limiting(c, m_eff, pair)};
   };
   for (std::size_t a = 0; a < scene.materials.size(); ++a) {
     const Material& m = scene.materials[a];
     for (std::size_t b = a; b < scene.materials.size(); ++b) {
       const Material& n = scene.materials[b];
-      consider(table.pair(a, b), std::min(m.mass, n.mass), m.name + " - " + n.name);
+      consider(table.pair(a, b), effective_mass(m.mass, n.mass), m.name + " - " + n.name);
     }
     // A wall is one partner that does not move, where a pile has a dozen that do.
     const ContactCoefficients<double>& wall = table.wall(a);

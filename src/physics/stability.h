@@ -18,11 +18,11 @@ inline double damping_ratio(double damping, double stiffness, double m_eff) {
   return stiffness > 0 ? damping / (2 * std::sqrt(stiffness * m_eff)) : 0;
 }
 
-/// Largest eigenvalues of the springs and of the dashpots of a pile, as multiples of k/m and c/m
-/// (docs/theory.md section 4: 8 for the springs of an fcc lattice, 16 for its dashpots, which act on
-/// the whole relative velocity; the upper ends hold for random packings).
-inline constexpr double kPileSpringFactor = 10;
-inline constexpr double kPileDampingFactor = 24;
+/// Largest eigenvalues of the springs and of the dashpots of a pile, as multiples of k/m_eff and c/m_eff of its pairs
+/// (docs/theory.md section 4). With equal masses m = 2 m_eff they are 10 k/m and 24 c/m, the upper ends of what packings
+/// show; an fcc lattice has 8 and 16.
+inline constexpr double kPileSpringFactor = 5;
+inline constexpr double kPileDampingFactor = 12;
 
 /// Largest step (s) for which symplectic Euler is stable on x'' = -omega2 x - gamma x':
 /// omega2 dt^2 + 2 gamma dt = 4 (docs/theory.md eq. 9). Infinite where both are 0.

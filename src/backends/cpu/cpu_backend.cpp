@@ -22,6 +22,7 @@
 #include "hooke/core/state_hash.h"
 #include "hooke/core/sums.h"
 #include "hooke/neighbours/cell_grid.h"
+#include "hooke/neighbours/motion_bounds.h"
 #include "hooke/neighbours/neighbour_list.h"
 #include "hooke/physics/drag.h"
 #include "hooke/physics/integrate.h"
@@ -152,7 +153,7 @@ class CpuBackend final : public Backend {
       if (far) moved_far = true;
       collect(removed, left);
     });
-    if (moved_far) listed_ = false;
+    if (moved_far) listed_ = listed_ && !unlisted_pair_may_touch();
     book(removed);
   }
 
@@ -197,7 +198,7 @@ class CpuBackend final : public Backend {
     });
     book_step(ledger_, sums.rates(scene_.gravity, total_mass_), scene_.time_step, scene_.integrator);
     records_.swap(next_);
-    if (moved_far) listed_ = false;
+    if (moved_far) listed_ = !unlisted_pair_may_touch();
     book(removed);
     return condition;
   }
@@ -312,9 +313,11 @@ class CpuBackend final : public Backend {
       if (pass_.periodic_kind == PeriodicKind::none) pass_.periodic_kind = PeriodicKind::nearest;
       rounding = std::max(rounding, 4 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * length);
     }
-    // Two particles that each moved half a skin may just meet; a thousandth covers the rounding of distances.
-    const double stale_distance = std::max(0.0, 0.999 * skin_ / 2 - rounding);
-    pass_.stale_distance2 = real(stale_distance * stale_distance);
+    // A pair may just meet once its two have moved a skin towards each other; a thousandth covers rounding.
+    motion_limits_.diameter = 2 * largest_radius_;
+    motion_limits_.skin = std::max(0.0, 0.999 * skin_ - 2 * rounding);
+    std::copy(std::begin(pass_.periodic), std::end(pass_.periodic), motion_limits_.periodic);
+    pass_.stale_distance2 = real(motion_limits_.skin * motion_limits_.skin / 4);
   }
 
   void aim_pass(Vec3<Real>* acceleration) {
@@ -369,6 +372,8 @@ class CpuBackend final : public Backend {
       component(max, axis) = component(pass_.max, axis);
     }
     // A millionth more than can be listed: positions are numbered in cells with rounding.
+    motion_limits_.min = min;
+    motion_limits_.max = max;
     grid_.lay_out(min, max, pass_.periodic, (2 * largest_radius_ + skin_) * (1 + 1e-6));
     keys_.resize(count_);
     parallel_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
@@ -415,19 +420,44 @@ class CpuBackend final : public Backend {
       for (std::size_t i = first; i < last; ++i) listed_at_[i] = records_[i].x;
     });
     listed_ = true;
+    motion_laid_out_ = false;
     ++rebuilds_;
   }
 
-  bool has_moved_far(const Record& p, std::size_t i) const {
-    if (!listed_) return true;
+  // How far a record has moved since its neighbours were listed, m.
+  Vec3<Real> displacement(const Record& p, std::size_t i) const {
     Vec3<Real> moved = p.x - listed_at_[i];
     for (int axis = 0; axis < 3; ++axis) {
       if (!pass_.periodic[axis]) continue;
-      const Real now = component(p.x, axis), then = component(listed_at_[i], axis),
-                 length = component(pass_.length, axis);
+      const Real now = component(p.x, axis), then = component(listed_at_[i], axis);
+      const Real length = component(pass_.length, axis);
       component(moved, axis) = image_displacement(now, then, nearest_image(now, then, length), length);
     }
+    return moved;
+  }
+
+  bool has_moved_far(const Record& p, std::size_t i) const {
+    if (!listed_) return false;
+    const Vec3<Real> moved = displacement(p, i);
     return !(dot(moved, moved) <= pass_.stale_distance2);
+  }
+
+  // Whether the list may miss a contact, now that some particle has moved by more than half a skin: not where its
+  // surroundings have moved along.
+  bool unlisted_pair_may_touch() {
+    bool may_touch = false;
+    threads_.run([&] {
+      if (!motion_laid_out_) {
+        motion_.lay_out({listed_at_.data(), count_}, motion_limits_);
+        motion_laid_out_ = true;
+      }
+      may_touch = motion_.unlisted_pair_may_touch([&](std::size_t i, Vec3<Real>& u) {
+        if (is_nowhere(records_[i])) return false;
+        u = displacement(records_[i], i);
+        return true;
+      });
+    });
+    return may_touch;
   }
 
   // The force pass and what it reports -------------------------------------------------------------------------------
@@ -619,6 +649,9 @@ class CpuBackend final : public Backend {
   std::vector<Vec3<Real>> listed_at_;  // m
   double skin_ = 0;  // m
   bool listed_ = false;
+  MotionBounds<Real> motion_;  // since the list was built
+  typename MotionBounds<Real>::Limits motion_limits_;
+  bool motion_laid_out_ = false;
   std::uint64_t rebuilds_ = 0;
 };
 
