@@ -8,6 +8,7 @@
 #include <cmath>
 #include <new>
 
+#include "hooke/base/floating_point.h"
 #include "hooke/base/hash.h"
 #include "hooke/core/step.h"
 
@@ -197,6 +198,7 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 Expected<Simulation> Simulation::create(Scene scene, ParticleSet particles, std::unique_ptr<Backend> backend) {
+  const FloatingPointGuard guard;
   std::vector<Finding> findings = validate(scene);
   if (findings.empty()) findings = check_particles(scene, particles, false);
   if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});
@@ -215,6 +217,7 @@ Expected<Simulation> Simulation::create(Scene scene, ParticleSet particles, std:
 }
 
 Expected<Simulation> Simulation::resume(Scene scene, SimulationState state, std::unique_ptr<Backend> backend) {
+  const FloatingPointGuard guard;
   std::vector<Finding> findings = validate(scene);
   if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});
   auto impl = std::make_unique<Impl>();
@@ -226,6 +229,7 @@ Expected<Simulation> Simulation::resume(Scene scene, SimulationState state, std:
 }
 
 Expected<void> Simulation::step(std::int64_t count) {
+  const FloatingPointGuard guard;
   Impl& s = *impl_;
   try {
     if (auto flushed = s.flush(); !flushed) return flushed;
@@ -258,6 +262,7 @@ std::span<const Vec3d> Simulation::positions() const { return particles().positi
 std::span<const Vec3d> Simulation::velocities() const { return particles().velocity; }
 
 Expected<std::vector<std::uint64_t>> Simulation::add_particles(std::span<const NewParticle> particles) {
+  const FloatingPointGuard guard;
   Impl& s = *impl_;
   std::vector<Finding> findings;
   for (std::size_t i = 0; i < particles.size() && findings.size() < kMostFindings; ++i) {
@@ -283,6 +288,7 @@ Expected<std::vector<std::uint64_t>> Simulation::add_particles(std::span<const N
 }
 
 Expected<void> Simulation::remove_particles(std::span<const std::uint64_t> ids) {
+  const FloatingPointGuard guard;
   Impl& s = *impl_;
   const ParticleSet& now = s.particles();
   std::vector<char> gone(now.size(), 0);
@@ -311,6 +317,7 @@ Expected<void> Simulation::remove_particles(std::span<const std::uint64_t> ids) 
 }
 
 Expected<void> Simulation::apply_impulse(std::uint64_t id, const Vec3d& impulse) {
+  const FloatingPointGuard guard;
   Impl& s = *impl_;
   const std::size_t i = s.particles().find(id);
   if (i == s.host.size())
@@ -320,6 +327,7 @@ Expected<void> Simulation::apply_impulse(std::uint64_t id, const Vec3d& impulse)
 }
 
 Expected<void> Simulation::set_particle(std::uint64_t id, const Vec3d& position, const Vec3d& velocity) {
+  const FloatingPointGuard guard;
   Impl& s = *impl_;
   const std::size_t i = s.particles().find(id);
   if (i == s.host.size())
@@ -334,6 +342,7 @@ Expected<void> Simulation::set_particle(std::uint64_t id, const Vec3d& position,
 }
 
 Expected<void> Simulation::set_material(const Material& material) {
+  const FloatingPointGuard guard;
   Impl& s = *impl_;
   Scene changed = s.scene;
   for (Material& m : changed.materials) {
@@ -351,12 +360,14 @@ Expected<void> Simulation::set_material(const Material& material) {
 }
 
 SimulationState Simulation::snapshot() const {
+  const FloatingPointGuard guard;
   Impl& s = *impl_;
   (void)s.flush();  // evaluates the accelerations of particles just added; a failure is the next step's to report
   return {particles(), s.step, s.next_id, s.backend->ledger(), s.initial_energy, s.initial_momentum};
 }
 
 Expected<void> Simulation::restore(SimulationState state) {
+  const FloatingPointGuard guard;
   Impl& s = *impl_;
   std::vector<Finding> findings = check_particles(s.scene, state.particles, true);
   if (state.step < 0) findings.push_back({"step", fmt::format("{} must be 0 or more", state.step)});
@@ -376,6 +387,7 @@ Expected<void> Simulation::restore(SimulationState state) {
 }
 
 std::uint64_t Simulation::state_hash() const {
+  const FloatingPointGuard guard;
   Impl& s = *impl_;
   if (auto flushed = s.flush(); !flushed) return 0;
   const auto clock = combine64(mix64(static_cast<std::uint64_t>(s.step)), s.next_id);
@@ -383,6 +395,7 @@ std::uint64_t Simulation::state_hash() const {
 }
 
 Expected<Measurements> Simulation::measure() const {
+  const FloatingPointGuard guard;
   if (auto flushed = impl_->flush(); !flushed) return fail(flushed.error());
   return impl_->backend->measure();
 }

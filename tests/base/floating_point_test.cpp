@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "hooke/base/floating_point.h"
 #include "hooke/base/parallel.h"
 
 namespace hooke {

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+namespace hooke {
+
+/// Within its life this thread rounds to nearest and keeps denormal numbers, whatever the program around Hooke has set:
+/// with flush-to-zero the same scene would give other bits (docs/determinism.md).
+class FloatingPointGuard {
+ public:
+#if defined(__SSE2__)
+  FloatingPointGuard() : saved_(_mm_getcsr()) {
+    if (saved_ != kDefault) _mm_setcsr(kDefault);
+  }
+  ~FloatingPointGuard() {
+    if (saved_ != kDefault) _mm_setcsr(saved_);
+  }
+
+ private:
+  static constexpr unsigned kDefault = 0x1f80;  // all exceptions masked, to nearest, no FTZ, no DAZ
+  unsigned saved_;
+#else
+  FloatingPointGuard() = default;
+  ~FloatingPointGuard() = default;
+#endif
+
+ public:
+  FloatingPointGuard(const FloatingPointGuard&) = delete;
+  FloatingPointGuard& operator=(const FloatingPointGuard&) = delete;
+};
+
+}  // namespace hooke
