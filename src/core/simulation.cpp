@@ -103,6 +103,7 @@ struct Simulation::Impl {
   Error failure;
 
   bool verlet() const { return scene.integrator == Integrator::velocity_verlet; }
+  bool single() const { return scene.precision == Precision::single_precision; }
 
   const ParticleSet& particles() {
     if (!host_current) {
@@ -117,6 +118,12 @@ struct Simulation::Impl {
     if (!host_edited) first_new_id = next_id;
     host_edited = true;
     return host;
+  }
+
+  void set_velocity(std::size_t i, const Vec3d& velocity) {
+    edit();
+    initial_momentum += scene.materials[host.material[i]].mass * (velocity - host.velocity[i]);
+    host.velocity[i] = velocity;
   }
 
   // Hands what was edited to the back end.
@@ -322,8 +329,16 @@ Expected<void> Simulation::apply_impulse(std::uint64_t id, const Vec3d& impulse)
   const std::size_t i = s.particles().find(id);
   if (i == s.host.size())
     return fail(Error::Kind::bad_input, fmt::format("particle {}", id), "there is none of this id");
-  const double mass = s.scene.materials[s.host.material[i]].mass;
-  return set_particle(id, s.host.position[i], s.host.velocity[i] + (1 / mass) * impulse);
+  const Vec3d change = (1 / s.scene.materials[s.host.material[i]].mass) * impulse;
+  const Vec3d velocity = s.host.velocity[i] + change;
+  // Not where it is: a particle that presses into a soft wall may stand outside the domain and can be pushed all the
+  // same.
+  if (!is_finite(velocity, s.single())) {
+    return fail(Error::Kind::bad_input, fmt::format("particle {}", id),
+                "velocity " + shown(velocity) + " is not finite");
+  }
+  s.set_velocity(i, velocity);
+  return {};
 }
 
 Expected<void> Simulation::set_particle(std::uint64_t id, const Vec3d& position, const Vec3d& velocity) {
@@ -334,10 +349,8 @@ Expected<void> Simulation::set_particle(std::uint64_t id, const Vec3d& position,
     return fail(Error::Kind::bad_input, fmt::format("particle {}", id), "there is none of this id");
   std::string fault = particle_fault(s.scene, s.host.material[i], position, velocity);
   if (!fault.empty()) return fail(Error::Kind::bad_input, fmt::format("particle {}", id), std::move(fault));
-  ParticleSet& host = s.edit();
-  s.initial_momentum += s.scene.materials[host.material[i]].mass * (velocity - host.velocity[i]);
-  host.position[i] = position;
-  host.velocity[i] = velocity;
+  s.set_velocity(i, velocity);
+  s.host.position[i] = position;
   return {};
 }
 
@@ -345,16 +358,25 @@ Expected<void> Simulation::set_material(const Material& material) {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
   Scene changed = s.scene;
-  for (Material& m : changed.materials) {
+  for (std::size_t k = 0; k < changed.materials.size(); ++k) {
+    Material& m = changed.materials[k];
     if (m.name != material.name) continue;
+    const double more_mass = material.mass - m.mass;
     m = material;
     if (std::vector<Finding> findings = validate(changed); !findings.empty()) {
       return fail(Error{Error::Kind::bad_input, std::move(findings)});
     }
     if (auto flushed = s.flush(); !flushed) return flushed;
+    const ParticleSet& now = s.particles();
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      if (now.material[i] == k) s.initial_momentum += more_mass * now.velocity[i];
+    }
     s.scene = std::move(changed);
-    s.backend->configure(s.scene);
-    return {};
+    // All accelerations anew: those of the last step are of the old material.
+    const Ledger ledger = s.backend->ledger();
+    auto started = s.start(now, 0, ledger);
+    s.host_current = false;
+    return started;
   }
   return fail(Error::Kind::bad_input, "materials." + material.name, "there is no material of this name");
 }
