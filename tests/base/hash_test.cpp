@@ -35,8 +35,8 @@ TEST(Combine64, DependsOnOrderAndOnEveryValue) {
     for (const std::uint64_t v : values) hash = combine64(hash, v);
     return hash;
   };
-  const std::set<std::uint64_t> hashes{fold({1, 2, 3}), fold({1, 3, 2}), fold({3, 2, 1}), fold({1, 2}),
-                                       fold({0, 1, 2, 3}), fold({1, 2, 3, 0})};
+  const std::set<std::uint64_t> hashes{fold({1, 2, 3}), fold({1, 3, 2}),    fold({3, 2, 1}),
+                                       fold({1, 2}),    fold({0, 1, 2, 3}), fold({1, 2, 3, 0})};
   EXPECT_EQ(hashes.size(), 6U);
 }
 

@@ -50,9 +50,13 @@ TEST(Uniform4, FillsTheUnitInterval) {
 }
 
 TEST(Uniform4, DiffersByEveryArgument) {
-  const std::set<double> firsts{uniform4(1, 1, 1, 1)[0], uniform4(2, 1, 1, 1)[0], uniform4(1, 2, 1, 1)[0],
-                                uniform4(1, 1, 2, 1)[0], uniform4(1, 1, 1, 2)[0],
-                                uniform4(1 + (1UL << 32U), 1, 1, 1)[0], uniform4(1, 1 + (1UL << 32U), 1, 1)[0]};
+  const std::set<double> firsts{uniform4(1, 1, 1, 1)[0],
+                                uniform4(2, 1, 1, 1)[0],
+                                uniform4(1, 2, 1, 1)[0],
+                                uniform4(1, 1, 2, 1)[0],
+                                uniform4(1, 1, 1, 2)[0],
+                                uniform4(1 + (1UL << 32U), 1, 1, 1)[0],
+                                uniform4(1, 1 + (1UL << 32U), 1, 1)[0]};
   EXPECT_EQ(firsts.size(), 7U);
 }
 

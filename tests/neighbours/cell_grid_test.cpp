@@ -100,7 +100,8 @@ TEST_P(Grids, KeysEndBeforeTheirEnd) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Boxes, Grids, testing::ValuesIn(kBoxes), [](const auto& instance) { return instance.param.name; });
+INSTANTIATE_TEST_SUITE_P(Boxes, Grids, testing::ValuesIn(kBoxes),
+                         [](const auto& instance) { return instance.param.name; });
 
 TEST(CellGrid, CellsOfARowAreConsecutive) {
   CellGrid grid;

@@ -15,7 +15,8 @@ namespace {
 void expect_sorted_like_the_standard_library(std::vector<std::uint64_t> keys) {
   std::vector<std::uint32_t> expected(keys.size());
   std::iota(expected.begin(), expected.end(), 0U);
-  std::stable_sort(expected.begin(), expected.end(), [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
+  std::stable_sort(expected.begin(), expected.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
   std::vector<std::uint64_t> sorted = keys;
   std::stable_sort(sorted.begin(), sorted.end());
 

@@ -60,8 +60,7 @@ TEST_P(Parity, CpuInDoubleHasTheBitsOfTheReference) {
   for (const Isa& isa : available_isas()) {
     SCOPED_TRACE(isa.name);
     Simulation reference = simulate(scenario_.scene, scenario_.particles, kReference);
-    Simulation cpu =
-        simulate(scenario_.scene, scenario_.particles, {"cpu", Precision::double_precision, 2, isa.name});
+    Simulation cpu = simulate(scenario_.scene, scenario_.particles, {"cpu", Precision::double_precision, 2, isa.name});
     ASSERT_EQ(reference.state_hash(), cpu.state_hash());
     for (std::int64_t step = 1; step <= scenario_.steps; ++step) {
       if (!step_both(reference, cpu)) break;
@@ -80,8 +79,7 @@ TEST_P(Parity, CpuInDoubleHasTheBitsOfTheReference) {
 TEST_P(Parity, CpuInSingleHasTheSameBitsOnEveryInstructionSet) {
   std::uint64_t expected = 0;
   for (const Isa& isa : available_isas()) {
-    Simulation cpu =
-        simulate(scenario_.scene, scenario_.particles, {"cpu", Precision::single_precision, 2, isa.name});
+    Simulation cpu = simulate(scenario_.scene, scenario_.particles, {"cpu", Precision::single_precision, 2, isa.name});
     (void)cpu.step(scenario_.steps);  // whether or not it goes well
     std::uint64_t hash = 0;
     for (const Vec3d& x : cpu.positions()) hash += std::hash<double>{}(x.x) ^ std::hash<double>{}(x.y + 3 * x.z);

@@ -29,7 +29,8 @@ Scene uniform_scene(const Vec3d& min, const Vec3d& max) {
   return scene;
 }
 
-// To what single precision holds. Through memory: GCC 12 at -O2 turns the cast of a vector to float and back into nothing.
+// To what single precision holds. Through memory: GCC 12 at -O2 turns the cast of a vector to float and back into
+// nothing.
 Vec3d rounded(const Vec3d& a) {
   const volatile float x = static_cast<float>(a.x), y = static_cast<float>(a.y), z = static_cast<float>(a.z);
   return {x, y, z};

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Single precision against the specification: one evaluation on the same positions, which single precision holds exactly.
+// Single precision against the specification: one evaluation on the same positions, which single precision holds
+// exactly.
 
 #include <gtest/gtest.h>
 

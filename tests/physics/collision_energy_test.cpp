@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Energy before and after single impacts, from head-on to grazing. A wall law of its own gained energy at grazing impact
-// in another engine for years; Hooke's walls are partners of infinite mass in the one law that there is.
+// Energy before and after single impacts, from head-on to grazing. A wall law of its own gained energy at grazing
+// impact in another engine for years; Hooke's walls are partners of infinite mass in the one law that there is.
 
 #include <gtest/gtest.h>
 
@@ -97,8 +97,7 @@ std::vector<double> wall_impacts(const Law& law, const std::vector<Impact>& impa
     const double sine = std::sin(impacts[i].angle * M_PI / 180);
     const double gap = impacts[i].phase * kSpeed * cosine(impacts[i]) * scene.time_step;
     // All slide the same way, so that none meets another.
-    add(particles, place(i, impacts.size()) + Vec3d{0, gap, 0},
-        {kSpeed * sine, -kSpeed * cosine(impacts[i]), 0}, 0);
+    add(particles, place(i, impacts.size()) + Vec3d{0, gap, 0}, {kSpeed * sine, -kSpeed * cosine(impacts[i]), 0}, 0);
   }
   Simulation simulation = simulate(scene, particles, kCpuDouble);
   std::vector<double> left;
@@ -132,9 +131,9 @@ TEST_P(Impacts, NeverGainEnergy) {
           const auto check = [&](const std::vector<double>& left, const char* partner) {
             ASSERT_EQ(left.size(), impacts.size());
             for (std::size_t i = 0; i < left.size(); ++i) {
-              EXPECT_LE(left[i], 1 + 1e-12) << partner << " at " << impacts[i].angle << " degrees, phase "
-                                            << impacts[i].phase << ", omega0 dt " << omega_dt << ", damping ratio "
-                                            << damping << ", shear " << shear;
+              EXPECT_LE(left[i], 1 + 1e-12)
+                  << partner << " at " << impacts[i].angle << " degrees, phase " << impacts[i].phase << ", omega0 dt "
+                  << omega_dt << ", damping ratio " << damping << ", shear " << shear;
             }
           };
           check(pair_impacts(law, impacts), "pair");
@@ -148,7 +147,8 @@ TEST_P(Impacts, NeverGainEnergy) {
 INSTANTIATE_TEST_SUITE_P(Integrators, Impacts,
                          testing::Values(Integrator::symplectic_euler, Integrator::velocity_verlet),
                          [](const auto& instance) {
-                           return instance.param == Integrator::velocity_verlet ? "velocity_verlet" : "symplectic_euler";
+                           return instance.param == Integrator::velocity_verlet ? "velocity_verlet"
+                                                                                : "symplectic_euler";
                          });
 
 // DESIGN section 8: undamped, at most (omega0 dt)^2/4 of it for any phase of entry, symplectic Euler.
@@ -161,8 +161,8 @@ TEST(UndampedImpacts, GainAndLoseAtMostTheirBoundAtAnyPhase) {
       const auto left = wall ? wall_impacts(law, head_on) : pair_impacts(law, head_on);
       ASSERT_EQ(left.size(), head_on.size());
       for (std::size_t i = 0; i < left.size(); ++i) {
-        EXPECT_LE(std::abs(left[i] - 1), bound) << (wall ? "wall" : "pair") << ", omega0 dt " << omega_dt << ", phase "
-                                                << head_on[i].phase;
+        EXPECT_LE(std::abs(left[i] - 1), bound)
+            << (wall ? "wall" : "pair") << ", omega0 dt " << omega_dt << ", phase " << head_on[i].phase;
       }
     }
   }

@@ -67,8 +67,7 @@ TEST(Momentum, IsAccountedForWithEverythingThatActs) {
       EXPECT_GT(simulation.ledger().removed, 0U);
       EXPECT_GT(length(simulation.ledger().wall_impulse), 1);
       EXPECT_GT(length(simulation.ledger().drag_impulse), 0.01);
-      EXPECT_LT(momentum_drift(after, simulation.ledger(), simulation.initial_momentum()),
-                momentum_limit(engine, 600))
+      EXPECT_LT(momentum_drift(after, simulation.ledger(), simulation.initial_momentum()), momentum_limit(engine, 600))
           << engine.name();
     }
   }

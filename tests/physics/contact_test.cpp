@@ -70,7 +70,8 @@ struct RandomPair {
   ContactCoefficients<R> c;
 
   explicit RandomPair(std::uint64_t index) {
-    const auto a = uniform4(1, index, 0), b = uniform4(1, index, 1), d = uniform4(1, index, 2), e = uniform4(1, index, 3);
+    const auto a = uniform4(1, index, 0), b = uniform4(1, index, 1), d = uniform4(1, index, 2),
+               e = uniform4(1, index, 3);
     const auto r = [](double value) { return static_cast<R>(value); };
     const Vec3<R> from{r(20 * a[0] - 10), r(20 * a[1] - 10), r(20 * a[2] - 10)};
     x_1 = from;

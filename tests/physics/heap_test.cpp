@@ -25,8 +25,7 @@ TEST(Heap, WeighsOnTheFloorWhatItsParticlesWeigh) {
       scene.domain.min = {-10, -20, 5};
       scene.domain.max = {-7, 0, 8};
       scene.domain.boundary = {Boundary::spring, Boundary::spring, Boundary::spring};
-      Simulation simulation =
-          simulate(scene, lattice(scene, {5, 10, 5}, {-9.7, -19.6, 5.3}, 0.6, 0.05, 4), engine);
+      Simulation simulation = simulate(scene, lattice(scene, {5, 10, 5}, {-9.7, -19.6, 5.3}, 0.6, 0.05, 4), engine);
       double weight = 0;
       for (const std::uint16_t m : simulation.particles().material) weight += 9.8 * scene.materials[m].mass;
 

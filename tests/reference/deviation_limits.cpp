@@ -38,16 +38,16 @@ Limit Limits::at(std::int64_t step) const {
   return precision_ == Precision::double_precision ? in_double(step) : in_single(step);
 }
 
-// README.md of the cases: "float64, same integrator: |dx| < 1e-12*R-ish, |dv| < 1e-11*v0", or the row of a start changed
-// by 1e-12, times 10. Positions bound velocities, v_half = (x_n+1 - x_n)/dt.
+// README.md of the cases: "float64, same integrator: |dx| < 1e-12*R-ish, |dv| < 1e-11*v0", or the row of a start
+// changed by 1e-12, times 10. Positions bound velocities, v_half = (x_n+1 - x_n)/dt.
 Limit Limits::in_double(std::int64_t step) const {
   if (from_1e12_.empty()) return {1e-12 * radius_, {}, {}, 1e-11 * speed_};
   const double position = 10 * around(from_1e12_, step);
   return {position, {}, {}, 2 * position / time_step_};
 }
 
-// What plain float engines in five orders of arithmetic were measured to reach, with a margin of four. The README's rows
-// only round the start; a touch decided one step early or late moves more.
+// What plain float engines in five orders of arithmetic were measured to reach, with a margin of four. The README's
+// rows only round the start; a touch decided one step early or late moves more.
 Limit Limits::in_single(std::int64_t step) const {
   const auto within = [&](double radii) { return Limit{radii * radius_, {}, {}, {}}; };
   const auto until = [&](std::int64_t last, double median) {

@@ -33,9 +33,9 @@ class Limits {
 
   std::string name_;
   Precision precision_;
-  double radius_;      // m, the smallest
-  double speed_;       // m/s, the largest at the start
-  double time_step_;   // s
+  double radius_;  // m, the smallest
+  double speed_;  // m/s, the largest at the start
+  double time_step_;  // s
   std::int64_t steps_;
   std::size_t particles_;
   std::vector<std::int64_t> instants_;

@@ -59,9 +59,7 @@ std::size_t Table::column(const std::string& name) const {
   return static_cast<std::size_t>(found - columns.begin());
 }
 
-double Table::rounding(double value) const {
-  return digits >= 15 ? 0 : 5 * std::abs(value) * std::pow(10.0, -digits);
-}
+double Table::rounding(double value) const { return digits >= 15 ? 0 : 5 * std::abs(value) * std::pow(10.0, -digits); }
 
 Table read_table(const fs::path& file) {
   std::ifstream in(file);

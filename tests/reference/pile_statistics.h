@@ -11,21 +11,21 @@ namespace hooke::test {
 /// What the README of a pile calls its summary: spheres of one radius in a box, up is z.
 struct PileStatistics {
   double height_995 = 0;        ///< 99.5 % quantile of z of the centres, m
-  double phi_bulk = 0;          ///< volume fraction in 4 R < z < 0.8 height, centres at least 4 R from the side walls
-  double phi_overall = 0;       ///< over the whole footprint, 0 to 0.9 height
-  double z_all_pp = 0;          ///< contacts a particle, between particles
+  double phi_bulk = 0;  ///< volume fraction in 4 R < z < 0.8 height, centres at least 4 R from the side walls
+  double phi_overall = 0;  ///< over the whole footprint, 0 to 0.9 height
+  double z_all_pp = 0;  ///< contacts a particle, between particles
   double z_all_with_walls = 0;
-  double z_bulk = 0;            ///< the same, in the interior
-  double rattlers = 0;          ///< part with fewer than 4 contacts
+  double z_bulk = 0;  ///< the same, in the interior
+  double rattlers = 0;  ///< part with fewer than 4 contacts
   double max_overlap_over_d = 0;
   double mean_overlap_over_d = 0;  ///< over contacts
-  double zcm = 0;               ///< m
+  double zcm = 0;  ///< m
 };
 
 /// One slab of the profile.
 struct SlabStatistics {
   double particles = 0;
-  double contacts_each = 0;        ///< between particles
+  double contacts_each = 0;  ///< between particles
   double mean_overlap_over_d = 0;  ///< over the contacts of its particles
 };
 

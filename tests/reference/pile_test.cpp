@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -49,10 +50,14 @@ TEST_P(Pile, SettlesAsInLammps) {
   ASSERT_EQ(static_cast<double>(simulation.particle_count()), expected["N"]);
 
   const Table series = read_table(pile().folder / "expected_series.csv");
+  std::vector<double>
+      max_overlaps;  // at the last ten instants: the extreme value of one jumps by a fifth from one to the next
   for (std::size_t row = 0; row < series.rows.size(); ++row) {
     ASSERT_TRUE(advance(simulation, static_cast<std::int64_t>(series.at(row, "step")) - simulation.step_count()));
     const double zcm = series.at(row, "zcm");
-    EXPECT_NEAR(measured(simulation).centre_of_mass.z, zcm, 0.004 * zcm) << "at step " << series.at(row, "step");
+    const Measurements figures = measured(simulation);
+    EXPECT_NEAR(figures.centre_of_mass.z, zcm, 0.004 * zcm) << "at step " << series.at(row, "step");
+    if (row + 10 >= series.rows.size()) max_overlaps.push_back(figures.max_overlap_ratio);
   }
   ASSERT_EQ(simulation.step_count(), loaded.scene.steps);
 
@@ -62,7 +67,9 @@ TEST_P(Pile, SettlesAsInLammps) {
   EXPECT_NEAR(now.z_bulk, expected["Z_bulk"], 0.06);
   EXPECT_NEAR(now.height_995, expected["height_995"], 0.004 * expected["height_995"]);
   EXPECT_NEAR(now.zcm, expected["zcm"], 0.004 * expected["zcm"]);
-  EXPECT_NEAR(now.max_overlap_over_d, expected["max_overlap_over_D"], 0.2 * expected["max_overlap_over_D"]);
+  std::sort(max_overlaps.begin(), max_overlaps.end());
+  const double max_overlap = max_overlaps[max_overlaps.size() / 2];
+  EXPECT_NEAR(max_overlap, expected["max_overlap_over_D"], 0.2 * expected["max_overlap_over_D"]);
   EXPECT_NEAR(now.mean_overlap_over_d, expected["mean_overlap_over_D"], 0.05 * expected["mean_overlap_over_D"]);
 
   const Measurements figures = measured(simulation);

@@ -111,7 +111,11 @@ TEST_P(Lammps, SeriesIsFollowed) {
     if (followed) {
       EXPECT_NEAR(now.kinetic_energy, energy, (dam_break ? 0.03 : 0.1) * energy) << "at step " << step;
     }
-    EXPECT_NEAR(now.centre_of_mass.z, series.at(row, "zcm"), (dam_break ? 1e-2 : followed ? 1e-3 : 0.1) * radius)
+    EXPECT_NEAR(now.centre_of_mass.z, series.at(row, "zcm"),
+                (dam_break  ? 1e-2
+                 : followed ? 1e-3
+                            : 0.1) *
+                    radius)
         << "at step " << step;
     if (dam_break) {
       EXPECT_NEAR(now.centre_of_mass.x, series.at(row, "xcm"), 1e-2 * radius) << "at step " << step;

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+// The neighbour list is kept for many steps. Whatever moves how, no contact is missed while it is.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "support/engines.h"
+#include "support/particles.h"
+
+namespace hooke::test {
+namespace {
+
+// Touching pairs, by a sweep along y over all particles; on periodic axes the nearest image counts.
+std::uint64_t true_contacts(const Simulation& simulation) {
+  const ParticleSet& p = simulation.particles();
+  const Scene& scene = simulation.scene();
+  const auto radius = [&](std::size_t i) { return scene.materials[p.material[i]].radius; };
+  double reach = 0;
+  for (const Material& m : scene.materials) reach = std::max(reach, 2 * m.radius);
+  std::vector<std::size_t> order(p.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return p.position[a].y < p.position[b].y; });
+  std::uint64_t contacts = 0;
+  for (std::size_t a = 0; a < order.size(); ++a) {
+    for (std::size_t b = a + 1; b < order.size(); ++b) {
+      Vec3d d = p.position[order[b]] - p.position[order[a]];
+      if (d.y >= reach) break;
+      for (const int axis : {0, 2}) {
+        if (scene.domain.boundary[static_cast<std::size_t>(axis)] != Boundary::periodic) continue;
+        const double length = scene.domain.length(axis);
+        component(d, axis) -= length * std::nearbyint(component(d, axis) / length);
+      }
+      if (std::sqrt(dot(d, d)) < radius(order[a]) + radius(order[b])) ++contacts;
+    }
+  }
+  return contacts;
+}
+
+struct Motion {
+  const char* name;
+  double spacing;  // of the lattice that it starts from, m
+  std::function<void(Scene&)> rules;
+  std::function<Vec3d(const Vec3d& x, std::uint64_t i)> velocity;
+  std::function<void(Simulation&)> halfway;  // what happens then, if anything
+};
+
+Vec3d noise(std::uint64_t i, double speed) {
+  const auto u = random4(21, i);
+  return {speed * (2 * u[0] - 1), speed * (2 * u[1] - 1), speed * (2 * u[2] - 1)};
+}
+
+void push_apart(Simulation& s) {
+  std::vector<std::uint64_t> ids(s.ids().begin(), s.ids().end());
+  for (const std::uint64_t id : ids) ASSERT_TRUE(s.apply_impulse(id, noise(id, 60)));
+}
+
+const Motion kMotions[] = {
+    {"thermal", 0.48, [](Scene&) {}, [](const Vec3d&, std::uint64_t i) { return noise(i, 3); }, nullptr},
+    // One in twenty moves ten times as far as the rest.
+    {"fast_free", 0.8, [](Scene&) {}, [](const Vec3d&, std::uint64_t i) { return noise(i, i % 20 == 0 ? 10.0 : 1.0); },
+     nullptr},
+    {"translation", 0.48, [](Scene&) {}, [](const Vec3d&, std::uint64_t) { return Vec3d{8, 0, -6}; }, nullptr},
+    {"rotation", 0.48, [](Scene& s) { s.domain.boundary = {Boundary::open, Boundary::spring, Boundary::open}; },
+     [](const Vec3d& x, std::uint64_t) { return Vec3d{6 * x.z, 0, -6 * x.x}; }, nullptr},
+    {"sudden_gravity", 0.52, [](Scene& s) { s.gravity = {0, -2000, 0}; },
+     [](const Vec3d&, std::uint64_t) { return Vec3d{0, 0, 0}; }, nullptr},
+    {"explosion", 0.48, [](Scene&) {}, [](const Vec3d&, std::uint64_t) { return Vec3d{0, 0, 0}; }, push_apart},
+};
+
+class Motions : public testing::TestWithParam<std::tuple<Motion, Integrator, Precision>> {};
+
+TEST_P(Motions, MissNoContact) {
+  const auto& [motion, integrator, precision] = GetParam();
+  Scene scene = open_scene();
+  mix_materials(scene, 0.25);
+  scene.materials[1].radius =
+      0.375;  // sums of radii that single precision holds exactly: no touch is a matter of rounding
+  scene.materials[2].radius = 0.125;
+  scene.integrator = integrator;
+  scene.gravity = {0, -9.8, 0};
+  scene.domain.min = {-4, -4, -4};
+  scene.domain.max = {4, 4, 4};
+  scene.domain.boundary = {Boundary::periodic, Boundary::spring, Boundary::periodic};
+  motion.rules(scene);
+  const int across = static_cast<int>(6.5 / motion.spacing);
+  const double corner = -motion.spacing * (across - 1) / 2.0;
+  ParticleSet particles = lattice(scene, {across, across, across}, {corner, corner, corner}, motion.spacing, 0.1, 22);
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    particles.velocity[i] = motion.velocity(particles.position[i], particles.id[i]);
+  }
+  Simulation simulation = simulate(scene, particles, {"cpu", precision, 2, ""});
+  const int steps = 80;
+  for (int step = 1; step <= steps; ++step) {
+    if (step == steps / 2 && motion.halfway) motion.halfway(simulation);
+    const auto taken = simulation.step();
+    if (!taken) break;  // approaches too fast to be resolved are another test's affair
+    ASSERT_EQ(measured(simulation).contacts, true_contacts(simulation)) << "after step " << step;
+  }
+  EXPECT_GT(simulation.step_count(), 20);
+  EXPECT_GT(simulation.neighbour_statistics().rebuilds, 1U);
+  EXPECT_LT(simulation.neighbour_statistics().rebuilds, static_cast<std::uint64_t>(steps)) << "some lists were kept";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Motions,
+                         testing::Combine(testing::ValuesIn(kMotions),
+                                          testing::Values(Integrator::symplectic_euler, Integrator::velocity_verlet),
+                                          testing::Values(Precision::single_precision, Precision::double_precision)),
+                         [](const auto& instance) {
+                           return std::string(std::get<0>(instance.param).name) +
+                                  (std::get<1>(instance.param) == Integrator::velocity_verlet ? "_verlet" : "_euler") +
+                                  (std::get<2>(instance.param) == Precision::single_precision ? "_single" : "_double");
+                         });
+
+}  // namespace
+}  // namespace hooke::test

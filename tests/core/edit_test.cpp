@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+// What a caller may do between steps.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/engines.h"
+#include "support/particles.h"
+
+namespace hooke::test {
+namespace {
+
+class Edits : public testing::TestWithParam<std::tuple<Engine, Integrator>> {
+ protected:
+  Edits() {
+    scene_ = open_scene();
+    scene_.integrator = std::get<1>(GetParam());
+    scene_.materials.push_back({"b", 0.25, 2, {500, 1, 1}, 0, ""});
+  }
+  Simulation start() const { return simulate(scene_, pair_on_x(scene_, -1, {1, 0, 0}, {0, 0, 0}), engine()); }
+  static const Engine& engine() { return std::get<0>(GetParam()); }
+
+  Scene scene_;
+};
+
+TEST_P(Edits, AddParticlesWithIdsNeverUsedBefore) {
+  Simulation s = start();
+  EXPECT_EQ(s.next_id(), 3U);
+  const NewParticle three[] = {{0, {5, 0, 0}, {0, 1, 0}}, {1, {7, 0, 0}, {0, 0, 0}}, {0, {9, 0, 0}, {0, 0, 0}}};
+  const auto ids = s.add_particles(three);
+  ASSERT_TRUE(ids);
+  EXPECT_EQ(*ids, (std::vector<std::uint64_t>{3, 4, 5}));
+  EXPECT_EQ(s.particle_count(), 5U);
+  const std::uint64_t gone[] = {5, 3};
+  ASSERT_TRUE(s.remove_particles(gone));
+  EXPECT_EQ(s.particle_count(), 3U);
+  ASSERT_TRUE(advance(s, 2));
+  EXPECT_EQ(*s.add_particles({three, 1}), (std::vector<std::uint64_t>{6}));
+  EXPECT_EQ(std::vector<std::uint64_t>(s.ids().begin(), s.ids().end()), (std::vector<std::uint64_t>{1, 2, 4, 6}));
+  EXPECT_EQ(s.particles().material, (std::vector<std::uint16_t>{0, 1, 1, 0}));
+  ASSERT_TRUE(advance(s, 2));
+  EXPECT_EQ(s.particle_count(), 4U);
+}
+
+TEST_P(Edits, RefuseBadNewParticlesAltogether) {
+  Simulation s = start();
+  const NewParticle bad[] = {
+      {0, {5, 0, 0}, {0, 1, 0}}, {9, {7, 0, 0}, {0, 0, 0}}, {0, {NAN, 0, 0}, {0, 0, 0}}, {0, {0, 500, 0}, {0, 0, 0}}};
+  const auto ids = s.add_particles(bad);
+  ASSERT_FALSE(ids);
+  EXPECT_EQ(ids.error().kind, Error::Kind::bad_input);
+  EXPECT_EQ(ids.error().findings.size(), 3U);
+  EXPECT_EQ(ids.error().findings[0].where, "new particle 1");
+  EXPECT_EQ(s.particle_count(), 2U) << "none was added";
+  EXPECT_EQ(s.next_id(), 3U);
+}
+
+TEST_P(Edits, RemoveNoneWhereOneIsUnknown) {
+  Simulation s = start();
+  const std::uint64_t ids[] = {1, 77};
+  const auto removed = s.remove_particles(ids);
+  ASSERT_FALSE(removed);
+  EXPECT_EQ(removed.error().findings[0].where, "particle 77");
+  EXPECT_EQ(s.particle_count(), 2U);
+  const std::uint64_t twice[] = {1, 1};
+  EXPECT_TRUE(s.remove_particles(twice));
+  EXPECT_EQ(s.particle_count(), 1U);
+  const std::uint64_t last[] = {2};
+  EXPECT_TRUE(s.remove_particles(last));
+  ASSERT_TRUE(advance(s, 5));
+  EXPECT_EQ(s.particle_count(), 0U);
+}
+
+TEST_P(Edits, ApplyAnImpulse) {
+  Simulation s = start();
+  ASSERT_TRUE(s.apply_impulse(2, {4, 0, -2}));
+  EXPECT_EQ(s.velocities()[1], (Vec3d{2, 0, -1})) << "of mass 2";
+  ASSERT_TRUE(advance(s, 10));
+  EXPECT_NEAR(s.velocities()[1].x, 2, 1e-6);
+  EXPECT_FALSE(s.apply_impulse(99, {1, 0, 0}));
+  EXPECT_FALSE(s.apply_impulse(1, {NAN, 0, 0}));
+  EXPECT_LT(momentum_drift(measured(s), s.ledger(), s.initial_momentum()), 1e-7) << "what hands give is accounted for";
+}
+
+TEST_P(Edits, SetAParticle) {
+  Simulation s = start();
+  ASSERT_TRUE(s.set_particle(1, {-3, 4, 5}, {0, 0, 1}));
+  EXPECT_EQ(s.positions()[0], (Vec3d{-3, 4, 5}));
+  ASSERT_TRUE(advance(s, 10));
+  EXPECT_NEAR(s.positions()[0].z, 5.01, 1e-6);
+  EXPECT_FALSE(s.set_particle(99, {0, 0, 0}, {0, 0, 0}));
+  EXPECT_FALSE(s.set_particle(1, {0, 0, 200}, {0, 0, 0})) << "outside the domain";
+  EXPECT_FALSE(s.set_particle(1, {0, 0, 0}, {0, INFINITY, 0}));
+  EXPECT_LT(momentum_drift(measured(s), s.ledger(), s.initial_momentum()), 1e-7);
+}
+
+TEST_P(Edits, ReplaceAMaterial) {
+  Simulation s = simulate(scene_, pair_on_x(scene_, 0.1, {0, 0, 0}, {0, 0, 0}), engine());
+  Material b = scene_.materials[1];
+  b.radius = 0.5;
+  ASSERT_TRUE(s.set_material(b));
+  EXPECT_EQ(s.scene().materials[1].radius, 0.5);
+  EXPECT_NEAR(measured(s).max_overlap_ratio, 0.35, 1e-6);
+  ASSERT_TRUE(advance(s, 5));
+  b.mass = -1;
+  EXPECT_FALSE(s.set_material(b));
+  b.name = "c";
+  EXPECT_FALSE(s.set_material(b));
+  EXPECT_EQ(s.scene().materials[1].mass, 2);
+}
+
+// A mass that changes under way: gravity pulls at the new one from then on, and nothing is unaccounted for.
+TEST_P(Edits, AccountForANewMass) {
+  scene_.gravity = {0, -9.8, 0};
+  scene_.materials[1].contact = scene_.materials[0].contact;
+  Simulation s = start();
+  ASSERT_TRUE(advance(s, 10));
+  Material heavy = scene_.materials[1];
+  heavy.mass = 20;
+  ASSERT_TRUE(s.set_material(heavy));
+  ASSERT_TRUE(advance(s, 200));
+  // A fall rounds the same way every step: half a unit in the last place each.
+  const double unit = engine().precision == Precision::single_precision ? 0x1p-24 : 0x1p-53;
+  EXPECT_LT(momentum_drift(measured(s), s.ledger(), s.initial_momentum()), 200 * unit);
+}
+
+// Soft walls may be pressed in deeper than a radius; such a particle can still be pushed.
+TEST_P(Edits, ReachParticlesDeepInAWall) {
+  scene_.domain.boundary[1] = Boundary::spring;
+  scene_.materials[0].contact.stiffness = 10;
+  ParticleSet particles;
+  add(particles, {0, -99.6, 0}, {0, -10, 0});
+  Simulation s = simulate(scene_, particles, engine());
+  ASSERT_TRUE(advance(s, 80));
+  ASSERT_LT(s.positions()[0].y, -100) << "its centre is beyond the wall";
+  EXPECT_TRUE(s.apply_impulse(1, {0, 1, 0}));
+  EXPECT_TRUE(s.restore(s.snapshot()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, Edits,
+                         testing::Combine(testing::Values(kReference, kCpuDouble, kCpuSingle),
+                                          testing::Values(Integrator::symplectic_euler, Integrator::velocity_verlet)),
+                         [](const auto& instance) {
+                           const bool verlet = std::get<1>(instance.param) == Integrator::velocity_verlet;
+                           return std::get<0>(instance.param).name() + (verlet ? "_verlet" : "_euler");
+                         });
+
+}  // namespace
+}  // namespace hooke::test

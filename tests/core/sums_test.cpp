@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/core/sums.h"
+
+#include <gtest/gtest.h>
+
+namespace hooke {
+namespace {
+
+StepRates rates(double scale) { return {scale, 2 * scale, {3 * scale, 0, 0}, {0, 4 * scale, 0}, {0, 0, 5 * scale}}; }
+
+TEST(BookStep, BooksAWholeStepUnderSymplecticEuler) {
+  Ledger ledger;
+  book_step(ledger, rates(8), 0.5, Integrator::symplectic_euler);
+  EXPECT_EQ(ledger.dissipated, 4);
+  EXPECT_EQ(ledger.wall_work, 8);
+  EXPECT_EQ(ledger.wall_impulse.x, 12);
+  EXPECT_EQ(ledger.drag_impulse.y, 16);
+  EXPECT_EQ(ledger.gravity_impulse.z, 20);
+  EXPECT_EQ(ledger.last, StepRates{}) << "not part of its state";
+}
+
+TEST(BookStep, BooksHalvesOfTwoEvaluationsUnderVelocityVerlet) {
+  Ledger ledger;
+  ledger.last = rates(8);
+  book_step(ledger, rates(16), 0.5, Integrator::velocity_verlet);
+  EXPECT_EQ(ledger.dissipated, 2 + 4);
+  EXPECT_EQ(ledger.wall_impulse.x, 6 + 12);
+  EXPECT_EQ(ledger.last, rates(16));
+}
+
+TEST(MeasurementSums, SumUpInAnyOrderAndSplit) {
+  const auto add = [](MeasurementSums& sums, int i) {
+    const double x = 0.1 * i;
+    sums.add_particle(1 + x, {x, -x, 1 / (1 + x)}, {x, 2 * x, -x}, {0, -9.8, 0});
+    sums.add_contact_side(1000, 0.01 * i, 1);
+    sums.add_wall_contact(500, 0.02 * i, {0, x, 0});
+  };
+  MeasurementSums forward, backward, first, second;
+  for (int i = 0; i < 100; ++i) add(forward, i);
+  for (int i = 100; i-- > 0;) add(backward, i);
+  for (int i = 0; i < 100; ++i) add(i % 3 == 0 ? first : second, i);
+  second.add(first);
+  second.add(MeasurementSums{});
+  for (const Measurements& m : {backward.result(), second.result()}) {
+    const Measurements n = forward.result();
+    EXPECT_EQ(m.particles, 100U);
+    EXPECT_EQ(m.contacts, 50U) << "each from both sides";
+    EXPECT_EQ(m.wall_contacts, 100U);
+    EXPECT_EQ(m.kinetic_energy, n.kinetic_energy);
+    EXPECT_EQ(m.potential_energy, n.potential_energy);
+    EXPECT_EQ(m.elastic_energy, n.elastic_energy);
+    EXPECT_EQ(m.wall_elastic_energy, n.wall_elastic_energy);
+    EXPECT_EQ(m.momentum, n.momentum);
+    EXPECT_EQ(m.centre_of_mass, n.centre_of_mass);
+    EXPECT_EQ(m.mean_overlap_ratio, n.mean_overlap_ratio);
+    EXPECT_EQ(m.max_overlap_ratio, 0.99);
+    EXPECT_EQ(m.min, n.min);
+    EXPECT_EQ(m.max, (Vec3d{0.1 * 99, 0, 1}));
+    EXPECT_EQ(m.wall_force, n.wall_force);
+  }
+}
+
+TEST(MeasurementSums, OfNothingAreZeros) {
+  const Measurements m = MeasurementSums{}.result();
+  EXPECT_EQ(m.particles, 0U);
+  EXPECT_EQ(m.kinetic_energy, 0);
+  EXPECT_EQ(m.mean_overlap_ratio, 0);
+  EXPECT_EQ(m.centre_of_mass, (Vec3d{0, 0, 0}));
+  EXPECT_EQ(m.min, (Vec3d{0, 0, 0}));
+}
+
+TEST(RemovalSums, BookWhatDepartedTookAlong) {
+  RemovalSums removed;
+  removed.add_particle(2, {0, 10, 0}, {3, 0, 0}, {0, -10, 0});
+  Ledger ledger;
+  removed.book(ledger);
+  EXPECT_EQ(ledger.removed, 1U);
+  EXPECT_EQ(ledger.removed_momentum, (Vec3d{6, 0, 0}));
+  EXPECT_EQ(ledger.removed_energy, 9 + 200);
+}
+
+}  // namespace
+}  // namespace hooke
