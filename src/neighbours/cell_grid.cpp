@@ -73,7 +73,7 @@ using Histogram = std::array<std::uint32_t, kDigits>;
 
 }  // namespace
 
-void sort_by_key(std::vector<std::uint64_t>& keys, std::vector<std::uint32_t>& order) {
+void sort_by_key(std::vector<std::uint64_t>& keys, std::vector<std::uint32_t>& order, std::span<std::byte> scratch) {
   const std::size_t n = keys.size();
   order.resize(n);
   for (std::size_t i = 0; i < n; ++i) order[i] = static_cast<std::uint32_t>(i);
@@ -87,13 +87,22 @@ void sort_by_key(std::vector<std::uint64_t>& keys, std::vector<std::uint32_t>& o
   }
   const std::uint64_t varying = all_or ^ all_and;
 
-  std::vector<std::uint64_t> keys_out(n);
-  std::vector<std::uint32_t> order_out(n);
+  std::vector<std::uint64_t> own_scratch;
+  const std::size_t needed = n * (sizeof(std::uint64_t) + sizeof(std::uint32_t));
+  if (scratch.size() < needed || reinterpret_cast<std::uintptr_t>(scratch.data()) % alignof(std::uint64_t) != 0) {
+    own_scratch.resize(needed / sizeof(std::uint64_t) + 1);
+    scratch = std::as_writable_bytes(std::span(own_scratch));
+  }
+  std::uint64_t* from_keys = keys.data();
+  std::uint32_t* from_order = order.data();
+  auto* to_keys = reinterpret_cast<std::uint64_t*>(scratch.data());
+  auto* to_order = reinterpret_cast<std::uint32_t*>(to_keys + n);
+
   const std::size_t blocks = (n + kBlock - 1) / kBlock;
   std::vector<Histogram> starts(blocks);
   for (unsigned shift = 0; shift < 64; shift += kDigitBits) {
     if (((varying >> shift) & (kDigits - 1)) == 0) continue;
-    const auto digit = [&](std::size_t i) { return (keys[i] >> shift) & (kDigits - 1); };
+    const auto digit = [&](std::size_t i) { return (from_keys[i] >> shift) & (kDigits - 1); };
     parallel_ranges(n, kBlock, [&](std::size_t first, std::size_t last) {
       for (std::size_t block = first; block < last; block += kBlock) {
         Histogram& h = starts[block / kBlock];
@@ -110,13 +119,17 @@ void sort_by_key(std::vector<std::uint64_t>& keys, std::vector<std::uint32_t>& o
         Histogram& h = starts[block / kBlock];
         for (std::size_t i = block; i < std::min(block + kBlock, n); ++i) {
           const std::uint32_t to = h[digit(i)]++;
-          keys_out[to] = keys[i];
-          order_out[to] = order[i];
+          to_keys[to] = from_keys[i];
+          to_order[to] = from_order[i];
         }
       }
     });
-    keys.swap(keys_out);
-    order.swap(order_out);
+    std::swap(from_keys, to_keys);
+    std::swap(from_order, to_order);
+  }
+  if (from_keys != keys.data()) {
+    std::copy(from_keys, from_keys + n, keys.data());
+    std::copy(from_order, from_order + n, order.data());
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "hooke/base/vec3.h"
@@ -63,8 +64,10 @@ class CellGrid {
   std::int64_t stride_y_ = 3, stride_z_ = 9;  // with one empty cell on both sides of every axis
 };
 
-/// Sorts points by key, stably: `keys` ascending afterwards, `order[k]` the index that the k-th had before.
-/// Radix sort, parallel, memory for twice the input.
-void sort_by_key(std::vector<std::uint64_t>& keys, std::vector<std::uint32_t>& order);
+/// Sorts points by key, stably: `keys` ascending afterwards, `order[k]` the index that the k-th had before. Parallel
+/// radix sort. Works in `scratch` where that is aligned to 8 bytes and holds 12 for each key; else in memory of its
+/// own.
+void sort_by_key(std::vector<std::uint64_t>& keys, std::vector<std::uint32_t>& order,
+                 std::span<std::byte> scratch = {});
 
 }  // namespace hooke

@@ -37,7 +37,7 @@ class MotionBounds {
 
   /// Takes the places of the points when the list was built, in cell order.
   void lay_out(std::span<const Vec3<Real>> listed_at, const Limits& limits) {
-    const auto most_blocks = static_cast<std::uint64_t>(std::max<std::size_t>(4096, listed_at.size() / 4));
+    const auto most_blocks = static_cast<std::uint64_t>(std::max<std::size_t>(4096, listed_at.size() / 16));
     double width = 4 * limits.diameter;
     double allowed = limits.skin;
     for (Level& level : levels_) {

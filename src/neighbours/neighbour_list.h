@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <span>
 #include <utility>
 #include <vector>
@@ -21,23 +22,56 @@ namespace hooke {
 /// J. Sci. Comput. 2014). Each lane's neighbours are in ascending order of rank, so a force pass that adds row after
 /// row sums in canonical order. Short lanes are filled up with a dummy. An entry is whatever the caller's `entry` makes
 /// of a particle's index, e.g. an address offset.
-struct NeighbourList {
+class NeighbourList {
+ public:
   static constexpr std::size_t kLanes = 16;
   static constexpr std::size_t kGroups = 64;  // groups a segment
   static constexpr std::size_t kSegment = kLanes * kGroups;
 
   /// The rows of 1024 consecutive particles: what one thread builds and later walks over.
   struct Segment {
-    std::vector<std::uint32_t> entries;  // rows of kLanes
-    std::array<std::uint32_t, kGroups + 1> first_row;  // group g: rows first_row[g] to first_row[g + 1]
+    const std::uint32_t* entries = nullptr;  // rows of kLanes
+    std::array<std::uint32_t, kGroups + 1> first_row{};  // group g: rows first_row[g] to first_row[g + 1]
   };
   std::vector<Segment> segments;
 
+  /// Entries in use, padding included.
   std::size_t entry_count() const {
     std::size_t n = 0;
-    for (const Segment& s : segments) n += s.entries.size();
+    for (const Segment& s : segments) n += std::size_t{s.first_row[kGroups]} * kLanes;
     return n;
   }
+
+  /// Forgets all rows; their memory is kept for the next ones.
+  void clear(std::size_t segment_count) {
+    segments.assign(segment_count, Segment{});
+    blocks_in_use_ = 0;
+    used_ = 0;
+  }
+
+  /// A copy of `entries` that lives until clear(). Any thread may call.
+  const std::uint32_t* keep(std::span<const std::uint32_t> entries) {
+    const std::lock_guard lock(mutex_);
+    if (blocks_in_use_ == 0 || used_ + entries.size() > blocks_[blocks_in_use_ - 1].size()) {
+      // Segments are much smaller than a block, so little is left unused at its end.
+      if (blocks_in_use_ == blocks_.size()) blocks_.emplace_back();
+      std::vector<std::uint32_t>& block = blocks_[blocks_in_use_++];
+      if (block.size() < entries.size()) block.resize(std::max(kBlock, entries.size()));
+      used_ = 0;
+    }
+    std::uint32_t* to = blocks_[blocks_in_use_ - 1].data() + used_;
+    std::copy(entries.begin(), entries.end(), to);
+    used_ += entries.size();
+    return to;
+  }
+
+ private:
+  static constexpr std::size_t kBlock = std::size_t{1} << 18U;  // entries: 1 MiB
+
+  std::mutex mutex_;
+  std::vector<std::vector<std::uint32_t>> blocks_;
+  std::size_t blocks_in_use_ = 0;
+  std::size_t used_ = 0;  // of the last block in use
 };
 
 /// Which points the list is built over, sorted by cell, and how near is near enough.
@@ -218,12 +252,12 @@ template <class Real, class Points, class Entry>
 void build_neighbour_list(const NeighbourSearch<Real>& search, const Points& points, const Entry& entry,
                           NeighbourList& list) {
   constexpr std::size_t kLanes = NeighbourList::kLanes;
-  list.segments.resize((search.count + NeighbourList::kSegment - 1) / NeighbourList::kSegment);
+  list.clear((search.count + NeighbourList::kSegment - 1) / NeighbourList::kSegment);
 
   parallel_ranges(list.segments.size(), 1, [&](std::size_t first_segment, std::size_t last_segment) {
     detail::RowBuilder<Real, Points> builder(search, points);
     std::array<detail::Row, kLanes> lanes;
-    std::vector<std::uint32_t> entries;  // grows here, so that no segment keeps room that it does not use
+    std::vector<std::uint32_t> entries;
     for (std::size_t s = first_segment; s < last_segment; ++s) {
       NeighbourList::Segment& segment = list.segments[s];
       entries.clear();
@@ -246,7 +280,7 @@ void build_neighbour_list(const NeighbourSearch<Real>& search, const Points& poi
         }
         segment.first_row[g + 1] = segment.first_row[g] + static_cast<std::uint32_t>(rows);
       }
-      segment.entries.assign(entries.begin(), entries.end());
+      segment.entries = list.keep(entries);
     }
   });
 }

@@ -381,7 +381,8 @@ class CpuBackend final : public Backend {
         keys_[i] = is_nowhere(records_[i]) ? grid_.key_end() : grid_.key_of(vec_cast<double>(records_[i].x));
       }
     });
-    sort_by_key(keys_, order_);
+    // The buffer for the next state is free until the records are permuted into it.
+    sort_by_key(keys_, order_, std::as_writable_bytes(std::span(next_)));
     count_ = alive_;
     keys_.resize(count_);
     permute(records_, next_);
@@ -467,7 +468,7 @@ class CpuBackend final : public Backend {
     SegmentWork<Real> work;
     work.first = s * kSegment;
     work.group_count = std::min(kGroups, (count_ - work.first + kLanes - 1) / kLanes);
-    work.rows = segment.entries.data();
+    work.rows = segment.entries;
     work.first_row = segment.first_row.data();
     work.notes = report.notes.data();
     work.dissipated = report.dissipated.data();
