@@ -157,8 +157,8 @@ INSTANTIATE_TEST_SUITE_P(Settings, NeighbourLists, testing::ValuesIn(kSettings),
 TEST(NeighbourList, CanBeBuiltAgainOverOtherPoints) {
   NeighbourList list;
   Lists<double> many(kSettings[5]), few(kSettings[3]);
-  list = many.build(false);
-  list = few.build(false);
+  many.build(false, list);
+  few.build(false, list);
   EXPECT_EQ(list.segments.size(), 1U);
   few.check(false);
 }
