@@ -22,6 +22,8 @@ struct BusyKind {
   }
 };
 
+inline void PrintTo(const BusyKind& kind, std::ostream* os) { *os << kind.name(); }
+
 /// A block of three materials, several segments of the neighbour list large, that falls apart: rebuilds, departures,
 /// wrapping and drag all take place within a hundred steps.
 inline Scene busy_scene(const BusyKind& kind) {

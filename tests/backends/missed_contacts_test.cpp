@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <ostream>
 
 #include "support/engines.h"
 #include "support/particles.h"
@@ -49,6 +50,8 @@ struct Motion {
   std::function<Vec3d(const Vec3d& x, std::uint64_t i)> velocity;
   std::function<void(Simulation&)> halfway;  // what happens then, if anything
 };
+
+void PrintTo(const Motion& motion, std::ostream* os) { *os << motion.name; }
 
 Vec3d noise(std::uint64_t i, double speed) {
   const auto u = random4(21, i);

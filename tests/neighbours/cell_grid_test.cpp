@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 #include <set>
 
 #include "hooke/base/random.h"
@@ -19,6 +20,8 @@ struct Box {
   bool periodic[3];
   double reach;
 };
+
+void PrintTo(const Box& box, std::ostream* os) { *os << box.name; }
 
 const Box kBoxes[] = {
     {"open", {0, 0, 0}, {10, 8, 6}, {false, false, false}, 1},

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 
 #include "hooke/base/random.h"
 
@@ -34,6 +35,8 @@ struct Setting {
   Vec3d spread;  // part of the box that points lie in, an axis
   double radius, ratio;  // radii from radius to ratio times that
 };
+
+void PrintTo(const Setting& setting, std::ostream* os) { *os << setting.name; }
 
 const Setting kSettings[] = {
     {"nothing", 0, {0, 0, 0}, {5, 5, 5}, {false, false, false}, {1, 1, 1}, 0.5, 1},

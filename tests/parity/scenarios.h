@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct Scenario {
   ParticleSet particles;
   std::int64_t steps = 40;  ///< to compare over
 };
+
+inline void PrintTo(const Scenario& scenario, std::ostream* os) { *os << scenario.name; }
 
 /// Random, negative, huge, degenerate and empty ones, odd counts, mixed radii, every mix of boundaries, tiny periodic
 /// boxes and thin domains.

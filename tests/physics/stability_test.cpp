@@ -103,7 +103,7 @@ TEST(StableStep, NamesThePairThatLimits) {
   Scene scene = open_scene();
   scene.materials = {{"soft", 0.5, 1, {10, 0, 0}, 0, ""}, {"hard", 0.5, 1, {1e6, 0, 0}, 0, ""}};
   EXPECT_EQ(stable_step(scene).limit, "stiffness of hard - hard");
-  EXPECT_DOUBLE_EQ(stable_step(scene).seconds, critical_step(kPileSpringFactor * 1e6, 0));
+  EXPECT_DOUBLE_EQ(stable_step(scene).seconds, critical_step(kPileSpringFactor * 1e6 / effective_mass(1, 1), 0));
   scene.contacts = {{0, 1, {1e8, 0, 0}}};
   EXPECT_EQ(stable_step(scene).limit, "stiffness of soft - hard");
   scene.contacts = {{0, ContactEntry::kWall, {1e9, 0, 0}}};

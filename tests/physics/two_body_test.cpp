@@ -8,6 +8,7 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <ostream>
 
 #include "hooke/physics/stability.h"
 #include "support/engines.h"
@@ -57,6 +58,8 @@ struct Contact {
   std::string name;
   double mass_1, mass_2;  // mass_2 infinite: a wall
 };
+
+void PrintTo(const Contact& contact, std::ostream* os) { *os << contact.name; }
 
 class Bodies : public testing::TestWithParam<std::tuple<Contact, Integrator>> {
  protected:

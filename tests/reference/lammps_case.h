@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,8 @@ struct LammpsCase {
   /// largest |dx| over the particles, m. Empty where it gives none.
   std::map<std::int64_t, double> deviations(const std::string& what) const;
 };
+
+inline void PrintTo(const LammpsCase& c, std::ostream* os) { *os << c.name; }
 
 /// All cases that can be found, by name: those beside the checkout, or else the project's own small part.
 std::vector<LammpsCase> lammps_cases();

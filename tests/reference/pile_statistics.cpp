@@ -62,15 +62,17 @@ PileStatistics pile_statistics(const std::vector<Vec3d>& x, double radius, const
   }
 
   std::vector<int> contacts(x.size(), 0);
-  double pairs = 0;
+  std::vector<double> overlaps;
   for_each_touching_pair(x, radius, [&](std::size_t i, std::size_t p, double overlap) {
     ++contacts[i];
     ++contacts[p];
-    ++pairs;
-    s.mean_overlap_over_d += overlap / (2 * radius);
-    s.max_overlap_over_d = std::max(s.max_overlap_over_d, overlap / (2 * radius));
+    overlaps.push_back(overlap / (2 * radius));
   });
-  s.mean_overlap_over_d /= pairs;
+  std::sort(overlaps.begin(), overlaps.end());
+  const auto pairs = static_cast<double>(overlaps.size());
+  s.mean_overlap_over_d = std::accumulate(overlaps.begin(), overlaps.end(), 0.0) / pairs;
+  s.deep_overlap_over_d = overlaps[static_cast<std::size_t>(0.999 * pairs)];
+  s.max_overlap_over_d = overlaps.back();
   double interior = 0, walls = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     int with_walls = contacts[i];

@@ -18,6 +18,7 @@ struct PileStatistics {
   double z_bulk = 0;  ///< the same, in the interior
   double rattlers = 0;  ///< part with fewer than 4 contacts
   double max_overlap_over_d = 0;
+  double deep_overlap_over_d = 0;  ///< that one contact in a thousand exceeds
   double mean_overlap_over_d = 0;  ///< over contacts
   double zcm = 0;  ///< m
 };

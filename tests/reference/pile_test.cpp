@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -35,6 +34,14 @@ std::map<std::string, double> read_summary(const LammpsCase& pile) {
   return summary;
 }
 
+// The statistics of LAMMPS's final positions.
+PileStatistics expected_final(const LammpsCase& pile, const Scene& scene) {
+  const Table positions = read_table(pile.folder / "expected_final_positions.csv");
+  std::vector<Vec3d> x;
+  for (const auto& row : positions.rows) x.push_back({row[0], row[1], row[2]});
+  return pile_statistics(x, scene.materials.front().radius, scene.domain);
+}
+
 class Pile : public testing::TestWithParam<std::tuple<LammpsCase, Engine>> {
  protected:
   const LammpsCase& pile() const { return std::get<0>(GetParam()); }
@@ -55,9 +62,7 @@ TEST_P(Pile, SettlesAsInLammps) {
   for (std::size_t row = 0; row < series.rows.size(); ++row) {
     ASSERT_TRUE(advance(simulation, static_cast<std::int64_t>(series.at(row, "step")) - simulation.step_count()));
     const double zcm = series.at(row, "zcm");
-    const Measurements figures = measured(simulation);
-    EXPECT_NEAR(figures.centre_of_mass.z, zcm, 0.004 * zcm) << "at step " << series.at(row, "step");
-    if (row + 10 >= series.rows.size()) max_overlaps.push_back(figures.max_overlap_ratio);
+    EXPECT_NEAR(measured(simulation).centre_of_mass.z, zcm, 0.004 * zcm) << "at step " << series.at(row, "step");
   }
   ASSERT_EQ(simulation.step_count(), loaded.scene.steps);
 
@@ -67,9 +72,13 @@ TEST_P(Pile, SettlesAsInLammps) {
   EXPECT_NEAR(now.z_bulk, expected["Z_bulk"], 0.06);
   EXPECT_NEAR(now.height_995, expected["height_995"], 0.004 * expected["height_995"]);
   EXPECT_NEAR(now.zcm, expected["zcm"], 0.004 * expected["zcm"]);
-  std::sort(max_overlaps.begin(), max_overlaps.end());
-  const double max_overlap = max_overlaps[max_overlaps.size() / 2];
-  EXPECT_NEAR(max_overlap, expected["max_overlap_over_D"], 0.2 * expected["max_overlap_over_D"]);
+  if (std::get<1>(GetParam()).precision == Precision::double_precision) {
+    EXPECT_NEAR(now.max_overlap_over_d, expected["max_overlap_over_D"], 0.2 * expected["max_overlap_over_D"]);
+  }
+  // The deepest single contact is a matter of luck: runs in double precision whose starts differ by 1e-7 end between
+  // 0.041 and 0.048, LAMMPS's own at 0.041. What one contact in a thousand exceeds is not.
+  const double deep = expected_final(pile(), loaded.scene).deep_overlap_over_d;
+  EXPECT_NEAR(now.deep_overlap_over_d, deep, 0.05 * deep);
   EXPECT_NEAR(now.mean_overlap_over_d, expected["mean_overlap_over_D"], 0.05 * expected["mean_overlap_over_D"]);
 
   const Measurements figures = measured(simulation);
@@ -99,12 +108,8 @@ GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Pile);
 TEST(PileStatistics, OfTheExpectedPositionsAreTheExpectedSummary) {
   for (const LammpsCase& pile : pile_cases()) {
     const LoadedScene loaded = pile.load();
-    const Table final_positions = read_table(pile.folder / "expected_final_positions.csv");
-    std::vector<Vec3d> x;
-    for (const auto& row : final_positions.rows) x.push_back({row[0], row[1], row[2]});
     auto expected = read_summary(pile);
-    const double radius = loaded.scene.materials.front().radius;
-    const PileStatistics s = pile_statistics(x, radius, loaded.scene.domain);
+    const PileStatistics s = expected_final(pile, loaded.scene);
     // Positions are written to 5 decimals, a twentieth of the mean overlap: one contact in a hundred comes or goes.
     EXPECT_NEAR(s.height_995, expected["height_995"], 1e-5);
     EXPECT_NEAR(s.phi_bulk, expected["phi_bulk"], 1e-4);

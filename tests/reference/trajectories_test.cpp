@@ -14,7 +14,11 @@
 namespace hooke::test {
 namespace {
 
+constexpr const char* kEulerFile = "expected_semi_implicit_euler.csv";
+constexpr const char* kSeriesFile = "expected_series.csv";
 constexpr std::size_t kMostForReference = 100;  // particles: all pairs, thousands of steps
+
+using CaseOnEngine = std::tuple<LammpsCase, Engine>;
 
 std::vector<LammpsCase> trajectory_cases() {
   std::vector<LammpsCase> cases;
@@ -22,6 +26,18 @@ std::vector<LammpsCase> trajectory_cases() {
     if (c.has_instants()) cases.push_back(std::move(c));
   }
   return cases;
+}
+
+// The cases that have `file` (any, if empty), each on every engine that it is not too large for.
+std::vector<CaseOnEngine> cases_with(const std::string& file, bool on_reference) {
+  std::vector<CaseOnEngine> all;
+  for (const LammpsCase& c : trajectory_cases()) {
+    if (!file.empty() && !c.has(file)) continue;
+    all.emplace_back(c, kCpuDouble);
+    all.emplace_back(c, kCpuSingle);
+    if (on_reference && c.load().particles.size() <= kMostForReference) all.emplace_back(c, kReference);
+  }
+  return all;
 }
 
 double length(const Vec3d& a) { return std::sqrt(dot(a, a)); }
@@ -51,17 +67,16 @@ void compare(const ParticleSet& now, const ExpectedInstant& expected, const Tabl
   check("max |dv|", worst_dv, limit.velocity);
 }
 
-class Lammps : public testing::TestWithParam<std::tuple<LammpsCase, Engine>> {
+class Lammps : public testing::TestWithParam<CaseOnEngine> {
  protected:
   const LammpsCase& reference() const { return std::get<0>(GetParam()); }
   const Engine& engine() const { return std::get<1>(GetParam()); }
 };
+class LammpsOtherIntegrator : public Lammps {};
+class LammpsSeries : public Lammps {};
 
 TEST_P(Lammps, IsFollowedAtEveryStepGiven) {
   const LoadedScene loaded = reference().load();
-  if (engine().device == "reference" && loaded.particles.size() > kMostForReference) {
-    GTEST_SKIP() << "all pairs of " << loaded.particles.size() << " particles take too long";
-  }
   const Limits limits(reference(), loaded, engine().precision);
   Simulation simulation = simulate(loaded.scene, loaded.particles, engine());
   for (const auto& [expected, table] : reference().instants()) {
@@ -71,24 +86,20 @@ TEST_P(Lammps, IsFollowedAtEveryStepGiven) {
 }
 
 // expected_semi_implicit_euler.csv is not LAMMPS but a small independent program with the other integrator.
-TEST_P(Lammps, IsFollowedUnderSymplecticEuler) {
-  const char* file = "expected_semi_implicit_euler.csv";
-  if (!reference().has(file)) GTEST_SKIP() << "the case has no such file";
+TEST_P(LammpsOtherIntegrator, IsFollowedAtEveryStepGiven) {
   const LoadedScene loaded = reference().load({"time.integrator=symplectic-euler"});
   const Limits limits(reference(), loaded, engine().precision);
   Simulation simulation = simulate(loaded.scene, loaded.particles, engine());
-  for (const auto& [expected, table] : reference().instants(file)) {
+  for (const auto& [expected, table] : reference().instants(kEulerFile)) {
     ASSERT_TRUE(advance(simulation, expected.step - simulation.step_count()));
     compare(simulation.particles(), expected, table, limits.at(expected.step));
   }
 }
 
 // Where the paths of single particles have parted, what they do together has not.
-TEST_P(Lammps, SeriesIsFollowed) {
-  if (!reference().has("expected_series.csv")) GTEST_SKIP() << "the case has no series";
-  if (engine().device == "reference") GTEST_SKIP() << "has the same bits as cpu in double";
+TEST_P(LammpsSeries, IsFollowed) {
   const LoadedScene loaded = reference().load();
-  const Table series = read_table(reference().folder / "expected_series.csv");
+  const Table series = read_table(reference().folder / kSeriesFile);
   const double radius = loaded.scene.materials.front().radius;
   const bool dam_break = series.has("front_position");
   const Limits limits(reference(), loaded, engine().precision);
@@ -136,12 +147,13 @@ TEST_P(Lammps, SeriesIsFollowed) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, Lammps,
-                         testing::Combine(testing::ValuesIn(trajectory_cases()),
-                                          testing::Values(kReference, kCpuDouble, kCpuSingle)),
-                         [](const auto& instance) {
-                           return std::get<0>(instance.param).name + "_" + std::get<1>(instance.param).name();
-                         });
+std::string name_of(const testing::TestParamInfo<CaseOnEngine>& instance) {
+  return std::get<0>(instance.param).name + "_" + std::get<1>(instance.param).name();
+}
+INSTANTIATE_TEST_SUITE_P(Cases, Lammps, testing::ValuesIn(cases_with("", true)), name_of);
+INSTANTIATE_TEST_SUITE_P(Cases, LammpsOtherIntegrator, testing::ValuesIn(cases_with(kEulerFile, true)), name_of);
+// The reference has the bits of cpu in double.
+INSTANTIATE_TEST_SUITE_P(Cases, LammpsSeries, testing::ValuesIn(cases_with(kSeriesFile, false)), name_of);
 
 // Two implementations of the same specification end a case on the same bits.
 TEST(LammpsCases, EndOnTheSameBitsOnBothBackEnds) {

@@ -3,9 +3,22 @@
 #pragma once
 
 #include <memory>
+#include <ostream>
 #include <string>
 
 #include "hooke/core/simulation.h"
+
+namespace hooke {
+
+// How GoogleTest shows a test's parameters.
+inline void PrintTo(Integrator integrator, std::ostream* os) {
+  *os << (integrator == Integrator::velocity_verlet ? "velocity Verlet" : "symplectic Euler");
+}
+inline void PrintTo(Precision precision, std::ostream* os) {
+  *os << (precision == Precision::single_precision ? "single" : "double");
+}
+
+}  // namespace hooke
 
 namespace hooke::test {
 
@@ -22,6 +35,8 @@ struct Engine {
 inline const Engine kReference{"reference", Precision::double_precision, 1, ""};
 inline const Engine kCpuDouble{"cpu", Precision::double_precision, 1, ""};
 inline const Engine kCpuSingle{"cpu", Precision::single_precision, 1, ""};
+
+inline void PrintTo(const Engine& engine, std::ostream* os) { *os << engine.name(); }
 
 std::unique_ptr<Backend> make_backend(const Engine& engine);
 
