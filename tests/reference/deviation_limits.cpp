@@ -25,7 +25,6 @@ Limits::Limits(const LammpsCase& lammps_case, const LoadedScene& loaded, Precisi
       radius_(loaded.scene.materials.front().radius),
       speed_(0),
       time_step_(loaded.scene.time_step),
-      steps_(loaded.scene.steps),
       particles_(loaded.particles.size()),
       from_1e12_(lammps_case.deviations("1e-12 relative")),
       from_float32_(lammps_case.deviations("float32")) {

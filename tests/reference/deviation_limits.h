@@ -36,7 +36,6 @@ class Limits {
   double radius_;  // m, the smallest
   double speed_;  // m/s, the largest at the start
   double time_step_;  // s
-  std::int64_t steps_;
   std::size_t particles_;
   std::vector<std::int64_t> instants_;
   std::map<std::int64_t, double> from_1e12_, from_float32_;
