@@ -40,7 +40,9 @@ void ParticleSet::sort_by_id() {
   if (std::is_sorted(id.begin(), id.end())) return;
   std::vector<std::size_t> order(size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [this](std::size_t a, std::size_t b) { return id[a] < id[b]; });
+  // By index where ids are equal: stable, without std::stable_sort, whose buffer Clang warns of.
+  std::sort(order.begin(), order.end(),
+            [this](std::size_t a, std::size_t b) { return id[a] != id[b] ? id[a] < id[b] : a < b; });
   permute(id, order);
   permute(material, order);
   permute(position, order);
