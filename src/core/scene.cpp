@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 namespace hooke {
@@ -84,7 +83,7 @@ void check_periods(const Scene& scene, Checker& check) {
 }
 
 void check_materials(const Scene& scene, Checker& check) {
-  constexpr std::size_t kMost = std::numeric_limits<std::uint16_t>::max();
+  constexpr std::size_t kMost = 1024;  // back ends hold a table of all pairs
   if (scene.materials.size() > kMost) {
     check.add("materials", fmt::format("{} materials, at most {} are possible", scene.materials.size(), kMost));
   }

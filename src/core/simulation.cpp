@@ -82,6 +82,10 @@ std::vector<Finding> check_particles(const Scene& scene, const ParticleSet& p, b
   return findings;
 }
 
+Error out_of_memory(std::int64_t step) {
+  return {Error::Kind::run_failed, {{fmt::format("step {}", step), "out of memory"}}};
+}
+
 }  // namespace
 
 struct Simulation::Impl {
@@ -216,11 +220,12 @@ Expected<Simulation> Simulation::create(Scene scene, ParticleSet particles, std:
   impl->next_id = particles.empty() ? 1 : particles.id.back() + 1;
   if (auto started = impl->start(particles, 0, Ledger{}); !started) return fail(started.error());
   particles = ParticleSet{};  // the back end has them now; measuring may need the room
-  const auto now = impl->backend->measure();
+  Simulation simulation(std::move(impl));
+  const auto now = simulation.measure();
   if (!now) return fail(now.error());
-  impl->initial_energy = now->kinetic_energy + now->potential_energy + now->elastic_energy;
-  impl->initial_momentum = now->momentum;
-  return Simulation(std::move(impl));
+  simulation.impl_->initial_energy = now->kinetic_energy + now->potential_energy + now->elastic_energy;
+  simulation.impl_->initial_momentum = now->momentum;
+  return simulation;
 }
 
 Expected<Simulation> Simulation::resume(Scene scene, SimulationState state, std::unique_ptr<Backend> backend) {
@@ -238,6 +243,7 @@ Expected<Simulation> Simulation::resume(Scene scene, SimulationState state, std:
 Expected<void> Simulation::step(std::int64_t count) {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
+  if (count < 0) return fail(Error::Kind::bad_input, "step", fmt::format("{} steps; 0 or more are possible", count));
   try {
     if (auto flushed = s.flush(); !flushed) return flushed;
     for (std::int64_t i = 0; i < count; ++i) {
@@ -245,10 +251,12 @@ Expected<void> Simulation::step(std::int64_t count) {
       if (auto taken = s.check(take_step(*s.backend, s.scene.integrator)); !taken) return taken;
       ++s.step;
     }
+    // What the next step would begin with. Done now, it reports what the last step has lost before anyone saves it.
+    if (count > 0 && s.backend->neighbours_stale()) return s.check(s.backend->build_neighbours());
     return {};
   } catch (const std::bad_alloc&) {
     s.failed = true;
-    s.failure = Error{Error::Kind::run_failed, {{fmt::format("step {}", s.step), "out of memory"}}};
+    s.failure = out_of_memory(s.step);
     return fail(s.failure);
   }
 }
@@ -411,15 +419,19 @@ Expected<void> Simulation::restore(SimulationState state) {
 std::uint64_t Simulation::state_hash() const {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
-  if (auto flushed = s.flush(); !flushed) return 0;
+  if (s.host_edited) (void)s.flush();  // a failure is the next step's to report
   const auto clock = combine64(mix64(static_cast<std::uint64_t>(s.step)), s.next_id);
   return s.backend->particles_hash() + clock;
 }
 
 Expected<Measurements> Simulation::measure() const {
   const FloatingPointGuard guard;
-  if (auto flushed = impl_->flush(); !flushed) return fail(flushed.error());
-  return impl_->backend->measure();
+  try {
+    if (auto flushed = impl_->flush(); !flushed) return fail(flushed.error());
+    return impl_->backend->measure();
+  } catch (const std::bad_alloc&) {
+    return fail(out_of_memory(impl_->step));
+  }
 }
 
 const Ledger& Simulation::ledger() const { return impl_->backend->ledger(); }

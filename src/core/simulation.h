@@ -54,8 +54,8 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  /// Takes `count` steps of Scene::time_step. Error::Kind::run_failed, with the step, the particles and the likely
-  /// cause, when the run goes bad; the simulation then stays as it is and takes no more steps.
+  /// Takes `count` (>= 0) steps of Scene::time_step. Error::Kind::run_failed, with the step, the particles and the
+  /// likely cause, when the run goes bad; the simulation then stays as it is and takes no more steps.
   Expected<void> step(std::int64_t count = 1);
 
   const Scene& scene() const;
@@ -96,7 +96,8 @@ class Simulation {
   Expected<Measurements> measure() const;
   /// Sums over all steps so far.
   const Ledger& ledger() const;
-  /// Kinetic, potential and elastic energy at step 0, J, and momentum, kg m/s: what drifts are measured from.
+  /// Kinetic, potential and elastic energy at step 0, J, and momentum, kg m/s: what drifts are measured from. What is
+  /// added, removed or pushed by hand later moves the momentum along, not the energy.
   double initial_energy() const;
   const Vec3d& initial_momentum() const;
 
@@ -113,8 +114,8 @@ double momentum_drift(const Measurements& now, const Ledger& ledger, const Vec3d
 /// The largest stable step of the scene's stiffest and lightest materials, s (docs/theory.md eq. 9), and
 /// which coefficient limits it.
 struct StableStep {
-  double seconds = 0;   ///< infinite where nothing can oscillate
-  std::string limit;    ///< e.g. "stiffness and damping of water - water"
+  double seconds = 0;  ///< infinite where nothing can oscillate
+  std::string limit;  ///< e.g. "stiffness and damping of water - water"
 };
 StableStep stable_step(const Scene& scene);
 

@@ -19,8 +19,8 @@ inline double damping_ratio(double damping, double stiffness, double m_eff) {
 }
 
 /// Largest eigenvalues of the springs and of the dashpots of a pile, as multiples of k/m_eff and c/m_eff of its pairs
-/// (docs/theory.md section 4). With equal masses m = 2 m_eff they are 10 k/m and 24 c/m, the upper ends of what packings
-/// show; an fcc lattice has 8 and 16.
+/// (docs/theory.md section 4). With equal masses m = 2 m_eff they are 10 k/m and 24 c/m, the upper ends of what
+/// packings show; an fcc lattice has 8 and 16.
 inline constexpr double kPileSpringFactor = 5;
 inline constexpr double kPileDampingFactor = 12;
 

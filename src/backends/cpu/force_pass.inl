@@ -163,7 +163,6 @@ struct WallLoop {
       face(axis, Real(1), lower_wall_overlap(x, P(component(pass.min, axis)), material.d));
       face(axis, Real(-1), upper_wall_overlap(x, P(component(pass.max, axis)), material.d));
     }
-    // Slots of a segment are cleared for the first pack of a group that touches; the packs before it wrote zeros.
     store(work.wall_force[0] + slot, force.x);
     store(work.wall_force[1] + slot, force.y);
     store(work.wall_force[2] + slot, force.z);
