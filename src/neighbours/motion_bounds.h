@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -61,18 +62,18 @@ class MotionBounds {
       if (runs_.empty() || runs_.back().block != run.block) runs_.push_back(run);
     }
     count_ = listed_at.size();
-    run_boxes_.resize(runs_.size());
   }
 
   /// True where an unlisted pair may touch. `displacement(i, u)` puts point i's displacement since lay_out() (m) into u
   /// and returns true, or false for a point that is gone. What is not finite counts as having moved too far.
   template <class Displacement>
   bool unlisted_pair_may_touch(const Displacement& displacement) {
-    bound_runs(displacement);
+    for (Level& level : levels_) std::fill(level.boxes.begin(), level.boxes.end(), Box{});
+    bound_blocks(displacement);
     Box anywhere;
-    for (const Box& box : run_boxes_) anywhere.add(box);
+    for (const Box& box : levels_.back().boxes) anywhere.add(box);
     if (!anywhere.narrower_than(allowed_anywhere_)) return true;
-    return std::any_of(levels_.begin(), levels_.end(), [&](Level& level) { return level_may_touch(level); });
+    return std::any_of(levels_.begin(), levels_.end(), [](const Level& level) { return level_may_touch(level); });
   }
 
  private:
@@ -113,28 +114,37 @@ class MotionBounds {
     std::vector<Box> boxes;
   };
 
+  // The box of every block of every level.
   template <class Displacement>
-  void bound_runs(const Displacement& displacement) {
+  void bound_blocks(const Displacement& displacement) {
     constexpr std::size_t kGrain = 256;
     parallel_ranges(runs_.size(), kGrain, [&](std::size_t first, std::size_t last) {
-      for (std::size_t r = first; r < last; ++r) {
-        Box box;
-        const std::size_t end = r + 1 < runs_.size() ? runs_[r + 1].first : count_;
-        for (std::size_t i = runs_[r].first; i < end; ++i) {
-          Vec3<Real> u;
-          if (!displacement(i, u)) continue;
-          if (!std::isfinite(u.x) || !std::isfinite(u.y) || !std::isfinite(u.z)) u = Box{}.min;  // infinite
-          box.add(u);
+      for (std::size_t start = first; start < last; start += kGrain) {
+        const std::size_t end = std::min(start + kGrain, last);
+        std::array<Box, kGrain> boxes;
+        for (std::size_t r = start; r < end; ++r) boxes[r - start] = bound_run(r, displacement);
+        const std::lock_guard lock(mutex_);
+        for (std::size_t r = start; r < end; ++r) {
+          for (std::size_t l = 0; l < kLevels; ++l) levels_[l].boxes[runs_[r].block[l]].add(boxes[r - start]);
         }
-        run_boxes_[r] = box;
       }
     });
   }
 
-  bool level_may_touch(Level& level) {
-    const auto l = static_cast<std::size_t>(&level - levels_.data());
-    std::fill(level.boxes.begin(), level.boxes.end(), Box{});
-    for (std::size_t r = 0; r < runs_.size(); ++r) level.boxes[runs_[r].block[l]].add(run_boxes_[r]);
+  template <class Displacement>
+  Box bound_run(std::size_t r, const Displacement& displacement) const {
+    Box box;
+    const std::size_t end = r + 1 < runs_.size() ? runs_[r + 1].first : count_;
+    for (std::size_t i = runs_[r].first; i < end; ++i) {
+      Vec3<Real> u;
+      if (!displacement(i, u)) continue;
+      if (!std::isfinite(u.x) || !std::isfinite(u.y) || !std::isfinite(u.z)) u = Box{}.min;  // infinite
+      box.add(u);
+    }
+    return box;
+  }
+
+  static bool level_may_touch(const Level& level) {
     for (std::uint64_t block = 0; block < level.boxes.size(); ++block) {
       if (level.boxes[block].empty()) continue;
       CellGrid::KeyRange ranges[18];
@@ -151,7 +161,7 @@ class MotionBounds {
   std::array<Level, kLevels> levels_;
   double allowed_anywhere_ = 0;  // m
   std::vector<Run> runs_;
-  std::vector<Box> run_boxes_;
+  std::mutex mutex_;  // around the boxes
   std::size_t count_ = 0;
 };
 

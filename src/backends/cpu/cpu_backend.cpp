@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "hooke/backends/cpu/contact_scan.h"
+#include "hooke/backends/cpu/id_table.h"
 #include "hooke/backends/cpu/isa.h"
 #include "hooke/base/parallel.h"
 #include "hooke/core/state_hash.h"
@@ -96,7 +97,7 @@ class CpuBackend final : public Backend {
 
   Condition upload(const ParticleSet& particles, std::uint64_t first_new_id, const Ledger& ledger) override {
     ledger_ = ledger;
-    ids_ = particles.id;
+    ids_ = IdTable(particles.id);
     count_ = ids_.size();
     records_.resize(padded(count_) + 1);
     next_.resize(records_.size());
@@ -110,7 +111,7 @@ class CpuBackend final : public Backend {
     std::fill(records_.begin() + static_cast<std::ptrdiff_t>(count_), records_.end(), nowhere_record<Real>(Real(0)));
     listed_ = false;
     count_alive();
-    const bool any_new = count_ > 0 && ids_.back() >= first_new_id;
+    const bool any_new = count_ > 0 && ids_[count_ - 1] >= first_new_id;
     return verlet() && any_new ? evaluate_accelerations(first_new_id) : Condition{};
   }
 
@@ -635,7 +636,7 @@ class CpuBackend final : public Backend {
   bool has_drag_ = false;
   ForcePass<Real> pass_;
 
-  std::vector<std::uint64_t> ids_;  // by rank
+  IdTable ids_;  // by rank
   std::size_t count_ = 0;  // records in use, those gone since the last sort included
   std::size_t alive_ = 0;
   double total_mass_ = 0;  // kg, of those alive
