@@ -34,8 +34,9 @@ build: setup  ## release build: build/hooke
 	@cmake --preset release >/dev/null
 	@cmake --build --preset release -j $(JOBS)
 
-bench: build  ## speed of the dam break
+bench: build  ## speed of the dam break, and of the engine's parts
 	build/hooke bench scenes/water.json $(BENCH_ARGS)
+	build/bench/hooke_bench
 
 format: setup-lint  ## format all sources
 	tools/lint.sh format
