@@ -4,14 +4,11 @@
 #include "hooke/backends/cpu/cpu_backend.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -19,6 +16,8 @@
 #include "hooke/backends/cpu/contact_scan.h"
 #include "hooke/backends/cpu/id_table.h"
 #include "hooke/backends/cpu/isa.h"
+#include "hooke/backends/cpu/pass_rules.h"
+#include "hooke/backends/cpu/threads.h"
 #include "hooke/base/parallel.h"
 #include "hooke/core/state_hash.h"
 #include "hooke/core/sums.h"
@@ -35,38 +34,8 @@ constexpr std::size_t kLanes = NeighbourList::kLanes;
 constexpr std::size_t kGroups = NeighbourList::kGroups;
 constexpr std::size_t kSegment = NeighbourList::kSegment;
 
-// Skin of the neighbour list as a part of the smallest diameter. Larger: fewer rebuilds, longer rows.
-constexpr double kSkin = 0.25;
-
 // Positions beyond this are lost; records at kNowhere must stay further away from everything.
 constexpr double kFurthest = kNowhere / 16;
-
-// Threads to run on, also where more are asked for than the machine has cores.
-class Threads {
- public:
-  explicit Threads(int count) : count_(count), arena_(count) {
-    const auto cores = static_cast<int>(std::thread::hardware_concurrency());
-    if (count > cores) {
-      control_ = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                       static_cast<std::size_t>(count));
-    }
-  }
-
-  int count() const { return count_; }
-
-  template <class Body>
-  void run(const Body& body) {
-    arena_.execute([&] {
-      const FloatingPointGuard guard;
-      body();
-    });
-  }
-
- private:
-  int count_;
-  std::unique_ptr<tbb::global_control> control_;
-  tbb::task_arena arena_;
-};
 
 // The state in one precision. Particles lie in cell order as of the last build; ranks lead back to ids.
 template <class Real>
@@ -86,12 +55,11 @@ class CpuBackend final : public Backend {
 
   void configure(const Scene& scene) override {
     scene_ = scene;
-    configure_materials();
-    configure_domain();
-    pass_.dt = real(scene.time_step);
-    pass_.gravity = vec_cast<Real>(scene.gravity);
-    // A little below the limits, so that what double precision would find is always looked at.
-    pass_.speed_limit = real(0.999 * smallest_radius_ / scene.time_step);
+    rules_.configure(scene);
+    pass_ = rules_.pass;
+    motion_limits_.diameter = 2 * rules_.largest_radius;
+    motion_limits_.skin = rules_.trusted_skin;
+    std::copy(std::begin(pass_.periodic), std::end(pass_.periodic), motion_limits_.periodic);
     listed_ = false;
   }
 
@@ -249,7 +217,6 @@ class CpuBackend final : public Backend {
     std::array<std::array<Real, kSegment>, 3> wall_force;
   };
 
-  static Real real(double value) { return static_cast<Real>(value); }
   static std::size_t padded(std::size_t n) { return (n + kLanes - 1) / kLanes * kLanes; }
   bool verlet() const { return scene_.integrator == Integrator::velocity_verlet; }
   const Material& material_of(const Record& p) const { return scene_.materials[static_cast<std::size_t>(p.material)]; }
@@ -257,68 +224,6 @@ class CpuBackend final : public Backend {
   template <class Body>
   void for_ranges(std::size_t count, std::size_t grain, const Body& body) const {
     threads_.run([&] { parallel_ranges(count, grain, body); });
-  }
-
-  // Rules ------------------------------------------------------------------------------------------------------------
-
-  void configure_materials() {
-    const ContactTable table(scene_.materials, scene_.contacts);
-    const std::size_t n = scene_.materials.size();
-    pairs_.assign(n * n, PairRow<Real>{});
-    materials_.assign(n, MaterialRow<Real>{});
-    largest_radius_ = 0;
-    smallest_radius_ = n == 0 ? 1 : INFINITY;
-    for (std::size_t a = 0; a < n; ++a) {
-      const Material& m = scene_.materials[a];
-      const ContactCoefficients<double>& wall = table.wall(a);
-      materials_[a] = {real(wall.stiffness),
-                       real(wall.shear),
-                       real(wall.damping),
-                       real(m.radius),
-                       Real(1) / real(m.mass),
-                       real(m.drag),
-                       {}};
-      has_drag_ = has_drag_ || m.drag > 0;
-      largest_radius_ = std::max(largest_radius_, m.radius);
-      smallest_radius_ = std::min(smallest_radius_, m.radius);
-      for (std::size_t b = 0; b < n; ++b) {
-        const ContactCoefficients<double>& c = table.pair(a, b);
-        pairs_[a * n + b] = {
-            real(c.stiffness), real(c.shear), real(c.damping), real(m.radius) + real(scene_.materials[b].radius), {}};
-      }
-    }
-    pass_.pairs = pairs_.data();
-    pass_.materials = materials_.data();
-    pass_.material_count = n;
-  }
-
-  void configure_domain() {
-    const Domain& domain = scene_.domain;
-    skin_ = kSkin * 2 * smallest_radius_;
-    double rounding = 0;  // of displacements across a periodic axis, m
-    pass_.min = vec_cast<Real>(domain.min);
-    pass_.max = vec_cast<Real>(domain.max);
-    pass_.length = pass_.max - pass_.min;
-    pass_.periodic_kind = PeriodicKind::none;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Boundary boundary = domain.boundary[static_cast<std::size_t>(axis)];
-      pass_.wall[axis] = boundary == Boundary::spring;
-      pass_.periodic[axis] = boundary == Boundary::periodic;
-      pass_.open_or_periodic[axis] = boundary != Boundary::spring;
-      pass_.images[axis] = 0;
-      if (!pass_.periodic[axis]) continue;
-      const double length = component(pass_.length, axis);
-      pass_.images[axis] = static_cast<int>(2 * largest_radius_ / length) + 1;
-      const bool only_nearest = length > 4.001 * largest_radius_;
-      if (!only_nearest) pass_.periodic_kind = PeriodicKind::images;
-      if (pass_.periodic_kind == PeriodicKind::none) pass_.periodic_kind = PeriodicKind::nearest;
-      rounding = std::max(rounding, 4 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * length);
-    }
-    // A pair may just meet once its two have moved a skin towards each other; a thousandth covers rounding.
-    motion_limits_.diameter = 2 * largest_radius_;
-    motion_limits_.skin = std::max(0.0, 0.999 * skin_ - 2 * rounding);
-    std::copy(std::begin(pass_.periodic), std::end(pass_.periodic), motion_limits_.periodic);
-    pass_.stale_distance2 = real(motion_limits_.skin * motion_limits_.skin / 4);
   }
 
   void aim_pass(Vec3<Real>* acceleration) {
@@ -375,7 +280,7 @@ class CpuBackend final : public Backend {
     // A millionth more than can be listed: positions are numbered in cells with rounding.
     motion_limits_.min = min;
     motion_limits_.max = max;
-    grid_.lay_out(min, max, pass_.periodic, (2 * largest_radius_ + skin_) * (1 + 1e-6));
+    grid_.lay_out(min, max, pass_.periodic, (2 * rules_.largest_radius + rules_.skin) * (1 + 1e-6));
     keys_.resize(count_);
     parallel_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
@@ -409,13 +314,13 @@ class CpuBackend final : public Backend {
     search.count = count_;
     search.keys = keys_;
     search.grid = &grid_;
-    search.skin = real(skin_);
+    search.skin = static_cast<Real>(rules_.skin);
     std::copy(std::begin(pass_.periodic), std::end(pass_.periodic), search.periodic);
     search.length = pass_.length;
     search.list_self = pass_.periodic_kind == PeriodicKind::images;
     search.dummy = record_offset<Real>(static_cast<std::uint32_t>(records_.size() - 1));
     build_neighbour_list(
-        search, Points{records_, materials_}, [](std::uint32_t i) { return record_offset<Real>(i); }, list_);
+        search, Points{records_, rules_.materials}, [](std::uint32_t i) { return record_offset<Real>(i); }, list_);
 
     listed_at_.resize(padded(count_));
     parallel_ranges(listed_at_.size(), kSegment, [&](std::size_t first, std::size_t last) {
@@ -488,9 +393,9 @@ class CpuBackend final : public Backend {
         sums.wall_power.add(report.wall_power[k]);
         sums.wall_force.add({report.wall_force[0][k], report.wall_force[1][k], report.wall_force[2][k]});
       }
-      if (has_drag_) {
+      if (rules_.has_drag) {
         const Record& p = records_[first + k];
-        const Real drag = materials_[static_cast<std::size_t>(p.material)].drag;
+        const Real drag = rules_.materials[static_cast<std::size_t>(p.material)].drag;
         sums.drag_force.add(vec_cast<double>(drag_force(p.v, drag)));
       }
     }
@@ -533,7 +438,7 @@ class CpuBackend final : public Backend {
       sums.add_contact_side(scan.pair(i, q).stiffness, overlap, scan.pair(i, q).reach);
     });
     scan.for_each_wall(i, [&](const Vec3d& normal, double overlap) {
-      const MaterialRow<Real>& m = materials_[scan.material_of(i)];
+      const MaterialRow<Real>& m = rules_.materials[scan.material_of(i)];
       const ContactCoefficients<double> c{m.wall_stiffness, m.wall_shear, m.wall_damping};
       sums.add_wall_contact(c.stiffness, overlap, contact_force(overlap, normal, -v, c).force);
     });
@@ -630,11 +535,8 @@ class CpuBackend final : public Backend {
   mutable std::mutex mutex_;  // around the totals of a pass
 
   Scene scene_;
-  std::vector<PairRow<Real>> pairs_;
-  std::vector<MaterialRow<Real>> materials_;
-  double largest_radius_ = 0, smallest_radius_ = 0;  // m
-  bool has_drag_ = false;
-  ForcePass<Real> pass_;
+  PassRules<Real> rules_;
+  ForcePass<Real> pass_;  // the rules', aimed at the buffers of the moment
 
   IdTable ids_;  // by rank
   std::size_t count_ = 0;  // records in use, those gone since the last sort included
@@ -649,7 +551,6 @@ class CpuBackend final : public Backend {
   std::vector<std::uint32_t> order_;
   NeighbourList list_;
   std::vector<Vec3<Real>> listed_at_;  // m
-  double skin_ = 0;  // m
   bool listed_ = false;
   MotionBounds<Real> motion_;  // since the list was built
   typename MotionBounds<Real>::Limits motion_limits_;
