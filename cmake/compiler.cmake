@@ -14,6 +14,10 @@ target_compile_options(hooke_compiler_flags INTERFACE
   $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>
   $<$<BOOL:${HOOKE_WARNINGS_AS_ERRORS}>:-Werror>)
 
+# GCC takes what the sanitizers add for reads of uninitialised values, in the standard library's headers too.
+if((HOOKE_SANITIZE_ADDRESS OR HOOKE_SANITIZE_THREAD) AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(hooke_compiler_flags INTERFACE -Wno-maybe-uninitialized)
+endif()
 if(HOOKE_SANITIZE_ADDRESS)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
