@@ -10,7 +10,7 @@ RUN_ARGS ?=
 BENCH_ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help run test soak build bench format lint install clean setup setup-lint
+.PHONY: help run test soak build bench format lint install clean setup setup-test setup-lint
 
 help:  ## this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
@@ -24,10 +24,10 @@ run: build  ## build, and run the dam break of 512,000 particles into out/water
 	@echo "  report.json       what happened; log.txt: how; checkpoint.h5: its end, to go on from"
 	@build/hooke info out/water
 
-test: setup  ## build with assertions and sanitizers, run every test but the long ones
+test: setup-test  ## build with assertions and sanitizers, run every test but the long ones
 	tools/test.sh
 
-soak: setup  ## the long tests
+soak: setup-test  ## the long tests
 	tools/test.sh soak
 
 build: setup  ## release build: build/hooke
@@ -52,6 +52,9 @@ clean:  ## remove every build folder
 
 setup:
 	@tools/setup.sh
+
+setup-test:
+	@tools/setup.sh test
 
 setup-lint:
 	@tools/setup.sh lint

@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: MIT
 #
 # Installs what Hooke needs from Debian's own packages; says nothing when all of it is there.
-#   tools/setup.sh          to build, run and test
-#   tools/setup.sh lint     also to format and to lint
+#   tools/setup.sh          to build and run
+#   tools/setup.sh test     also to test, which checks the format
+#   tools/setup.sh lint     also to lint
 set -euo pipefail
 
 build_packages=(
@@ -12,10 +13,14 @@ build_packages=(
   libtbb-dev libexpected-dev nlohmann-json3-dev libvalijson-dev libcli11-dev libfmt-dev libspdlog-dev libhdf5-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   python3)
-lint_packages=(clang-19 clang-format-19 clang-tidy-19)
+test_packages=(clang-format-19)
+lint_packages=(clang-19 clang-tidy-19)
 
 packages=("${build_packages[@]}")
-if [[ "${1:-}" == lint ]]; then packages+=("${lint_packages[@]}"); fi
+case "${1:-}" in
+  test) packages+=("${test_packages[@]}") ;;
+  lint) packages+=("${test_packages[@]}" "${lint_packages[@]}") ;;
+esac
 
 if ! command -v dpkg-query >/dev/null; then
   echo "Not a Debian system: install the likes of ${packages[*]} yourself." >&2

@@ -20,7 +20,7 @@ if [[ "${1:-}" == soak ]]; then
   exit
 fi
 
-if command -v clang-format-19 >/dev/null; then tools/lint.sh format-check; fi
+tools/lint.sh format-check
 build_and_test dev dev
 build_and_test asan asan
 build_and_test tsan tsan
