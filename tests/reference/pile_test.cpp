@@ -57,8 +57,6 @@ TEST_P(Pile, SettlesAsInLammps) {
   ASSERT_EQ(static_cast<double>(simulation.particle_count()), expected["N"]);
 
   const Table series = read_table(pile().folder / "expected_series.csv");
-  std::vector<double>
-      max_overlaps;  // at the last ten instants: the extreme value of one jumps by a fifth from one to the next
   for (std::size_t row = 0; row < series.rows.size(); ++row) {
     ASSERT_TRUE(advance(simulation, static_cast<std::int64_t>(series.at(row, "step")) - simulation.step_count()));
     const double zcm = series.at(row, "zcm");
