@@ -9,21 +9,44 @@
 #include <vector>
 
 #include "hooke/base/expected.h"
+#include "hooke/core/scene.h"
 #include "hooke/io/run_folder.h"
 
 namespace hooke {
 
-/// Extensions that export_run knows, with their dot, and what they stand for.
+/// What of a snapshot is written.
+enum class ExportContent { particles, contacts, surface, volume };
+
+/// "particles", "contacts", "surface", "volume".
+const char* to_string(ExportContent content);
+
+/// How the surface of a fluid is drawn around its particles.
+struct SurfaceOptions {
+  double radius = 2;         ///< of the sphere that each particle adds, in its own radii, > 0
+  double smoothing = 1;      ///< how far bumps are smoothed away, in radii of the smallest particle, >= 0
+  double resolution = 0.75;  ///< edge of a voxel, in radii of the smallest particle, > 0
+};
+
+struct ExportOptions {
+  ExportContent content = ExportContent::particles;
+  /// The rules of the run: needed for contacts, which are computed from a snapshot by the law and its coefficients.
+  const Scene* scene = nullptr;
+  SurfaceOptions surface;
+};
+
+/// An extension that export_run knows for some content, with its dot, and what it stands for.
 struct ExportFormatInfo {
   const char* extension;
+  ExportContent content;
   const char* description;
 };
 std::vector<ExportFormatInfo> export_formats();
 
-/// Writes snapshots (indices into `run`, ascending, at least one) in the format that the extension of `file` names,
-/// and returns the files that were written, the one to open first. Each is written beside and renamed. CSV holds
-/// them all in one file; .vtp holds one, several become FILE.pvd with one numbered .vtp each.
+/// Writes snapshots (indices into `run`, ascending, at least one) in the format that the extension of `file` names for
+/// what the options ask for, and returns the files that were written, the one to open first. Each is written beside
+/// and renamed. A format that holds one instant a file numbers several: FILE_0000.ply, FILE_0001.ply.
 Expected<std::vector<std::filesystem::path>> export_run(const RunReader& run, std::span<const std::size_t> indices,
-                                                        const std::filesystem::path& file);
+                                                        const std::filesystem::path& file,
+                                                        const ExportOptions& options = {});
 
 }  // namespace hooke

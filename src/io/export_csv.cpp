@@ -26,15 +26,15 @@ void append_vector(std::string& line, const Vec3d& v) {
 
 }  // namespace
 
-std::vector<std::filesystem::path> export_csv(const RunReader& run, std::span<const std::size_t> indices,
-                                              const std::filesystem::path& file) {
+std::vector<std::filesystem::path> export_csv(const ExportJob& job) {
+  const RunReader& run = job.run;
   std::vector<std::string> names;
   for (const MaterialInfo& m : run.info().materials) names.push_back(csv_field(m.name));
   const bool single = run.info().precision == Precision::single_precision;
-  OutputFile out(file);
+  OutputFile out(job.file);
   out.write("step,t,id,material,x,y,z,vx,vy,vz\n");
   std::string line;
-  for (const std::size_t index : indices) {
+  for (const std::size_t index : job.indices) {
     const Snapshot snapshot = take(run.read(index));
     const ParticleSet& p = snapshot.particles;
     std::string start;
@@ -55,7 +55,7 @@ std::vector<std::filesystem::path> export_csv(const RunReader& run, std::span<co
     }
   }
   out.finish();
-  return {file};
+  return {job.file};
 }
 
 }  // namespace hooke

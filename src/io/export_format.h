@@ -2,18 +2,29 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <span>
 #include <vector>
 
+#include "hooke/io/export.h"
 #include "hooke/io/run_folder.h"
 
 namespace hooke {
 
-/// Writes the snapshots `indices` (at least one, ascending) of `run` to `file`, and returns the files that it wrote,
-/// the one to open first. Throws Failure.
-using ExportFunction = std::vector<std::filesystem::path>(const RunReader& run, std::span<const std::size_t> indices,
-                                                          const std::filesystem::path& file);
+/// One call of export_run, checked: at least one index, ascending, each < run.size().
+struct ExportJob {
+  const RunReader& run;
+  std::span<const std::size_t> indices;  ///< snapshots of `run`
+  std::filesystem::path file;
+  const ExportOptions& options;
+};
+
+/// Writes the job's snapshots and returns the files that it wrote, the one to open first. Throws Failure.
+using ExportFunction = std::vector<std::filesystem::path>(const ExportJob& job);
+
+/// The file of snapshot `k` of `count` in a format that holds one a file: out/water.ply -> out/water_0007.ply.
+std::filesystem::path numbered_file(const std::filesystem::path& file, std::size_t k, std::size_t count);
 
 // One a format, each in a file of its own; export.cpp lists them.
 ExportFunction export_csv;

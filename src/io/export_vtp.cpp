@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <numeric>
 
 #include "hooke/io/export_format.h"
@@ -131,28 +130,30 @@ std::string xml_text(const std::string& text) {
 
 }  // namespace
 
-std::vector<fs::path> export_vtp(const RunReader& run, std::span<const std::size_t> indices, const fs::path& file) {
-  if (indices.size() > 1) return export_pvd(run, indices, fs::path(file).replace_extension(".pvd"));
-  write_vtp(run, indices.front(), file);
-  return {file};
+std::vector<fs::path> export_vtp(const ExportJob& job) {
+  if (job.indices.size() > 1) {
+    return export_pvd({job.run, job.indices, fs::path(job.file).replace_extension(".pvd"), job.options});
+  }
+  write_vtp(job.run, job.indices.front(), job.file);
+  return {job.file};
 }
 
-std::vector<fs::path> export_pvd(const RunReader& run, std::span<const std::size_t> indices, const fs::path& file) {
-  std::vector<fs::path> written{file};
-  const std::size_t digits = std::max<std::size_t>(4, std::to_string(indices.size() - 1).size());
+std::vector<fs::path> export_pvd(const ExportJob& job) {
+  std::vector<fs::path> written{job.file};
   std::string collection =
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
       "<Collection>\n";
-  for (std::size_t k = 0; k < indices.size(); ++k) {
-    const std::string name = fmt::format("{}_{:0{}}.vtp", file.stem().string(), k, digits);
-    write_vtp(run, indices[k], file.parent_path() / name);
-    written.push_back(file.parent_path() / name);
+  for (std::size_t k = 0; k < job.indices.size(); ++k) {
+    const fs::path file = numbered_file(fs::path(job.file).replace_extension(".vtp"), k, job.indices.size());
+    write_vtp(job.run, job.indices[k], file);
+    written.push_back(file);
     std::string time;
-    append_number(time, run.times()[indices[k]]);
-    collection += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", time, xml_text(name));
+    append_number(time, job.run.times()[job.indices[k]]);
+    collection +=
+        fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", time, xml_text(file.filename().string()));
   }
-  OutputFile out(file);
+  OutputFile out(job.file);
   out.write(collection + "</Collection>\n</VTKFile>\n");
   out.finish();
   return written;
