@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -62,6 +63,30 @@ class CellGrid {
   Axis axes_[3];
   double inverse_cell_[3] = {1, 1, 1};
   std::int64_t stride_y_ = 3, stride_z_ = 9;  // with one empty cell on both sides of every axis
+};
+
+/// Finds the first point at or after a key. Cells are visited in ascending order, so the answer is most often a few
+/// points after the one before; each of a cell's ranges keeps its own place.
+class KeyCursor {
+ public:
+  /// Index into the ascending `keys`, keys.size() where all are less.
+  std::size_t seek(std::span<const std::uint64_t> keys, std::uint64_t key) {
+    constexpr int kFewSteps = 32;
+    for (int i = 0; i < kFewSteps; ++i) {
+      if (at_ < keys.size() && keys[at_] < key) {
+        ++at_;
+      } else if (at_ > 0 && keys[at_ - 1] >= key) {
+        --at_;
+      } else {
+        return at_;
+      }
+    }
+    at_ = static_cast<std::size_t>(std::lower_bound(keys.begin(), keys.end(), key) - keys.begin());
+    return at_;
+  }
+
+ private:
+  std::size_t at_ = 0;
 };
 
 /// Sorts points by key, stably: `keys` ascending afterwards, `order[k]` the index that the k-th had before. Parallel

@@ -143,29 +143,6 @@ struct Row {
   }
 };
 
-// Finds the first point at or after a key. Cells are visited in ascending order, so the answer is most often a few
-// points after the one before; each of a cell's ranges keeps its own place.
-class KeyCursor {
- public:
-  std::size_t seek(std::span<const std::uint64_t> keys, std::uint64_t key) {
-    constexpr int kFewSteps = 32;
-    for (int i = 0; i < kFewSteps; ++i) {
-      if (at_ < keys.size() && keys[at_] < key) {
-        ++at_;
-      } else if (at_ > 0 && keys[at_ - 1] >= key) {
-        --at_;
-      } else {
-        return at_;
-      }
-    }
-    at_ = static_cast<std::size_t>(std::lower_bound(keys.begin(), keys.end(), key) - keys.begin());
-    return at_;
-  }
-
- private:
-  std::size_t at_ = 0;
-};
-
 // What one thread builds rows with.
 template <class Real, class Points>
 class RowBuilder {

@@ -1,0 +1,280 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/core/contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <span>
+#include <tuple>
+
+#include "hooke/base/parallel.h"
+#include "hooke/neighbours/cell_grid.h"
+#include "hooke/physics/contact.h"
+#include "hooke/physics/periodic.h"
+#include "hooke/physics/wall.h"
+
+namespace hooke {
+
+namespace {
+
+using Image = std::array<std::int32_t, 3>;
+
+// A contact of particle a, from its side: seen from the other one, it comes up a second time.
+struct Touch {
+  Contact contact;
+  double normal_force;  // N, > 0 pushes a away
+};
+
+// Particles in cells, and who touches whom there.
+class ContactSearch {
+ public:
+  ContactSearch(const Scene& scene, const ParticleSet& particles)
+      : scene_(scene),
+        particles_(particles),
+        table_(scene.materials, scene.contacts) {
+    if (particles.empty()) return;
+    lay_out_grid();
+    sort_spheres();
+  }
+
+  // body(i, touches) for every particle of the set, on all threads, in the order of cells. Of touches, pairs come
+  // first.
+  template <class Body>
+  void for_each_particle(const Body& body) const {
+    parallel_ranges(spheres_.size(), kBlock, [&](std::size_t first, std::size_t last) {
+      Neighbourhood around(*this);
+      std::vector<Touch> touches;
+      for (std::size_t k = first; k < last; ++k) {
+        around.move_to(keys_[k]);
+        touches.clear();
+        add_pairs(k, around, touches);
+        add_walls(k, touches);
+        body(order_[k], std::span(touches));
+      }
+    });
+  }
+
+ private:
+  static constexpr std::size_t kBlock = 4096;  // particles a piece of work
+
+  struct Sphere {
+    Vec3d x;
+    double radius;
+  };
+
+  struct Range {
+    std::size_t first, last;
+  };
+
+  // The particles in and around the cell in hand, as ranges of the sorted ones. Cells come in ascending order.
+  class Neighbourhood {
+   public:
+    explicit Neighbourhood(const ContactSearch& search) : search_(search) {}
+
+    void move_to(std::uint64_t key) {
+      if (key == key_) return;
+      key_ = key;
+      CellGrid::KeyRange cells[18];
+      count_ = search_.grid_.neighbour_ranges(key, cells);
+      const std::vector<std::uint64_t>& keys = search_.keys_;
+      for (std::size_t r = 0; r < count_; ++r) {
+        const std::size_t first = cursors_[r].seek(keys, cells[r].first);
+        std::size_t last = first;
+        while (last < keys.size() && keys[last] <= cells[r].last) ++last;
+        ranges_[r] = {first, last};
+      }
+    }
+    std::span<const Range> ranges() const { return {ranges_.data(), count_}; }
+
+   private:
+    const ContactSearch& search_;
+    std::uint64_t key_ = ~std::uint64_t{0};
+    std::size_t count_ = 0;
+    std::array<Range, 18> ranges_{};
+    std::array<KeyCursor, 18> cursors_;
+  };
+
+  double radius(std::size_t i) const { return scene_.materials[particles_.material[i]].radius; }
+
+  void lay_out_grid() {
+    double largest = 0;
+    Vec3d min = particles_.position.front();
+    Vec3d max = min;
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+      largest = std::max(largest, radius(i));
+      const Vec3d& x = particles_.position[i];
+      min = {std::min(min.x, x.x), std::min(min.y, x.y), std::min(min.z, x.z)};
+      max = {std::max(max.x, x.x), std::max(max.y, x.y), std::max(max.z, x.z)};
+    }
+    const double reach = 2 * largest;
+    bool periodic[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      periodic[a] = scene_.domain.boundary[a] == Boundary::periodic;
+      if (!periodic[a]) continue;
+      any_periodic_ = true;
+      component(min, axis) = component(scene_.domain.min, axis);
+      component(max, axis) = component(scene_.domain.max, axis);
+      // On an axis of at least two contact distances the nearest image is the only one that can touch.
+      const double length = scene_.domain.length(axis);
+      images_[a] = length >= 2 * reach ? 0 : static_cast<std::int32_t>(reach / length) + 1;
+    }
+    grid_.lay_out(min, max, periodic, reach * (1 + 1e-6));
+  }
+
+  void sort_spheres() {
+    const std::size_t n = particles_.size();
+    keys_.resize(n);
+    parallel_ranges(n, kBlock, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) keys_[i] = grid_.key_of(particles_.position[i]);
+    });
+    sort_by_key(keys_, order_);
+    spheres_.resize(n);
+    parallel_ranges(n, kBlock, [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) spheres_[k] = {particles_.position[order_[k]], radius(order_[k])};
+    });
+  }
+
+  void add_pairs(std::size_t k, const Neighbourhood& around, std::vector<Touch>& touches) const {
+    for (const Range& range : around.ranges()) {
+      for (std::size_t n = range.first; n < range.last; ++n) {
+        if (any_periodic_) {
+          add_images(k, n, touches);
+        } else if (n != k) {
+          add_if_touching(k, n, Image{}, spheres_[k].x - spheres_[n].x, touches);
+        }
+      }
+    }
+  }
+
+  void add_images(std::size_t k, std::size_t n, std::vector<Touch>& touches) const {
+    const Domain& domain = scene_.domain;
+    const Vec3d& x_i = spheres_[k].x;
+    const Vec3d& x_p = spheres_[n].x;
+    Image from{};
+    Image to{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      if (domain.boundary[a] != Boundary::periodic) continue;
+      const double nearest = nearest_image(component(x_i, axis), component(x_p, axis), domain.length(axis));
+      from[a] = images_[a] > 0 ? -images_[a] : static_cast<std::int32_t>(nearest);
+      to[a] = images_[a] > 0 ? images_[a] : static_cast<std::int32_t>(nearest);
+    }
+    for (std::int32_t sx = from[0]; sx <= to[0]; ++sx) {
+      for (std::int32_t sy = from[1]; sy <= to[1]; ++sy) {
+        for (std::int32_t sz = from[2]; sz <= to[2]; ++sz) {
+          const Image image{sx, sy, sz};
+          if (n == k && image == Image{}) continue;
+          const Vec3d x_ip{image_displacement<double>(x_i.x, x_p.x, sx, domain.length(0)),
+                           image_displacement<double>(x_i.y, x_p.y, sy, domain.length(1)),
+                           image_displacement<double>(x_i.z, x_p.z, sz, domain.length(2))};
+          add_if_touching(k, n, image, x_ip, touches);
+        }
+      }
+    }
+  }
+
+  void add_if_touching(std::size_t k, std::size_t n, const Image& image, const Vec3d& x_ip,
+                       std::vector<Touch>& touches) const {
+    const double reach = spheres_[k].radius + spheres_[n].radius;
+    const double distance_squared = dot(x_ip, x_ip);
+    // Most are far: spare them the root. The margin leaves the last digit to the exact test.
+    if (distance_squared > reach * reach * (1 + 1e-12)) return;
+    const double distance = std::sqrt(distance_squared);
+    const double overlap = reach - distance;
+    if (!(overlap > 0)) return;
+    const std::uint32_t i = order_[k];
+    const std::uint32_t p = order_[n];
+    const Vec3d normal = contact_normal(x_ip, distance, particles_.id[i] > particles_.id[p] ? 1.0 : -1.0);
+    const Vec3d w = particles_.velocity[p] - particles_.velocity[i];
+    const auto& coefficients = table_.pair(particles_.material[i], particles_.material[p]);
+    const Vec3d force = contact_force(overlap, normal, w, coefficients).force;
+    touches.push_back({{i, p, Face::none, image, overlap, force}, dot(force, normal)});
+  }
+
+  void add_walls(std::size_t k, std::vector<Touch>& touches) const {
+    const Domain& domain = scene_.domain;
+    const Sphere& sphere = spheres_[k];
+    const auto add = [&](int face, const Vec3d& normal, double overlap) {
+      if (!(overlap > 0)) return;
+      const std::uint32_t i = order_[k];
+      const auto& coefficients = table_.wall(particles_.material[i]);
+      const Vec3d force = contact_force(overlap, normal, -particles_.velocity[i], coefficients).force;
+      touches.push_back({{i, Contact::kWall, static_cast<Face>(face), {}, overlap, force}, dot(force, normal)});
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+      if (domain.boundary[static_cast<std::size_t>(axis)] != Boundary::spring) continue;
+      const double x = component(sphere.x, axis);
+      add(2 * axis + 1, wall_normal(axis, 1.0), lower_wall_overlap(x, component(domain.min, axis), sphere.radius));
+      add(2 * axis + 2, wall_normal(axis, -1.0), upper_wall_overlap(x, component(domain.max, axis), sphere.radius));
+    }
+  }
+
+  const Scene& scene_;
+  const ParticleSet& particles_;
+  ContactTable table_;
+  bool any_periodic_ = false;
+  Image images_{};  // images -n to n of every particle are looked at; 0: only the nearest
+  CellGrid grid_;
+  std::vector<std::uint64_t> keys_;  // of cells, ascending
+  std::vector<std::uint32_t> order_;  // index into the set of the k-th sphere
+  std::vector<Sphere> spheres_;  // by cell
+};
+
+// Whether this side of a contact is the one that is listed.
+bool is_listed(const Touch& touch) {
+  const Contact& c = touch.contact;
+  return c.b > c.a || (c.b == c.a && c.image > Image{});
+}
+
+}  // namespace
+
+const char* to_string(Face face) {
+  constexpr const char* kNames[] = {"", "x-min", "x-max", "y-min", "y-max", "z-min", "z-max"};
+  return kNames[static_cast<std::size_t>(face)];
+}
+
+std::vector<Contact> find_contacts(const Scene& scene, const ParticleSet& particles) {
+  const ContactSearch search(scene, particles);
+
+  // How many each particle lists, then where its list begins.
+  std::vector<std::size_t> begin(particles.size() + 1);
+  search.for_each_particle([&](std::size_t i, std::span<const Touch> touches) {
+    begin[i + 1] = static_cast<std::size_t>(std::count_if(touches.begin(), touches.end(), is_listed));
+  });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+
+  std::vector<Contact> found(begin.back());
+  search.for_each_particle([&](std::size_t i, std::span<const Touch> touches) {
+    Contact* const first = found.data() + begin[i];
+    Contact* next = first;
+    for (const Touch& touch : touches) {
+      if (is_listed(touch)) *next++ = touch.contact;
+    }
+    std::sort(first, next, [](const Contact& c, const Contact& d) {
+      return std::tie(c.b, c.image, c.face) < std::tie(d.b, d.image, d.face);
+    });
+  });
+  return found;
+}
+
+ContactFigures contact_figures(const Scene& scene, const ParticleSet& particles) {
+  const ContactSearch search(scene, particles);
+  ContactFigures figures;
+  figures.count.resize(particles.size());
+  figures.pressure.resize(particles.size());
+  search.for_each_particle([&](std::size_t i, std::span<const Touch> touches) {
+    double normal_force = 0;
+    for (const Touch& touch : touches) normal_force += touch.normal_force;
+    const double r = scene.materials[particles.material[i]].radius;
+    const double volume = 4.0 / 3.0 * std::numbers::pi * r * r * r;
+    figures.count[i] = static_cast<std::uint32_t>(touches.size());
+    figures.pressure[i] = r * normal_force / (3 * volume);
+  });
+  return figures;
+}
+
+}  // namespace hooke

@@ -1,0 +1,255 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#include "hooke/core/contacts.h"
+
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include <cmath>
+#include <numbers>
+#include <ostream>
+#include <tuple>
+
+#include "hooke/physics/contact.h"
+#include "support/particles.h"
+
+namespace hooke {
+namespace {
+
+using test::add;
+
+double volume(double radius) { return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius; }
+
+// One contact as the law has it: looked for among all pairs and all images, without any of the search's short cuts.
+std::vector<Contact> all_pairs(const Scene& scene, const ParticleSet& p, ContactFigures& figures) {
+  const ContactTable table(scene.materials, scene.contacts);
+  const auto radius = [&](std::size_t i) { return scene.materials[p.material[i]].radius; };
+  std::vector<Contact> found;
+  figures.count.assign(p.size(), 0);
+  figures.pressure.assign(p.size(), 0);
+  const auto press = [&](std::size_t i, double force) {
+    ++figures.count[i];
+    figures.pressure[i] += radius(i) * force / (3 * volume(radius(i)));
+  };
+  int images[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool periodic = scene.domain.boundary[static_cast<std::size_t>(axis)] == Boundary::periodic;
+    images[axis] = periodic ? static_cast<int>(3 / scene.domain.length(axis)) + 1 : 0;  // 3 m: more than two diameters
+  }
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    for (std::size_t k = i; k < p.size(); ++k) {
+      for (int sx = -images[0]; sx <= images[0]; ++sx) {
+        for (int sy = -images[1]; sy <= images[1]; ++sy) {
+          for (int sz = -images[2]; sz <= images[2]; ++sz) {
+            if (i == k && std::tuple(sx, sy, sz) <= std::tuple(0, 0, 0)) continue;
+            const Vec3d shift{sx * scene.domain.length(0), sy * scene.domain.length(1), sz * scene.domain.length(2)};
+            const Vec3d d = p.position[i] - p.position[k] - shift;
+            const double distance = std::sqrt(dot(d, d));
+            const double overlap = radius(i) + radius(k) - distance;
+            if (overlap <= 0) continue;
+            const Vec3d normal = distance == 0 ? Vec3d{-1, 0, 0} : (1 / distance) * d;
+            const Vec3d force =
+                contact_force(overlap, normal, p.velocity[k] - p.velocity[i], table.pair(p.material[i], p.material[k]))
+                    .force;
+            found.push_back({static_cast<std::uint32_t>(i),
+                             static_cast<std::uint32_t>(k),
+                             Face::none,
+                             {sx, sy, sz},
+                             overlap,
+                             force});
+            press(i, dot(force, normal));
+            press(k, dot(force, normal));
+          }
+        }
+      }
+    }
+    const Face lower[] = {Face::x_min, Face::y_min, Face::z_min};
+    const Face upper[] = {Face::x_max, Face::y_max, Face::z_max};
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      if (scene.domain.boundary[a] != Boundary::spring) continue;
+      for (const bool is_lower : {true, false}) {
+        const double gap = is_lower ? component(p.position[i], axis) - component(scene.domain.min, axis)
+                                    : component(scene.domain.max, axis) - component(p.position[i], axis);
+        const double overlap = radius(i) - gap;
+        if (overlap <= 0) continue;
+        Vec3d normal{0, 0, 0};
+        component(normal, axis) = is_lower ? 1 : -1;
+        const Vec3d force = contact_force(overlap, normal, -p.velocity[i], table.wall(p.material[i])).force;
+        found.push_back(
+            {static_cast<std::uint32_t>(i), Contact::kWall, is_lower ? lower[a] : upper[a], {}, overlap, force});
+        press(i, dot(force, normal));
+      }
+    }
+  }
+  return found;
+}
+
+struct Box {
+  const char* name;
+  Vec3d size;
+  std::array<Boundary, 3> boundary;
+};
+
+void PrintTo(const Box& box, std::ostream* os) { *os << box.name; }
+
+constexpr Boundary kSpring = Boundary::spring, kOpen = Boundary::open, kPeriodic = Boundary::periodic;
+const Box kBoxes[] = {
+    {"walls", {6, 5, 7}, {kSpring, kSpring, kSpring}},
+    {"open", {6, 5, 7}, {kOpen, kOpen, kOpen}},
+    {"periodic", {6, 5, 7}, {kPeriodic, kPeriodic, kPeriodic}},
+    {"periodic_two_cells", {2.5, 9, 8}, {kPeriodic, kSpring, kPeriodic}},
+    {"periodic_one_cell", {9, 1.1, 9}, {kSpring, kPeriodic, kOpen}},
+    {"periodic_shorter_than_a_radius", {0.3, 25, 25}, {kPeriodic, kPeriodic, kSpring}},
+};
+
+class ContactsOfACloud : public testing::TestWithParam<Box> {};
+
+TEST_P(ContactsOfACloud, AreThoseOfAllPairs) {
+  Scene scene = test::open_scene();
+  test::mix_materials(scene, 0.5);
+  scene.domain = {{-1, 2, -3}, Vec3d{-1, 2, -3} + GetParam().size, GetParam().boundary};
+  const ParticleSet particles = test::cloud(scene, 300, scene.domain.min, scene.domain.max, 2, 11);
+
+  ContactFigures expected_figures;
+  const std::vector<Contact> expected = all_pairs(scene, particles, expected_figures);
+  const std::vector<Contact> found = find_contacts(scene, particles);
+  ASSERT_GT(expected.size(), 200U);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t n = 0; n < found.size(); ++n) {
+    const Contact& f = found[n];
+    const Contact& e = expected[n];
+    ASSERT_EQ(std::tie(f.a, f.b, f.face, f.image), std::tie(e.a, e.b, e.face, e.image)) << n;
+    EXPECT_NEAR(f.overlap, e.overlap, 1e-12);
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(component(f.force, axis), component(e.force, axis), 1e-8);
+  }
+
+  const ContactFigures figures = contact_figures(scene, particles);
+  EXPECT_EQ(figures.count, expected_figures.count);
+  ASSERT_EQ(figures.pressure.size(), particles.size());
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    EXPECT_NEAR(figures.pressure[i], expected_figures.pressure[i], 1e-10 * (1 + std::abs(figures.pressure[i]))) << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Boxes, ContactsOfACloud, testing::ValuesIn(kBoxes),
+                         [](const auto& box) { return box.param.name; });
+
+TEST(Contacts, OfTwoMaterialsFollowTheirOwnCoefficients) {
+  Scene scene = test::open_scene();
+  Material heavy = scene.materials[0];
+  heavy.name = "heavy";
+  heavy.radius = 1;
+  scene.materials.push_back(heavy);
+  scene.contacts.push_back({0, 1, {200, 0, 5}});
+  ParticleSet p;
+  add(p, {0, 0, 0}, {0, 0, 0}, 0);
+  add(p, {0, 1.25, 0}, {0, -2, 0}, 1);  // overlap 1.5 - 1.25, approaching at 2 m/s
+
+  const auto contacts = find_contacts(scene, p);
+  ASSERT_EQ(contacts.size(), 1U);
+  EXPECT_EQ(contacts[0].a, 0U);
+  EXPECT_EQ(contacts[0].b, 1U);
+  EXPECT_EQ(contacts[0].overlap, 0.25);
+  EXPECT_EQ(contacts[0].force, (Vec3d{0, -60, 0}));  // 200 * 0.25 + 5 * 2, downward on the lower one
+
+  const auto figures = contact_figures(scene, p);
+  EXPECT_EQ(figures.count, (std::vector<std::uint32_t>{1, 1}));
+  EXPECT_DOUBLE_EQ(figures.pressure[0], 0.5 * 60 / (3 * volume(0.5)));
+  EXPECT_DOUBLE_EQ(figures.pressure[1], 1.0 * 60 / (3 * volume(1)));
+}
+
+TEST(Contacts, ThatADashpotHoldsBackPull) {
+  const Scene scene = test::open_scene();
+  const ParticleSet p = test::pair_on_x(scene, 0.001, {-1, 0, 0}, {1, 0, 0});  // k * overlap = 1 N < c_d * 2 m/s
+  EXPECT_LT(contact_figures(scene, p).pressure[0], 0);
+}
+
+TEST(Contacts, OfWallsNameTheirFace) {
+  Scene scene = test::open_scene();
+  scene.domain = {{0, 0, 0}, {4, 4, 4}, {kSpring, kOpen, kSpring}};
+  scene.contacts.push_back({0, ContactEntry::kWall, {80, 0, 0}});
+  ParticleSet p;
+  add(p, {0.25, 0.1, 3.75}, {0, 0, 0});  // overlaps 0.25 with two walls; the face below it is open
+
+  const auto contacts = find_contacts(scene, p);
+  ASSERT_EQ(contacts.size(), 2U);
+  EXPECT_STREQ(to_string(contacts[0].face), "x-min");
+  EXPECT_STREQ(to_string(contacts[1].face), "z-max");
+  EXPECT_EQ(contacts[0].b, Contact::kWall);
+  EXPECT_EQ(contacts[0].force, (Vec3d{20, 0, 0}));
+  EXPECT_EQ(contacts[1].force, (Vec3d{0, 0, -20}));
+  const auto figures = contact_figures(scene, p);
+  EXPECT_EQ(figures.count[0], 2U);
+  EXPECT_DOUBLE_EQ(figures.pressure[0], 0.5 * 40 / (3 * volume(0.5)));
+}
+
+TEST(Contacts, AtTheSameSpotPushApartAlongX) {
+  const Scene scene = test::open_scene();
+  ParticleSet p;
+  add(p, {1, 1, 1}, {0, 0, 0});
+  add(p, {1, 1, 1}, {0, 0, 0});
+  const auto contacts = find_contacts(scene, p);
+  ASSERT_EQ(contacts.size(), 1U);
+  EXPECT_EQ(contacts[0].overlap, 1);
+  EXPECT_EQ(contacts[0].force, (Vec3d{-1000, 0, 0}));
+}
+
+TEST(Contacts, AcrossAPeriodicFaceNameTheImage) {
+  Scene scene = test::open_scene();
+  scene.domain = {{0, 0, 0}, {10, 10, 10}, {kPeriodic, kPeriodic, kOpen}};
+  ParticleSet p;
+  add(p, {0.25, 5, 5}, {0, 0, 0});
+  add(p, {9.5, 5, 5}, {0, 0, 0});
+  const auto contacts = find_contacts(scene, p);
+  ASSERT_EQ(contacts.size(), 1U);
+  EXPECT_EQ(contacts[0].image, (std::array<std::int32_t, 3>{-1, 0, 0}));  // b stands at -0.5
+  EXPECT_EQ(contacts[0].overlap, 0.25);
+  EXPECT_EQ(contacts[0].force, (Vec3d{250, 0, 0}));
+}
+
+TEST(Contacts, OfAParticleWithItselfAreOneContactWithTwoSides) {
+  Scene scene = test::open_scene();
+  scene.domain = {{0, 0, 0}, {0.75, 10, 10}, {kPeriodic, kOpen, kOpen}};
+  ParticleSet p;
+  add(p, {0.5, 5, 5}, {0, 0, 0});
+  const auto contacts = find_contacts(scene, p);
+  ASSERT_EQ(contacts.size(), 1U);
+  EXPECT_EQ(contacts[0].b, 0U);
+  EXPECT_EQ(contacts[0].image, (std::array<std::int32_t, 3>{1, 0, 0}));
+  EXPECT_EQ(contact_figures(scene, p).count[0], 2U);
+}
+
+TEST(Contacts, OfNobodyAreNone) {
+  const Scene scene = test::open_scene();
+  EXPECT_TRUE(find_contacts(scene, {}).empty());
+  EXPECT_TRUE(contact_figures(scene, {}).count.empty());
+}
+
+TEST(Contacts, AreTheSameBitsForAnyNumberOfThreads) {
+  Scene scene = test::open_scene();
+  test::mix_materials(scene, 0.5);
+  const ParticleSet particles = test::lattice(scene, {25, 25, 25}, {0, 0, 0}, 0.9, 0.2, 3);
+  std::vector<Contact> one_list;
+  ContactFigures one;
+  tbb::task_arena(1).execute([&] {
+    one_list = find_contacts(scene, particles);
+    one = contact_figures(scene, particles);
+  });
+  EXPECT_GT(one_list.size(), particles.size());
+  tbb::task_arena(2).execute([&] {
+    const auto list = find_contacts(scene, particles);
+    ASSERT_EQ(list.size(), one_list.size());
+    for (std::size_t n = 0; n < list.size(); ++n) {
+      ASSERT_EQ(std::tie(list[n].a, list[n].b, list[n].image),
+                std::tie(one_list[n].a, one_list[n].b, one_list[n].image));
+      ASSERT_EQ(list[n].force, one_list[n].force);
+    }
+    const ContactFigures figures = contact_figures(scene, particles);
+    EXPECT_EQ(figures.count, one.count);
+    EXPECT_EQ(figures.pressure, one.pressure);
+  });
+}
+
+}  // namespace
+}  // namespace hooke
