@@ -25,12 +25,26 @@ constexpr Format kFormats[] = {
     {{".csv", kParticles, "a table: step,t,id,material,x,y,z,vx,vy,vz"}, export_csv},
     {{".vtp", kParticles, "VTK PolyData; with several snapshots a .pvd and one .vtp each"}, export_vtp},
     {{".pvd", kParticles, "ParaView collection of one .vtp a snapshot"}, export_pvd},
+    {{".ply", kParticles, "binary PLY points"}, export_ply},
+    {{".usda", kParticles, "USD points with time samples"}, export_usda},
+    {{".xyz", kParticles, "extended XYZ"}, export_xyz},
+    {{".extxyz", kParticles, "extended XYZ"}, export_xyz},
+    {{".dump", kParticles, "LAMMPS text dump"}, export_lammps_dump},
+    {{".lammpstrj", kParticles, "LAMMPS text dump"}, export_lammps_dump},
+    {{".data", kParticles, "LAMMPS data file, atom_style sphere"}, export_lammps_data},
+    {{".lmp", kParticles, "LAMMPS data file, atom_style sphere"}, export_lammps_data},
 };
 
 std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
+}
+
+/// Whether a material index of the run means the same in the scene.
+bool same_materials(const Scene& scene, const RunInfo& info) {
+  return std::equal(scene.materials.begin(), scene.materials.end(), info.materials.begin(), info.materials.end(),
+                    [](const Material& a, const MaterialInfo& b) { return a.name == b.name; });
 }
 
 }  // namespace
@@ -44,6 +58,16 @@ std::vector<ExportFormatInfo> export_formats() {
 std::filesystem::path numbered_file(const std::filesystem::path& file, std::size_t k, std::size_t count) {
   const std::size_t digits = std::max<std::size_t>(4, std::to_string(count - 1).size());
   return file.parent_path() / fmt::format("{}_{:0{}}{}", file.stem().string(), k, digits, file.extension().string());
+}
+
+std::vector<std::filesystem::path> export_each(
+    const ExportJob& job, const std::function<void(std::size_t, const std::filesystem::path&)>& write) {
+  std::vector<std::filesystem::path> written;
+  for (std::size_t k = 0; k < job.indices.size(); ++k) {
+    written.push_back(job.indices.size() == 1 ? job.file : numbered_file(job.file, k, job.indices.size()));
+    write(job.indices[k], written.back());
+  }
+  return written;
 }
 
 const char* to_string(ExportContent content) {
@@ -79,6 +103,9 @@ Expected<std::vector<std::filesystem::path>> export_run(const RunReader& run, st
     }
     if (run.size() == 0) throw Failure(Error::Kind::bad_input, run.file(), "holds no complete snapshot");
     if (indices.empty()) throw Failure(Error::Kind::bad_input, file, "no snapshot is chosen");
+    if (options.scene && !same_materials(*options.scene, run.info())) {
+      throw Failure(Error::Kind::bad_input, run.file(), "has other materials than the scene that is said to be its");
+    }
     return format->write({run, indices, file, options});
   });
 }

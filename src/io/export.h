@@ -29,7 +29,9 @@ struct SurfaceOptions {
 
 struct ExportOptions {
   ExportContent content = ExportContent::particles;
-  /// The rules of the run: needed for contacts, which are computed from a snapshot by the law and its coefficients.
+  /// The rules of the run, with its materials: needed for contacts, which are computed from a snapshot by the law and
+  /// its coefficients. Where other formats say the domain, the direction up or colours, they take them from here, and
+  /// leave them out or fall back without.
   const Scene* scene = nullptr;
   SurfaceOptions surface;
 };

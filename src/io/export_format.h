@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -26,9 +27,19 @@ using ExportFunction = std::vector<std::filesystem::path>(const ExportJob& job);
 /// The file of snapshot `k` of `count` in a format that holds one a file: out/water.ply -> out/water_0007.ply.
 std::filesystem::path numbered_file(const std::filesystem::path& file, std::size_t k, std::size_t count);
 
+/// For a format of one snapshot a file: calls write(index, file) for each of the job's, and returns the files, which
+/// are numbered where there are several.
+std::vector<std::filesystem::path> export_each(
+    const ExportJob& job, const std::function<void(std::size_t, const std::filesystem::path&)>& write);
+
 // One a format, each in a file of its own; export.cpp lists them.
 ExportFunction export_csv;
+ExportFunction export_lammps_data;
+ExportFunction export_lammps_dump;
+ExportFunction export_ply;
+ExportFunction export_usda;
 ExportFunction export_vtp;
 ExportFunction export_pvd;
+ExportFunction export_xyz;
 
 }  // namespace hooke

@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+// USD as text: one UsdGeomPoints prim with a time sample a snapshot. Lengths are in metres; a time code is one
+// snapshot of an evenly spaced run (a frame), so timeCodesPerSecond is their rate. Widths are diameters. What USD
+// wants in single precision (points, velocities) is rounded to it. Up is against the scene's gravity, if that is along
+// y or z; colours are the scene's; without a scene up is y, and there are no colours.
+//
+// USD keeps all samples of an attribute together, so the snapshots are gone through once an attribute that moves, one
+// of them in memory at a time.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hooke/io/export_format.h"
+#include "hooke/io/failure.h"
+#include "hooke/io/material_words.h"
+#include "hooke/io/write_rows.h"
+
+namespace hooke {
+
+namespace {
+
+constexpr double kDefaultRate = 24;  // time codes a second where one snapshot tells none; USD's own default
+
+double rounded_if_near(double value, double nearness) {
+  return std::abs(value - std::round(value)) <= nearness ? std::round(value) : value;
+}
+
+/// Snapshots a second: of most of them, if they are not evenly spaced.
+double snapshot_rate(const std::vector<double>& times) {
+  if (times.size() < 2) return kDefaultRate;
+  std::vector<double> spacing;
+  for (std::size_t k = 1; k < times.size(); ++k) spacing.push_back(times[k] - times[k - 1]);
+  const auto middle = spacing.begin() + static_cast<std::ptrdiff_t>(spacing.size() / 2);
+  std::nth_element(spacing.begin(), middle, spacing.end());
+  return *middle > 0 ? rounded_if_near(1 / *middle, 1e-6 / *middle) : kDefaultRate;
+}
+
+std::string digits(double value) {
+  std::string text;
+  append_number(text, value);
+  return text;
+}
+
+std::string usd_string(std::string_view text) {
+  std::string literal = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      literal += {'\\', c};
+    } else if (static_cast<unsigned char>(c) < ' ') {
+      literal += fmt::format("\\x{:02x}", c);
+    } else {
+      literal += c;
+    }
+  }
+  return literal + '"';
+}
+
+const char* up_axis(const Scene* scene) {
+  return scene && std::abs(scene->gravity.z) > std::abs(scene->gravity.y) ? "Z" : "Y";
+}
+
+/// sRGB as in "#rrggbb" to the linear light that USD's colours are.
+float linear_light(std::uint8_t byte) {
+  const double c = byte / 255.0;
+  return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+}
+
+/// "[(-1, -2, -3), (1, 2, 3)]": a box around all spheres.
+std::string extent(const ParticleSet& p, const std::vector<MaterialInfo>& materials) {
+  Vec3d min{0, 0, 0}, max{0, 0, 0};
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const double radius = materials[p.material[i]].radius;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double x = component(p.position[i], axis);
+      double& low = component(min, axis);
+      double& high = component(max, axis);
+      low = i == 0 ? x - radius : std::min(low, x - radius);
+      high = i == 0 ? x + radius : std::max(high, x + radius);
+    }
+  }
+  std::string text = "[(";
+  append_vector<float>(text, min, ", ");
+  text += "), (";
+  append_vector<float>(text, max, ", ");
+  return text + ")]";
+}
+
+/// One export into one file.
+class UsdaWriter {
+ public:
+  explicit UsdaWriter(const ExportJob& job) : job_(job), info_(job.run.info()), out_(job.file) {
+    std::vector<double> times;
+    for (const std::size_t index : job.indices) times.push_back(job.run.times()[index]);
+    rate_ = snapshot_rate(times);
+    for (const double t : times) codes_.push_back(digits(rounded_if_near(t * rate_, 1e-6)));
+  }
+
+  void write() {
+    write_head();
+    write_points();
+    write_velocities();
+    write_materials();
+    out_.write("}\n");
+    out_.finish();
+  }
+
+ private:
+  void write_head() {
+    out_.write(
+        fmt::format("#usda 1.0\n"
+                    "(\n"
+                    "    defaultPrim = \"particles\"\n"
+                    "    endTimeCode = {}\n"
+                    "    framesPerSecond = {}\n"
+                    "    metersPerUnit = 1\n"
+                    "    startTimeCode = {}\n"
+                    "    timeCodesPerSecond = {}\n"
+                    "    upAxis = \"{}\"\n"
+                    ")\n\n"
+                    "def Points \"particles\"\n"
+                    "{{\n",
+                    codes_.back(), digits(rate_), codes_.front(), digits(rate_), up_axis(job_.options.scene)));
+    std::string names;
+    for (const MaterialInfo& m : info_.materials) names += (names.empty() ? "" : ", ") + usd_string(m.name);
+    out_.write(fmt::format("    custom uniform string[] materialNames = [{}]\n", names));
+  }
+
+  /// Points and, since all snapshots come by, their extents, and where the particles are others than before.
+  void write_points() {
+    std::string extents;
+    ParticleSet before;
+    out_.write("    point3f[] points.timeSamples = {\n");
+    for (std::size_t k = 0; k < codes_.size(); ++k) {
+      ParticleSet p = read(k);
+      extents += fmt::format("        {}: {},\n", codes_[k], extent(p, info_.materials));
+      write_vectors(k, p.position);
+      others_.push_back(k == 0 || p.id != before.id || p.material != before.material);
+      before = std::move(p);
+    }
+    out_.write("    }\n    float3[] extent.timeSamples = {\n" + extents + "    }\n");
+  }
+
+  void write_velocities() {
+    out_.write("    vector3f[] velocities.timeSamples = {\n");
+    for (std::size_t k = 0; k < codes_.size(); ++k) write_vectors(k, read(k).velocity);
+    out_.write("    }\n");
+  }
+
+  /// What stays with a particle.
+  void write_materials() {
+    std::vector<std::string> indices, widths, colors;
+    for (std::size_t m = 0; m < info_.materials.size(); ++m) {
+      indices.push_back(std::to_string(m));
+      append_number(widths.emplace_back(), static_cast<float>(2 * info_.materials[m].radius));
+      if (!job_.options.scene) continue;
+      const auto [red, green, blue] = rgb_bytes(job_.options.scene->materials[m].color);
+      std::string& text = colors.emplace_back("(");
+      append_vector<float>(text, {linear_light(red), linear_light(green), linear_light(blue)}, ", ");
+      text += ')';
+    }
+    write_lasting("int64[] ids", "",
+                  [](const ParticleSet& p, std::string& text, std::size_t i) { append_number(text, p.id[i]); });
+    const auto by_material = [](const std::vector<std::string>& texts) {
+      return [&texts](const ParticleSet& p, std::string& text, std::size_t i) { text += texts[p.material[i]]; };
+    };
+    constexpr const char* kOneEach = " (\n        interpolation = \"vertex\"\n    )";
+    write_lasting("float[] widths", kOneEach, by_material(widths));
+    write_lasting("int[] primvars:material", kOneEach, by_material(indices));
+    if (job_.options.scene) write_lasting("color3f[] primvars:displayColor", kOneEach, by_material(colors));
+  }
+
+  /// An attribute that changes only when the particles are others: one value, or samples on both sides of each change,
+  /// so that nothing in between is interpolated.
+  template <class Append>
+  void write_lasting(const std::string& attribute, const std::string& metadata, const Append& append) {
+    const auto write_value = [&](std::size_t k) {
+      const ParticleSet p = read(k);
+      out_.write("[");
+      write_rows(out_, p.size(), [&](std::string& text, std::size_t i) {
+        if (i > 0) text += ", ";
+        append(p, text, i);
+      });
+      out_.write("]");
+    };
+    out_.write("    " + attribute);
+    if (std::count(others_.begin(), others_.end(), true) == 1) {
+      out_.write(" = ");
+      write_value(0);
+      out_.write(metadata + '\n');
+      return;
+    }
+    if (!metadata.empty()) out_.write(metadata + "\n    " + attribute);
+    out_.write(".timeSamples = {\n");
+    for (std::size_t k = 0; k < codes_.size(); ++k) {
+      if (!others_[k] && !(k + 1 < codes_.size() && others_[k + 1])) continue;
+      out_.write("        " + codes_[k] + ": ");
+      write_value(k);
+      out_.write(",\n");
+    }
+    out_.write("    }\n");
+  }
+
+  void write_vectors(std::size_t k, const std::vector<Vec3d>& vectors) {
+    out_.write("        " + codes_[k] + ": [");
+    write_rows(out_, vectors.size(), [&](std::string& text, std::size_t i) {
+      text += i > 0 ? ", (" : "(";
+      append_vector<float>(text, vectors[i], ", ");
+      text += ')';
+    });
+    out_.write("],\n");
+  }
+
+  ParticleSet read(std::size_t k) const { return take(job_.run.read(job_.indices[k])).particles; }
+
+  const ExportJob& job_;
+  const RunInfo& info_;
+  OutputFile out_;
+  double rate_ = kDefaultRate;
+  std::vector<std::string> codes_;  ///< time code of each sample
+  std::vector<bool> others_;  ///< whether a sample has other particles than the one before
+};
+
+}  // namespace
+
+std::vector<std::filesystem::path> export_usda(const ExportJob& job) {
+  UsdaWriter(job).write();
+  return {job.file};
+}
+
+}  // namespace hooke

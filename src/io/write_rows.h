@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+
+#include "hooke/base/parallel.h"
+#include "hooke/base/vec3.h"
+#include "hooke/io/output_file.h"
+
+namespace hooke {
+
+/// Writes `count` rows in their order; append(text, i) appends row `i`. Rows are made by all threads at once, some
+/// megabytes at a time: turning numbers into digits is what text formats take their time for.
+template <class Append>
+void write_rows(OutputFile& out, std::size_t count, const Append& append) {
+  constexpr std::size_t kGrain = 2048;
+  std::array<std::string, 32> pieces;
+  for (std::size_t begin = 0; begin < count; begin += kGrain * pieces.size()) {
+    for (std::string& piece : pieces) piece.clear();
+    parallel_ranges(std::min(count - begin, kGrain * pieces.size()), kGrain, [&](std::size_t first, std::size_t last) {
+      std::string& piece = pieces[first / kGrain];
+      for (std::size_t i = first; i < last; ++i) append(piece, begin + i);
+    });
+    for (const std::string& piece : pieces) out.write(piece);
+  }
+}
+
+/// "x y z" with another separator if need be, rounded to Real.
+template <class Real>
+void append_vector(std::string& text, const Vec3d& v, const char* separator = " ") {
+  append_number(text, static_cast<Real>(v.x));
+  text += separator;
+  append_number(text, static_cast<Real>(v.y));
+  text += separator;
+  append_number(text, static_cast<Real>(v.z));
+}
+
+}  // namespace hooke
