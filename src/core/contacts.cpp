@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <span>
@@ -50,19 +51,24 @@ class ContactSearch {
       for (std::size_t k = first; k < last; ++k) {
         around.move_to(keys_[k]);
         touches.clear();
-        add_pairs(k, around, touches);
+        add_pairs(k, around.near(k), touches);
         add_walls(k, touches);
-        body(order_[k], std::span(touches));
+        body(spheres_[k].index, std::span(touches));
       }
     });
   }
 
  private:
   static constexpr std::size_t kBlock = 4096;  // particles a piece of work
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
 
+  // A particle of the set, in the order of cells.
   struct Sphere {
     Vec3d x;
     double radius;
+    Vec3d v;
+    std::uint32_t index;
+    std::uint16_t material;
   };
 
   struct Range {
@@ -87,14 +93,45 @@ class ContactSearch {
         ranges_[r] = {first, last};
       }
     }
-    std::span<const Range> ranges() const { return {ranges_.data(), count_}; }
+
+    // Whoever may touch sphere k, itself included.
+    std::span<const std::uint32_t> near(std::size_t k) {
+      return search_.any_periodic_ ? filter<true>(k) : filter<false>(k);
+    }
 
    private:
+    // Without a branch: most are far, and which is near nobody can foretell. The margin leaves the last digits to the
+    // exact test.
+    template <bool kPeriodic>
+    std::span<const std::uint32_t> filter(std::size_t k) {
+      const Sphere& i = search_.spheres_[k];
+      const Vec3d period = search_.period_;
+      const auto squared = [](double d, double length) {
+        if (!kPeriodic) return d * d;
+        const double nearest = std::min(std::abs(d), std::abs(length - std::abs(d)));
+        return nearest * nearest;
+      };
+      std::size_t count = 0;
+      for (const Range& range : std::span(ranges_.data(), count_)) {
+        near_.resize(std::max(near_.size(), count + range.last - range.first));
+        for (std::size_t n = range.first; n < range.last; ++n) {
+          const Sphere& p = search_.spheres_[n];
+          const double distance_squared =
+              squared(i.x.x - p.x.x, period.x) + squared(i.x.y - p.x.y, period.y) + squared(i.x.z - p.x.z, period.z);
+          const double reach = i.radius + p.radius;
+          near_[count] = static_cast<std::uint32_t>(n);
+          count += distance_squared < reach * reach * (1 + 1e-9) ? 1 : 0;
+        }
+      }
+      return {near_.data(), count};
+    }
+
     const ContactSearch& search_;
     std::uint64_t key_ = ~std::uint64_t{0};
     std::size_t count_ = 0;
     std::array<Range, 18> ranges_{};
     std::array<KeyCursor, 18> cursors_;
+    std::vector<std::uint32_t> near_;
   };
 
   double radius(std::size_t i) const { return scene_.materials[particles_.material[i]].radius; }
@@ -120,6 +157,7 @@ class ContactSearch {
       component(max, axis) = component(scene_.domain.max, axis);
       // On an axis of at least two contact distances the nearest image is the only one that can touch.
       const double length = scene_.domain.length(axis);
+      component(period_, axis) = length;
       images_[a] = length >= 2 * reach ? 0 : static_cast<std::int32_t>(reach / length) + 1;
     }
     grid_.lay_out(min, max, periodic, reach * (1 + 1e-6));
@@ -131,21 +169,23 @@ class ContactSearch {
     parallel_ranges(n, kBlock, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) keys_[i] = grid_.key_of(particles_.position[i]);
     });
-    sort_by_key(keys_, order_);
+    std::vector<std::uint32_t> order;
+    sort_by_key(keys_, order);
     spheres_.resize(n);
     parallel_ranges(n, kBlock, [&](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) spheres_[k] = {particles_.position[order_[k]], radius(order_[k])};
+      for (std::size_t k = first; k < last; ++k) {
+        const std::uint32_t i = order[k];
+        spheres_[k] = {particles_.position[i], radius(i), particles_.velocity[i], i, particles_.material[i]};
+      }
     });
   }
 
-  void add_pairs(std::size_t k, const Neighbourhood& around, std::vector<Touch>& touches) const {
-    for (const Range& range : around.ranges()) {
-      for (std::size_t n = range.first; n < range.last; ++n) {
-        if (any_periodic_) {
-          add_images(k, n, touches);
-        } else if (n != k) {
-          add_if_touching(k, n, Image{}, spheres_[k].x - spheres_[n].x, touches);
-        }
+  void add_pairs(std::size_t k, std::span<const std::uint32_t> near, std::vector<Touch>& touches) const {
+    for (const std::uint32_t n : near) {
+      if (any_periodic_) {
+        add_images(k, n, touches);
+      } else if (n != k) {
+        add_if_touching(k, n, Image{}, spheres_[k].x - spheres_[n].x, touches);
       }
     }
   }
@@ -179,37 +219,29 @@ class ContactSearch {
 
   void add_if_touching(std::size_t k, std::size_t n, const Image& image, const Vec3d& x_ip,
                        std::vector<Touch>& touches) const {
-    const double reach = spheres_[k].radius + spheres_[n].radius;
-    const double distance_squared = dot(x_ip, x_ip);
-    // Most are far: spare them the root. The margin leaves the last digit to the exact test.
-    if (distance_squared > reach * reach * (1 + 1e-12)) return;
-    const double distance = std::sqrt(distance_squared);
-    const double overlap = reach - distance;
+    const Sphere& i = spheres_[k];
+    const Sphere& p = spheres_[n];
+    const double distance = std::sqrt(dot(x_ip, x_ip));
+    const double overlap = i.radius + p.radius - distance;
     if (!(overlap > 0)) return;
-    const std::uint32_t i = order_[k];
-    const std::uint32_t p = order_[n];
-    const Vec3d normal = contact_normal(x_ip, distance, particles_.id[i] > particles_.id[p] ? 1.0 : -1.0);
-    const Vec3d w = particles_.velocity[p] - particles_.velocity[i];
-    const auto& coefficients = table_.pair(particles_.material[i], particles_.material[p]);
-    const Vec3d force = contact_force(overlap, normal, w, coefficients).force;
-    touches.push_back({{i, p, Face::none, image, overlap, force}, dot(force, normal)});
+    const Vec3d normal = contact_normal(x_ip, distance, i.index > p.index ? 1.0 : -1.0);  // indices go with ids
+    const Vec3d force = contact_force(overlap, normal, p.v - i.v, table_.pair(i.material, p.material)).force;
+    touches.push_back({{i.index, p.index, Face::none, image, overlap, force}, dot(force, normal)});
   }
 
   void add_walls(std::size_t k, std::vector<Touch>& touches) const {
     const Domain& domain = scene_.domain;
-    const Sphere& sphere = spheres_[k];
+    const Sphere& i = spheres_[k];
     const auto add = [&](int face, const Vec3d& normal, double overlap) {
       if (!(overlap > 0)) return;
-      const std::uint32_t i = order_[k];
-      const auto& coefficients = table_.wall(particles_.material[i]);
-      const Vec3d force = contact_force(overlap, normal, -particles_.velocity[i], coefficients).force;
-      touches.push_back({{i, Contact::kWall, static_cast<Face>(face), {}, overlap, force}, dot(force, normal)});
+      const Vec3d force = contact_force(overlap, normal, -i.v, table_.wall(i.material)).force;
+      touches.push_back({{i.index, Contact::kWall, static_cast<Face>(face), {}, overlap, force}, dot(force, normal)});
     };
     for (int axis = 0; axis < 3; ++axis) {
       if (domain.boundary[static_cast<std::size_t>(axis)] != Boundary::spring) continue;
-      const double x = component(sphere.x, axis);
-      add(2 * axis + 1, wall_normal(axis, 1.0), lower_wall_overlap(x, component(domain.min, axis), sphere.radius));
-      add(2 * axis + 2, wall_normal(axis, -1.0), upper_wall_overlap(x, component(domain.max, axis), sphere.radius));
+      const double x = component(i.x, axis);
+      add(2 * axis + 1, wall_normal(axis, 1.0), lower_wall_overlap(x, component(domain.min, axis), i.radius));
+      add(2 * axis + 2, wall_normal(axis, -1.0), upper_wall_overlap(x, component(domain.max, axis), i.radius));
     }
   }
 
@@ -217,6 +249,7 @@ class ContactSearch {
   const ParticleSet& particles_;
   ContactTable table_;
   bool any_periodic_ = false;
+  Vec3d period_{kNever, kNever, kNever};  // m, of periodic axes
   Image images_{};  // images -n to n of every particle are looked at; 0: only the nearest
   CellGrid grid_;
   std::vector<std::uint64_t> keys_;  // of cells, ascending
