@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "hooke/io/export.h"
+
 namespace hooke::cli {
 
 /// What the program says to the shell.
@@ -62,6 +64,8 @@ struct ExportArguments {
   std::optional<std::int64_t> step;
   std::optional<double> time;
   bool all = false;
+  ExportContent content = ExportContent::particles;
+  SurfaceOptions surface;
 };
 
 // One command each; they print, and return the exit status.

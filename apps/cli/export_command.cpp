@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include "commands.h"
 #include "hooke/io/export.h"
+#include "hooke/scene/load_scene.h"
 #include "log.h"
 #include "output_file.h"
 
@@ -31,6 +33,19 @@ Expected<std::vector<std::size_t>> pick(const RunReader& run, const ExportArgume
                           *arguments.step, run.steps().front(), run.steps().back(), run.steps()[nearest]));
 }
 
+// The scene that the run folder keeps; none where `run` is a file, or the folder has lost it.
+Expected<std::optional<Scene>> scene_of(const std::filesystem::path& run) {
+  const std::filesystem::path file = run / kSceneFile;
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return std::nullopt;
+  LoadOptions options;
+  options.allow_outside = true;  // the particles that such paths lead to are not read again
+  options.with_particles = false;
+  auto loaded = load_scene(file, options);
+  if (!loaded) return fail(std::move(loaded.error()));
+  return std::move(loaded->scene);
+}
+
 }  // namespace
 
 ExitStatus export_command(const ExportArguments& arguments) {
@@ -39,7 +54,13 @@ ExitStatus export_command(const ExportArguments& arguments) {
   if (!run) return report_error(run.error());
   const auto indices = pick(*run, arguments);
   if (!indices) return report_error(indices.error());
-  const auto files = export_run(*run, *indices, arguments.output);
+  const auto scene = scene_of(arguments.run);
+  if (!scene) return report_error(scene.error());
+  ExportOptions options;
+  options.content = arguments.content;
+  options.scene = *scene ? &**scene : nullptr;
+  options.surface = arguments.surface;
+  const auto files = export_run(*run, *indices, arguments.output, options);
   if (!files) return report_error(files.error(), true);
   fmt::print("{} snapshot{} in {}\n", indices->size(), indices->size() == 1 ? "" : "s", files->front().string());
   return kDone;

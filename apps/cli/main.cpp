@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <exception>
 #include <functional>
+#include <map>
 #include <new>
 
 #include "commands.h"
@@ -116,18 +117,53 @@ void add_bench(CLI::App& app, CommandLine& line) {
   command.callback([&line] { line.command = [&line] { return bench_command(line.bench); }; });
 }
 
+constexpr ExportContent kContents[] = {ExportContent::particles, ExportContent::surface, ExportContent::volume,
+                                       ExportContent::contacts};
+
+// What `export` can write, by content.
+std::string format_list() {
+  std::string list = "Formats:\n";
+  for (const ExportContent content : kContents) {
+    std::string lines;
+    for (const ExportFormatInfo& format : export_formats()) {
+      if (format.content == content) lines += fmt::format("    {:<12}{}\n", format.extension, format.description);
+    }
+    if (!lines.empty()) list += fmt::format("  --as {}\n{}", to_string(content), lines);
+  }
+  return list;
+}
+
 void add_export(CLI::App& app, CommandLine& line) {
   CLI::App& command =
       *app.add_subcommand("export", "write snapshots of a run in another format, by the file's extension");
   ExportArguments& exports = line.exports;
   command.add_option("RUN", exports.run, "run folder")->required();
-  command.add_option("-o,--output", exports.output, "file to write: .csv, .vtp, .pvd")->option_text("FILE")->required();
+  command.add_option("-o,--output", exports.output, "file to write; its extension names the format")
+      ->option_text("FILE")
+      ->required();
   CLI::Option* step =
       command.add_option("--step", exports.step, "the snapshot of this step (default: the last)")->option_text("N");
   CLI::Option* time = command.add_option("--time", exports.time, "the snapshot nearest to this time, s")
                           ->option_text("T")
                           ->excludes(step);
   command.add_flag("--all", exports.all, "all snapshots")->excludes(step)->excludes(time);
+  std::map<std::string, ExportContent> contents;
+  for (const ExportContent content : kContents) contents[to_string(content)] = content;
+  command.add_option("--as", exports.content, "what to write: particles (default), surface, volume or contacts")
+      ->option_text("CONTENT")
+      ->transform(CLI::CheckedTransformer(contents));
+  const auto add_surface_option = [&command](const char* name, double& value, const char* description) {
+    return command.add_option(name, value, fmt::format("{} (default: {})", description, value))->option_text("R");
+  };
+  SurfaceOptions& surface = exports.surface;
+  add_surface_option("--surface-radius", surface.radius, "of the sphere that each particle adds, in its own radii")
+      ->check(CLI::PositiveNumber);
+  add_surface_option("--surface-smoothing", surface.smoothing,
+                     "how far bumps are smoothed away, in radii of the smallest particle")
+      ->check(CLI::NonNegativeNumber);
+  add_surface_option("--surface-resolution", surface.resolution, "edge of a voxel, in radii of the smallest particle")
+      ->check(CLI::PositiveNumber);
+  command.footer(format_list);
   command.callback([&line] { line.command = [&line] { return export_command(line.exports); }; });
 }
 

@@ -18,18 +18,6 @@ namespace {
 
 using samples::TemporaryFolder;
 
-/// Writes a run of these snapshots and opens it.
-RunReader run_of(const std::filesystem::path& folder, const RunInfo& info, const std::vector<Snapshot>& snapshots) {
-  auto writer = RunWriter::create(folder, info, "{}\n", {});
-  EXPECT_TRUE(writer);
-  for (const Snapshot& snapshot : snapshots) EXPECT_TRUE(writer->write_snapshot(snapshot));
-  const auto finished = writer->finish();
-  EXPECT_TRUE(finished) << finished.error().text();
-  auto reader = RunReader::open(folder);
-  EXPECT_TRUE(reader) << reader.error().text();
-  return std::move(*reader);
-}
-
 template <class Real>
 Real parse(const std::string& text) {
   Real value{};
@@ -69,7 +57,7 @@ template <class Real, class Bits>
 void expect_csv_round_trip(Precision precision) {
   const TemporaryFolder folder;
   const Snapshot snapshot = random_snapshot<Real, Bits>();
-  const RunReader run = run_of(folder / "run", samples::run_info(precision), {snapshot});
+  const RunReader run = samples::write_run(folder / "run", samples::run_info(precision), {snapshot});
   ASSERT_TRUE(export_run(run, std::vector<std::size_t>{0}, folder / "t.csv"));
   std::istringstream lines(samples::read_file(folder / "t.csv"));
   std::string line;
@@ -103,7 +91,7 @@ TEST(ExportCsv, DoublesReadBackToTheSameDouble) {
 
 TEST(ExportCsv, HoldsAllChosenSnapshotsInOneFile) {
   const TemporaryFolder folder;
-  const RunReader run = run_of(folder / "run", samples::run_info(),
+  const RunReader run = samples::write_run(folder / "run", samples::run_info(),
                                {samples::snapshot(0, 3), samples::snapshot(8, 2), samples::snapshot(16, 3)});
   const auto written = export_run(run, std::vector<std::size_t>{0, 2}, folder / "T.CSV");
   ASSERT_TRUE(written) << written.error().text();
@@ -120,7 +108,7 @@ TEST(ExportCsv, QuotesNamesThatNeedIt) {
   info.materials[0].name = "salt, \"sea\"";
   Snapshot one = samples::snapshot(0, 1);
   one.particles.material[0] = 0;
-  const RunReader run = run_of(folder / "run", info, {one});
+  const RunReader run = samples::write_run(folder / "run", info, {one});
   ASSERT_TRUE(export_run(run, std::vector<std::size_t>{0}, folder / "t.csv"));
   EXPECT_NE(samples::read_file(folder / "t.csv").find(",\"salt, \"\"sea\"\"\","), std::string::npos);
 }
@@ -128,7 +116,7 @@ TEST(ExportCsv, QuotesNamesThatNeedIt) {
 TEST(ExportVtp, WritesOneFileOrACollection) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "out");
-  const RunReader run = run_of(folder / "run", samples::run_info(), {samples::snapshot(0, 5), samples::snapshot(8, 5)});
+  const RunReader run = samples::write_run(folder / "run", samples::run_info(), {samples::snapshot(0, 5), samples::snapshot(8, 5)});
   ASSERT_TRUE(export_run(run, std::vector<std::size_t>{1}, folder / "out/one.vtp"));
   const std::string one = samples::read_file(folder / "out/one.vtp");
   EXPECT_NE(one.find("NumberOfPoints=\"5\" NumberOfVerts=\"5\""), std::string::npos);
@@ -148,11 +136,11 @@ TEST(ExportVtp, WritesOneFileOrACollection) {
 
 TEST(Export, SaysWhatItKnowsAndLeavesNothingHalfMade) {
   const TemporaryFolder folder;
-  const RunReader run = run_of(folder / "run", samples::run_info(), {samples::snapshot(0, 5)});
+  const RunReader run = samples::write_run(folder / "run", samples::run_info(), {samples::snapshot(0, 5)});
   const auto unknown = export_run(run, std::vector<std::size_t>{0}, folder / "t.xyzzy");
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().kind, Error::Kind::bad_input);
-  EXPECT_NE(unknown.error().text().find("known are .csv, .vtp, .pvd"), std::string::npos);
+  EXPECT_NE(unknown.error().text().find("known are .csv, .vtp, .pvd, .ply"), std::string::npos);
 
   EXPECT_FALSE(export_run(run, std::vector<std::size_t>{}, folder / "t.csv"));
   EXPECT_FALSE(export_run(run, std::vector<std::size_t>{0, 1}, folder / "t.csv"));  // there is no snapshot 1
@@ -161,7 +149,7 @@ TEST(Export, SaysWhatItKnowsAndLeavesNothingHalfMade) {
   EXPECT_EQ(unwritable.error().kind, Error::Kind::io);
   EXPECT_EQ(samples::files_in(folder.path()), std::vector<std::string>{"run"});
 
-  const RunReader empty = run_of(folder / "empty", samples::run_info(), {});
+  const RunReader empty = samples::write_run(folder / "empty", samples::run_info(), {});
   const auto nothing = export_run(empty, std::vector<std::size_t>{0}, folder / "t.csv");
   ASSERT_FALSE(nothing);
   EXPECT_NE(nothing.error().text().find("holds no complete snapshot"), std::string::npos);
@@ -169,7 +157,7 @@ TEST(Export, SaysWhatItKnowsAndLeavesNothingHalfMade) {
 
 TEST(DescribeFile, TellsRunsSnapshotsAndCheckpointsApart) {
   const TemporaryFolder folder;
-  run_of(folder / "run", samples::run_info(), {samples::snapshot(0, 5), samples::snapshot(8, 4)});
+  samples::write_run(folder / "run", samples::run_info(), {samples::snapshot(0, 5), samples::snapshot(8, 4)});
   auto run = describe_file(folder / "run");
   ASSERT_TRUE(run) << run.error().text();
   EXPECT_EQ(run->kind, FileDescription::Kind::run_folder);

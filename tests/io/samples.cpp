@@ -7,9 +7,15 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <charconv>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <random>
+#include <sstream>
+#include <stdexcept>
+
+#include "hooke/io/failure.h"
 
 namespace hooke::samples {
 
@@ -79,6 +85,32 @@ SeriesRow series_row(std::int64_t step) {
   return row;
 }
 
+Scene scene(const RunInfo& info) {
+  Scene s;
+  s.name = info.scene;
+  s.time_step = info.time_step;
+  s.gravity = {0, 0, -9.8};
+  s.domain.min = {-110, -100, -120};
+  s.domain.max = {115, 100, 105.5};
+  s.domain.boundary[1] = Boundary::periodic;
+  const char* colors[] = {"#2f7fd6", "#ff0080", ""};
+  for (std::size_t m = 0; m < info.materials.size(); ++m) {
+    Material& material = s.materials.emplace_back();
+    material.name = info.materials[m].name;
+    material.radius = info.materials[m].radius;
+    material.mass = info.materials[m].mass;
+    material.color = colors[m % std::size(colors)];
+  }
+  return s;
+}
+
+RunReader write_run(const fs::path& folder, const RunInfo& info, const std::vector<Snapshot>& snapshots) {
+  RunWriter writer = take(RunWriter::create(folder, info, "{}\n", {}));
+  for (const Snapshot& snapshot : snapshots) take(writer.write_snapshot(snapshot));
+  take(writer.finish());
+  return take(RunReader::open(folder));
+}
+
 namespace {
 
 bool same(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
@@ -114,6 +146,38 @@ std::vector<std::string> files_in(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
+}
+
+std::vector<std::string> words(const std::string& line) {
+  std::istringstream in(line);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+namespace {
+
+template <class Real>
+Real parse(const std::string& text) {
+  Real value{};
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (result.ec != std::errc() || result.ptr != end) throw std::runtime_error("\"" + text + "\" is no number");
+  return value;
+}
+
+}  // namespace
+
+double number(const std::string& text, Precision precision) {
+  return precision == Precision::single_precision ? static_cast<double>(parse<float>(text)) : parse<double>(text);
+}
+
+std::string output_of(const std::string& command) {
+  std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
+  if (!pipe) throw std::runtime_error(command + " can't be started");
+  std::string output;
+  char bytes[4096];
+  while (const std::size_t n = std::fread(bytes, 1, sizeof bytes, pipe)) output.append(bytes, n);
+  if (::pclose(pipe) != 0) throw std::runtime_error(command + " failed: " + output);
+  return output;
 }
 
 }  // namespace hooke::samples

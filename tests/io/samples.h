@@ -37,6 +37,11 @@ Snapshot snapshot(std::int64_t step, std::size_t n, Precision precision = Precis
 SimulationState state(std::int64_t step, std::size_t n);
 SeriesRow series_row(std::int64_t step);
 
+/// A scene of these materials, with colours, in a domain that holds the particles; periodic along y, up is z.
+Scene scene(const RunInfo& info);
+/// Writes a run of these snapshots and opens it. Throws where that fails.
+RunReader write_run(const std::filesystem::path& folder, const RunInfo& info, const std::vector<Snapshot>& snapshots);
+
 /// Whether ids, materials, positions and velocities (and accelerations) are the same bits.
 bool same(const ParticleSet& a, const ParticleSet& b);
 bool same(const Snapshot& a, const Snapshot& b);
@@ -44,5 +49,12 @@ bool same(const Snapshot& a, const Snapshot& b);
 std::string read_file(const std::filesystem::path& file);
 void write_file(const std::filesystem::path& file, const std::string& content);
 std::vector<std::string> files_in(const std::filesystem::path& folder);
+
+/// The words of a line, between white space.
+std::vector<std::string> words(const std::string& line);
+/// A number that a run of this precision wrote; throws where that is not all of the text.
+double number(const std::string& text, Precision precision = Precision::double_precision);
+/// What a shell command prints; throws, with that, where it fails.
+std::string output_of(const std::string& command);
 
 }  // namespace hooke::samples
