@@ -13,7 +13,7 @@ build_packages=(
   libtbb-dev libexpected-dev nlohmann-json3-dev libvalijson-dev libcli11-dev libfmt-dev libspdlog-dev libhdf5-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   python3)
-test_packages=(clang-format-19)
+test_packages=(clang-format-19 lammps python3-vtk9)
 lint_packages=(clang-19 clang-tidy-19)
 
 packages=("${build_packages[@]}")
