@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "hooke/io/export_format.h"
 #include "hooke/io/failure.h"
-#include "hooke/io/output_file.h"
+#include "hooke/io/write_rows.h"
 
 namespace hooke {
 
@@ -16,14 +16,6 @@ std::string csv_field(const std::string& name) {
   return quoted + '"';
 }
 
-template <class Real>
-void append_vector(std::string& line, const Vec3d& v) {
-  for (const double c : {v.x, v.y, v.z}) {
-    line += ',';
-    append_number(line, static_cast<Real>(c));
-  }
-}
-
 }  // namespace
 
 std::vector<std::filesystem::path> export_csv(const ExportJob& job) {
@@ -33,7 +25,6 @@ std::vector<std::filesystem::path> export_csv(const ExportJob& job) {
   const bool single = run.info().precision == Precision::single_precision;
   OutputFile out(job.file);
   out.write("step,t,id,material,x,y,z,vx,vy,vz\n");
-  std::string line;
   for (const std::size_t index : job.indices) {
     const Snapshot snapshot = take(run.read(index));
     const ParticleSet& p = snapshot.particles;
@@ -42,17 +33,17 @@ std::vector<std::filesystem::path> export_csv(const ExportJob& job) {
     start += ',';
     append_number(start, snapshot.time);
     start += ',';
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      line = start;
-      append_number(line, p.id[i]);
-      line += ',';
-      line += names[p.material[i]];
+    write_rows(out, p.size(), [&](std::string& text, std::size_t i) {
+      text += start;
+      append_number(text, p.id[i]);
+      text += ',';
+      text += names[p.material[i]];
       for (const Vec3d& v : {p.position[i], p.velocity[i]}) {
-        single ? append_vector<float>(line, v) : append_vector<double>(line, v);
+        text += ',';
+        single ? append_vector<float>(text, v, ",") : append_vector<double>(text, v, ",");
       }
-      line += '\n';
-      out.write(line);
-    }
+      text += '\n';
+    });
   }
   out.finish();
   return {job.file};

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include <gmock/gmock.h>
+
+#include <sstream>
+
+#include "hooke/io/export.h"
+#include "program.h"
+
+namespace hooke::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class ExportCommand : public ProgramTest {
+ protected:
+  ExportCommand() {
+    write("s.json", small_scene());
+    hooke_ok({"run", "s.json", "--steps", "7", "--quiet", "--set", "gravity=[0,0,-9.8]", "--set",
+              "domain.walls=[\"spring\",\"periodic\",\"open\"]"});
+  }
+};
+
+TEST_F(ExportCommand, GivesFormatsTheScene) {
+  hooke_ok({"export", "s", "-o", "p.xyz"});
+  EXPECT_THAT(read("p.xyz"), HasSubstr(" pbc=\"F T F\" "));
+  EXPECT_THAT(read("p.xyz"), HasSubstr("Lattice="));
+  hooke_ok({"export", "s", "-o", "p.dump"});
+  EXPECT_THAT(read("p.dump"), HasSubstr("BOX BOUNDS ff pp ff\n"));
+  hooke_ok({"export", "s", "--all", "-o", "p.usda"});
+  EXPECT_THAT(read("p.usda"), HasSubstr("upAxis = \"Z\""));
+}
+
+TEST_F(ExportCommand, DoesWithoutTheSceneOfAFile) {
+  hooke_ok({"export", "s/particles.vtkhdf", "-o", "p.xyz"});
+  EXPECT_THAT(read("p.xyz"), Not(HasSubstr("Lattice=")));
+  std::filesystem::remove(path("s/scene.json"));
+  hooke_ok({"export", "s", "-o", "q.xyz"});
+  EXPECT_EQ(read("p.xyz"), read("q.xyz"));
+}
+
+TEST_F(ExportCommand, RefusesABrokenScene) {
+  write("s/scene.json", "{\"hooke\": 1}");
+  const Outcome outcome = hooke({"export", "s", "-o", "p.xyz"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("materials"));
+  EXPECT_FALSE(exists("p.xyz"));
+}
+
+TEST_F(ExportCommand, HelpListsEveryFormatUnderItsContent) {
+  std::istringstream help(hooke_ok({"export", "--help"}));
+  std::string content;
+  std::size_t listed = 0;
+  for (std::string line; std::getline(help, line);) {
+    if (line.starts_with("  --as ")) content = line.substr(7);
+    for (const ExportFormatInfo& format : export_formats()) {
+      if (content != to_string(format.content) || !line.starts_with(std::string("    ") + format.extension + ' '))
+        continue;
+      EXPECT_THAT(line, testing::EndsWith(format.description));
+      ++listed;
+    }
+  }
+  EXPECT_EQ(listed, export_formats().size());
+}
+
+TEST_F(ExportCommand, AsAndTheSurfaceAreChecked) {
+  hooke_ok({"export", "s", "--as", "particles", "-o", "p.csv"});
+  EXPECT_TRUE(exists("p.csv"));
+  const Outcome unknown = hooke({"export", "s", "--as", "surface", "-o", "p.csv"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("no extension that names a format for surface"));
+  for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{{"--as", "foam"},
+                                                                                     {"--surface-radius", "0"},
+                                                                                     {"--surface-smoothing", "-1"},
+                                                                                     {"--surface-resolution", "0"},
+                                                                                     {"--surface-radius", "big"}}) {
+    const Outcome outcome = hooke({"export", "s", "-o", "q.csv", wrong[0], wrong[1]});
+    EXPECT_EQ(outcome.status, 2) << testing::PrintToString(wrong);
+    EXPECT_THAT(outcome.err, HasSubstr(wrong[0]));
+  }
+  EXPECT_FALSE(exists("q.csv"));
+}
+
+}  // namespace
+}  // namespace hooke::test
