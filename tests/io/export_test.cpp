@@ -91,8 +91,9 @@ TEST(ExportCsv, DoublesReadBackToTheSameDouble) {
 
 TEST(ExportCsv, HoldsAllChosenSnapshotsInOneFile) {
   const TemporaryFolder folder;
-  const RunReader run = samples::write_run(folder / "run", samples::run_info(),
-                               {samples::snapshot(0, 3), samples::snapshot(8, 2), samples::snapshot(16, 3)});
+  const RunReader run =
+      samples::write_run(folder / "run", samples::run_info(),
+                         {samples::snapshot(0, 3), samples::snapshot(8, 2), samples::snapshot(16, 3)});
   const auto written = export_run(run, std::vector<std::size_t>{0, 2}, folder / "T.CSV");
   ASSERT_TRUE(written) << written.error().text();
   EXPECT_EQ(*written, std::vector<std::filesystem::path>{folder / "T.CSV"});
@@ -116,7 +117,8 @@ TEST(ExportCsv, QuotesNamesThatNeedIt) {
 TEST(ExportVtp, WritesOneFileOrACollection) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "out");
-  const RunReader run = samples::write_run(folder / "run", samples::run_info(), {samples::snapshot(0, 5), samples::snapshot(8, 5)});
+  const RunReader run =
+      samples::write_run(folder / "run", samples::run_info(), {samples::snapshot(0, 5), samples::snapshot(8, 5)});
   ASSERT_TRUE(export_run(run, std::vector<std::size_t>{1}, folder / "out/one.vtp"));
   const std::string one = samples::read_file(folder / "out/one.vtp");
   EXPECT_NE(one.find("NumberOfPoints=\"5\" NumberOfVerts=\"5\""), std::string::npos);
