@@ -42,6 +42,9 @@ std::string range_of(const Json& part) {
   const auto add = [&](const char* keyword, const char* sign) {
     if (part.contains(keyword)) range += (range.empty() ? "" : ", ") + (sign + part.at(keyword).dump());
   };
+  for (const Json& branch : part.value("anyOf", Json::array())) {
+    if (range.empty()) range = range_of(branch);
+  }
   add("exclusiveMinimum", "> ");
   add("minimum", ">= ");
   // The limit of exact whole numbers would only be noise here.
@@ -68,7 +71,7 @@ const Json* object_in(const Json& part, std::string& path) {
     path += "[]";
     return &part.at("items");
   }
-  if (part.contains("additionalProperties") && part.at("additionalProperties").is_object()) {
+  if (part.contains("placeholder")) {
     path += "." + part.at("placeholder").get<std::string>();
     return &part.at("additionalProperties");
   }
@@ -116,11 +119,30 @@ int main(int argc, char** argv) try {
       << read(argv[2])
       << "```\n\n"
          "## Particle files\n\n"
-         "CSV with a header. Columns `x`, `y`, `z` (m) are required; `id`, `vx`, `vy`, `vz` (m/s) and `material` (a\n"
-         "name) are read where present and go before what the entry says; other columns are ignored, with a\n"
-         "warning. Particles without an id number on from the largest one so far. A path is relative to the\n"
-         "scene's folder and may not leave it without `--allow-outside`. Errors name file and line, the header\n"
-         "being line 1.\n\n"
+         "The extension of a file says what it is. Positions are required; velocities, ids and materials are read\n"
+         "where present and go before what the entry says. SI units throughout.\n\n"
+         "| extension | what | columns | material |\n|---|---|---|---|\n"
+         "| `.csv`, `.txt` | a header, then a particle a line | `x`, `y`, `z`, `vx`, `vy`, `vz`, `id`, `material` "
+         "| a name |\n"
+         "| `.ply` | PLY, ascii or binary in either order of bytes: the vertices | `x`, `y`, `z`; `vx`, `vy`, `vz`, "
+         "or `velocity_x` ..., or a list `velocity`; `id`, `id_high` (the upper 32 bits); `material`; `radius` or "
+         "`pscale`, `mass` | a number from 0, named by lines `comment material 0 water` |\n"
+         "| `.xyz`, `.extxyz` | XYZ, plain (species, x, y, z) or extended | `pos`, `velo` (or `vel`, `velocity`, "
+         "`velocities`), `id`, `species`, `type`, `radius`, `mass` | a name, or a number from 1 |\n"
+         "| `.data`, `.lmp` | LAMMPS data file; the section `Atoms # STYLE`, of `sphere`, `atomic`, `charge`, "
+         "`molecular` or `full`; `Velocities` | those of the style | a number from 1, named by the section "
+         "`Atom Type Labels`, by comments of the section `Masses` (`1 18.0 # water`), or by comments of the head "
+         "(`# type 1 water`) |\n"
+         "| `.dump`, `.lammpstrj` | LAMMPS dump, as text | `x`, else `xu`, `xs`, `xsu`, and so on; `vx`, `vy`, `vz`, "
+         "`id`, `element`, else `type`; `radius` or `diameter`, `mass` | a name (`element`), or a number from 1 |\n\n"
+         "A name is that of a material of the scene; but for CSV, `salt%20water` is `salt water`, too. What has only\n"
+         "a number is of the entry's `material`, or without one of the scene's material in that place. `types` comes\n"
+         "before all of this: `\"types\": { \"1\": \"oil\", \"Ar\": \"water\" }`.\n\n"
+         "A material fixes the radius and the mass of its particles: where a file has others, a warning names the\n"
+         "worst (of a CSV file they are ignored). Columns that Hooke does not read are ignored, with a warning.\n"
+         "Particles without an id number on from the largest one so far. A path is relative to the scene's folder and\n"
+         "may not leave it without `--allow-outside`. Errors name file and line, the first being line 1; in a binary\n"
+         "file the byte.\n\n"
          "## Changing a value for one run\n\n"
          "`--set PATH=VALUE` puts a JSON value at a path, and is checked like the scene: `--set time.step=0.002`,\n"
          "`--set particles[0].block.count=1000`, `--set 'materials[\"salt water\"].radius=0.1'`. A key that excludes\n"

@@ -11,12 +11,11 @@
 
 #include "hooke/scene/available_memory.h"
 #include "hooke/scene/block_source.h"
-#include "hooke/scene/csv_particles.h"
 #include "hooke/scene/json_path.h"
 #include "hooke/scene/nearest.h"
+#include "hooke/scene/particle_file.h"
 #include "hooke/scene/scene_builder.h"
 #include "hooke/scene/scene_path.h"
-#include "hooke/scene/text_file.h"
 
 namespace hooke {
 namespace {
@@ -26,8 +25,7 @@ constexpr std::size_t kMostFindings = 20;  // of one kind about the particles of
 // One entry of "particles", looked at but not yet made.
 struct Source {
   std::string path;  // in the scene: "particles[0]"
-  std::optional<std::uint16_t> material;
-  Vec3d velocity{0, 0, 0};
+  ParticleFileRules rules;  // material and velocity hold for a block, too
   std::optional<BlockSource> block;
   std::string file_name;  // as the scene writes it
   std::filesystem::path file;
@@ -38,10 +36,11 @@ struct Span {
   const Source* source;
   std::size_t begin;
   std::size_t end;
-  std::vector<std::uint32_t> lines;  // in the source's file
+  std::vector<std::uint64_t> places;  // in the source's file
+  bool binary = false;                // places are bytes, not lines
 
   std::string where(std::size_t particle) const {
-    return lines.empty() ? source->path : fmt::format("{}:{}", source->file_name, lines[particle - begin]);
+    return places.empty() ? source->path : place_in_file(source->file_name, places[particle - begin], binary);
   }
 };
 
@@ -70,7 +69,8 @@ class Loader {
   bool fits() {
     double particles = 0;
     for (const Source& source : sources_) {
-      particles += source.block ? expected_count(*source.block) : static_cast<double>(count_lines(source.file));
+      particles += source.block ? expected_count(*source.block)
+                                : static_cast<double>(count_particles(source.file, source.rules));
     }
     const std::uint64_t limit = options_.memory_limit != 0 ? options_.memory_limit : available_memory();
     const double needed = particles * kBytesPerParticle;
@@ -97,7 +97,9 @@ class Loader {
   void plan_source(const Json& entry, const std::string& path) {
     Source source;
     source.path = path;
+    source.rules.materials = scene_.materials;
     plan_material(entry, source);
+    plan_types_and_frame(entry, source);
     const bool is_block = entry.contains("block");
     if (is_block && !entry.contains("file") && !entry.contains("material")) {
       findings_.add(join_path(path, "material"),
@@ -107,41 +109,76 @@ class Loader {
     if (is_block && !findings_.touches(join_path(path, "block")) && domain_known_)
       plan_block(entry.at("block"), source);
     if (findings_.touches(path)) return;
-    source.velocity = vec3_or(entry.at("velocity"), {});
+    source.rules.velocity = vec3_or(entry.at("velocity"), {});
     if (source.block || !source.file.empty()) sources_.push_back(std::move(source));
+  }
+
+  // Index of the material of this name; a finding at `where` where the scene has none.
+  std::optional<std::uint16_t> material_named(const std::string& name, const std::string& where) {
+    const auto found = std::find(names_.begin(), names_.end(), name);
+    if (found != names_.end()) return static_cast<std::uint16_t>(found - names_.begin());
+    const std::string hint = did_you_mean(name, names_);
+    findings_.add(where, fmt::format("is \"{}\", which is no material{}{} the scene has {}", printable(name, 60), hint,
+                                     hint.empty() ? ";" : "", quoted_list(names_)));
+    return std::nullopt;
   }
 
   void plan_material(const Json& entry, Source& source) {
     const std::string where = join_path(source.path, "material");
     if (!entry.contains("material") || findings_.touches(where)) return;
-    const std::string& name = entry.at("material").get_ref<const std::string&>();
-    const auto found = std::find(names_.begin(), names_.end(), name);
-    if (found == names_.end()) {
-      const std::string hint = did_you_mean(name, names_);
-      findings_.add(where, fmt::format("is \"{}\", which is no material{}{} the scene has {}", printable(name, 60),
-                                       hint, hint.empty() ? ";" : "", quoted_list(names_)));
-      return;
+    source.rules.material = material_named(entry.at("material").get_ref<const std::string&>(), where);
+  }
+
+  // What only files have.
+  void plan_types_and_frame(const Json& entry, Source& source) {
+    for (const char* key : {"types", "frame"}) {
+      if (entry.contains(key) && !entry.contains("file")) {
+        findings_.add(join_path(source.path, key), "is of no use without \"file\"");
+      }
     }
-    source.material = static_cast<std::uint16_t>(found - names_.begin());
+    const std::string types = join_path(source.path, "types");
+    if (entry.contains("types") && !findings_.touches(types)) {
+      for (const auto& type : entry.at("types").items()) {
+        const auto material = material_named(type.value().get_ref<const std::string&>(), join_path(types, type.key()));
+        if (material) source.rules.types.emplace(type.key(), *material);
+      }
+    }
+    if (!entry.contains("frame") || findings_.touches(join_path(source.path, "frame"))) return;
+    const Json& frame = entry.at("frame");
+    source.rules.frame = frame.is_string() ? kLastFrame : frame.get<std::uint64_t>();
   }
 
   void plan_file(const std::string& name, Source& source) {
-    if (!options_.with_particles) return;
     source.file_name = printable(name);
-    auto file = find_scene_file(folder_, name, options_.allow_outside);
-    if (file) {
+    const auto complain = [&](const char* key, const std::string& message) {
+      findings_.add(join_path(source.path, key), message);
+    };
+    if (options_.with_particles) {
+      auto file = find_scene_file(folder_, name, options_.allow_outside);
+      if (!file) {
+        return complain("file", fmt::format("is \"{}\": {}", source.file_name, file.error().findings.front().message));
+      }
       source.file = std::move(*file);
-    } else {
-      findings_.add(join_path(source.path, "file"),
-                    fmt::format("is \"{}\": {}", source.file_name, file.error().findings.front().message));
+    }
+    const auto format = particle_file_format(name);
+    if (!format) {
+      std::vector<std::string> known;
+      for (const ParticleFileFormat& f : particle_file_formats()) {
+        known.insert(known.end(), f.extensions.begin(), f.extensions.end());
+      }
+      complain("file", fmt::format("is \"{}\": its extension names no format of particles; known are {}",
+                                   source.file_name, quoted_list(known)));
+    } else if (!format->has_frames && source.rules.frame.value_or(0) != 0 && source.rules.frame != kLastFrame) {
+      complain("frame",
+               fmt::format("is {}; a {} file holds one snapshot, 0", *source.rules.frame, format->extensions.front()));
     }
   }
 
   void plan_block(const Json& json, Source& source) {
     const std::string path = join_path(source.path, "block");
     // A block with a count ends one radius from the domain's faces: without a good radius there is nothing to plan.
-    if (!source.material || findings_.touches(join_path("materials", names_[*source.material]))) return;
-    source.block = read_block(json, path, scene_, scene_.materials[*source.material].radius, findings_);
+    if (!source.rules.material || findings_.touches(join_path("materials", names_[*source.rules.material]))) return;
+    source.block = read_block(json, path, scene_, scene_.materials[*source.rules.material].radius, findings_);
     if (source.block && source.block->lattice == "random" && json.at("jitter") != 0) {
       warnings_.push_back({join_path(path, "jitter"), "is passed over: a random block keeps its centres apart"});
     }
@@ -151,20 +188,15 @@ class Loader {
     const std::vector<Vec3d> centres = block_centres(*source.block, scene_.domain, findings_);
     const Span span{&source, particles_.size(), particles_.size() + centres.size(), {}};
     particles_.position.insert(particles_.position.end(), centres.begin(), centres.end());
-    append_common(span, std::vector<std::uint16_t>(centres.size(), *source.material),
-                  std::vector<Vec3d>(centres.size(), source.velocity), {});
+    append_common(span, std::vector<std::uint16_t>(centres.size(), *source.rules.material),
+                  std::vector<Vec3d>(centres.size(), source.rules.velocity), {});
   }
 
   void append_file(const Source& source) {
-    CsvParticles rows =
-        read_csv_particles(source.file, source.file_name, {names_, source.material, source.velocity}, findings_);
-    if (!rows.ignored_columns.empty()) {
-      warnings_.push_back({source.file_name, fmt::format("columns that Hooke does not read are ignored: {}",
-                                                         quoted_list(rows.ignored_columns))});
-    }
-    Span span{&source, particles_.size(), particles_.size() + rows.position.size(), std::move(rows.line)};
-    particles_.position.insert(particles_.position.end(), rows.position.begin(), rows.position.end());
-    append_common(std::move(span), rows.material, rows.velocity, rows.id);
+    FileParticles read = read_particle_file(source.file, source.file_name, source.rules, findings_, warnings_);
+    Span span{&source, particles_.size(), particles_.size() + read.position.size(), std::move(read.place), read.binary};
+    particles_.position.insert(particles_.position.end(), read.position.begin(), read.position.end());
+    append_common(std::move(span), read.material, read.velocity, read.id);
   }
 
   // Everything but the positions, which are in place. Without ids of their own, particles number on.
@@ -205,7 +237,7 @@ class Loader {
     std::size_t outside = 0;
     const auto text = [](const Vec3d& x) { return fmt::format("[{}, {}, {}]", x.x, x.y, x.z); };
     // A block is one thing to correct, a file's rows are many.
-    const std::size_t most = span.lines.empty() ? 1 : kMostFindings;
+    const std::size_t most = span.places.empty() ? 1 : kMostFindings;
     for (std::size_t i = span.begin; i < span.end; ++i) {
       if (is_inside(particles_.position[i]) || ++outside > most) continue;
       const Vec3d& x = particles_.position[i];
@@ -215,14 +247,14 @@ class Loader {
                            is_on_periodic_face(x) ? "; the upper face of a periodic axis is its lower one" : ""));
     }
     if (outside > most) {
-      complain(span, span.lines.empty() ? span.source->path : span.source->file_name,
+      complain(span, span.places.empty() ? span.source->path : span.source->file_name,
                fmt::format("{} of {} centres are outside the domain", outside, span.end - span.begin));
     }
   }
 
   // A block's findings are about the scene's text, a file's about a text of its own.
   void complain(const Span& span, const std::string& where, std::string message) {
-    if (span.lines.empty()) {
+    if (span.places.empty()) {
       findings_.add(where, std::move(message));
     } else {
       findings_.add_elsewhere(where, std::move(message));

@@ -3,12 +3,10 @@
 
 #include "hooke/scene/text_file.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <memory>
-#include <vector>
 
 namespace hooke {
 namespace {
@@ -39,18 +37,6 @@ Expected<std::string> read_text_file(const std::filesystem::path& path, std::uin
   }
   if (std::ferror(file.get()) != 0) return refuse(std::string("can't be read: ") + std::strerror(errno));
   return text;
-}
-
-std::uint64_t count_lines(const std::filesystem::path& path) {
-  const File file(std::fopen(path.c_str(), "rb"));
-  if (!file) return 0;
-  std::vector<char> piece(kPiece);
-  std::uint64_t lines = 0;
-  while (const std::size_t got = std::fread(piece.data(), 1, piece.size(), file.get())) {
-    lines +=
-        static_cast<std::uint64_t>(std::count(piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(got), '\n'));
-  }
-  return lines;
 }
 
 }  // namespace hooke

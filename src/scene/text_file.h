@@ -13,7 +13,4 @@ namespace hooke {
 /// All bytes of a file; an error names the file where it can't be opened or read, or holds more than `most` bytes.
 Expected<std::string> read_text_file(const std::filesystem::path& file, std::uint64_t most);
 
-/// Number of line ends in a file, read in small pieces. 0 where it can't be read.
-std::uint64_t count_lines(const std::filesystem::path& file);
-
 }  // namespace hooke

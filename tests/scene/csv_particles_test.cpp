@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-#include "hooke/scene/csv_particles.h"
-
 #include <gtest/gtest.h>
 
 #include <chrono>
 
+#include "hooke/scene/particle_file.h"
 #include "scratch_folder.h"
 
 namespace hooke {
@@ -14,14 +13,16 @@ namespace {
 
 class CsvParticlesTest : public testing::Test {
  protected:
-  CsvParticles read(std::string_view text) {
-    return read_csv_particles(folder_.write("p.csv", text), "p.csv", defaults_, findings_);
+  FileParticles read(std::string_view text) {
+    return read_particle_file(folder_.write("p.csv", text), "p.csv", rules_, findings_, warnings_);
   }
   std::string complaints() { return Error{Error::Kind::bad_input, findings_.take()}.text(); }
 
   ScratchFolder folder_;
-  CsvDefaults defaults_{{"water", "oil"}, std::uint16_t{0}, {1, 2, 3}};
+  std::vector<Material> materials_{{"water", 0.5, 1, {}, 0, ""}, {"oil", 0.5, 1, {}, 0, ""}};
+  ParticleFileRules rules_{materials_, std::uint16_t{0}, {1, 2, 3}, {}, {}};
   Findings findings_{"scene.json"};
+  std::vector<Finding> warnings_;
 };
 
 TEST_F(CsvParticlesTest, ReadsAllColumnsInAnyOrder) {
@@ -31,8 +32,8 @@ TEST_F(CsvParticlesTest, ReadsAllColumnsInAnyOrder) {
   EXPECT_EQ(p.material, (std::vector<std::uint16_t>{1, 0}));
   EXPECT_EQ(p.position, (std::vector<Vec3d>{{1, 2, 3}, {1.5, 2, 3}}));
   EXPECT_EQ(p.velocity, (std::vector<Vec3d>{{4, 5, 6}, {4, 5, -0.6}}));
-  EXPECT_EQ(p.line, (std::vector<std::uint32_t>{2, 3}));
-  EXPECT_EQ(p.ignored_columns, std::vector<std::string>{"radius"});
+  EXPECT_EQ(p.place, (std::vector<std::uint64_t>{2, 3}));
+  EXPECT_EQ(warnings_, (std::vector<Finding>{{"p.csv", "columns that Hooke does not read are ignored: \"radius\""}}));
 }
 
 TEST_F(CsvParticlesTest, FillsInWhatTheEntrySays) {
@@ -48,7 +49,7 @@ TEST_F(CsvParticlesTest, TakesEveryCommonFormOfFile) {
   EXPECT_EQ(complaints(), "");
   EXPECT_EQ(p.position, (std::vector<Vec3d>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}));
   EXPECT_EQ(p.material, (std::vector<std::uint16_t>{1, 0, 0}));
-  EXPECT_EQ(p.line, (std::vector<std::uint32_t>{2, 4, 5}));
+  EXPECT_EQ(p.place, (std::vector<std::uint64_t>{2, 4, 5}));
   EXPECT_EQ(read("x,y,z\n").position.size(), 0U);
   EXPECT_EQ(complaints(), "");
 }
@@ -70,7 +71,7 @@ TEST_F(CsvParticlesTest, HoldsBackWhatRepeatsItself) {
 }
 
 TEST_F(CsvParticlesTest, NamesAFileThatCannotBeRead) {
-  read_csv_particles(folder_.path() / "none.csv", "none.csv", defaults_, findings_);
+  read_particle_file(folder_.path() / "none.csv", "none.csv", rules_, findings_, warnings_);
   EXPECT_EQ(complaints(), "none.csv: can't be opened: No such file or directory");
 }
 
@@ -80,7 +81,7 @@ TEST_F(CsvParticlesTest, ReadsHalfAMillionRowsQuickly) {
     text += std::to_string(i) + ",12.345678901,2.3456789012,33.456789012,0.125,-9.8,1e-05\n";
   const auto file = folder_.write("p.csv", text);
   const auto start = std::chrono::steady_clock::now();
-  const auto p = read_csv_particles(file, "p.csv", defaults_, findings_);
+  const auto p = read_particle_file(file, "p.csv", rules_, findings_, warnings_);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   EXPECT_EQ(p.position.size(), 512000U);
   RecordProperty("seconds", std::to_string(seconds.count()));

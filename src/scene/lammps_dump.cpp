@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+// LAMMPS dump, as text: snapshots one after the other, each of items ("ITEM: BOX BOUNDS pp pp ff") that end with a row
+// an atom, under the names of the columns. Without being asked for another one, the last snapshot is read.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "hooke/scene/json_reader.h"
+#include "hooke/scene/particle_format.h"
+#include "hooke/scene/words.h"
+
+namespace hooke {
+
+namespace {
+
+constexpr std::uint64_t kSmallestRow = 6;  // "0 0 0\n", bytes
+
+struct Head {
+  std::optional<std::uint64_t> count;
+  std::array<std::array<double, 2>, 3> box{};  // bounds of each axis
+  bool has_box = false;
+  bool tilted = false;
+  std::vector<std::string> titles;
+};
+
+struct Title {
+  std::string_view name;
+  Field field;
+  bool scaled = false;
+};
+// What comes first is taken where a file has several of a kind.
+constexpr Title kTitles[] = {
+    {"x", Field::x},
+    {"y", Field::y},
+    {"z", Field::z},
+    {"xu", Field::x},
+    {"yu", Field::y},
+    {"zu", Field::z},
+    {"xs", Field::x, true},
+    {"ys", Field::y, true},
+    {"zs", Field::z, true},
+    {"xsu", Field::x, true},
+    {"ysu", Field::y, true},
+    {"zsu", Field::z, true},
+    {"vx", Field::vx},
+    {"vy", Field::vy},
+    {"vz", Field::vz},
+    {"id", Field::id},
+    {"element", Field::material},
+    {"type", Field::material},
+    {"radius", Field::radius},
+    {"diameter", Field::radius},
+    {"mass", Field::mass},
+};
+const Title* known_title(std::string_view name) {
+  const auto* found =
+      std::find_if(std::begin(kTitles), std::end(kTitles), [name](const Title& t) { return t.name == name; });
+  return found == std::end(kTitles) ? nullptr : found;
+}
+
+std::string_view need_line(FileScanner& in) {
+  const auto line = in.line();
+  if (!line) throw FileFault(in.line_number(), "ends within the head of a snapshot");
+  return trimmed(*line);
+}
+
+// The head of a snapshot, down to the names of its columns; nothing at the end of the file.
+std::optional<Head> read_head(FileScanner& in) {
+  constexpr std::string_view kItem = "ITEM: ";
+  auto first = in.line();
+  while (first && trimmed(*first).empty()) first = in.line();
+  if (!first) return std::nullopt;
+  if (first->substr(0, kItem.size()) != kItem) {
+    throw FileFault(in.line_number(),
+                    fmt::format("is \"{}\"; a snapshot must start with \"ITEM: \"", printable(*first, 40)));
+  }
+  Head head;
+  for (std::string_view line = *first;; line = need_line(in)) {
+    if (line.substr(0, kItem.size()) != kItem) continue;  // of an item that is of no use
+    std::string_view item = line.substr(kItem.size());
+    const std::string_view word = take_word(item);
+    if (word == "NUMBER") {
+      std::uint64_t count = 0;
+      const std::string_view text = need_line(in);
+      if (!read_count(text, count)) {
+        throw FileFault(in.line_number(), fmt::format("is \"{}\"; must be the number of atoms", printable(text, 40)));
+      }
+      head.count = count;
+    } else if (word == "BOX") {
+      head.tilted = item.find("xy") != std::string_view::npos || item.find("abc") != std::string_view::npos;
+      for (auto& bounds : head.box) {
+        std::string_view text = need_line(in);
+        const std::string_view written = text;
+        for (double& bound : bounds) {
+          if (read_number(take_word(text), bound)) continue;
+          throw FileFault(in.line_number(),
+                          fmt::format("is \"{}\"; must be the bounds of the box", printable(written, 40)));
+        }
+      }
+      head.has_box = true;
+    } else if (word == "ATOMS") {
+      if (!head.count) throw FileFault(in.line_number(), "comes before the item \"NUMBER OF ATOMS\"");
+      for (auto title = take_word(item); !title.empty(); title = take_word(item)) head.titles.emplace_back(title);
+      return head;
+    }
+  }
+}
+
+// The best title of each field; others of its kind are passed over.
+std::vector<Column> columns_of(const std::vector<std::string>& titles) {
+  std::vector<Column> columns;
+  for (const std::string& title : titles) {
+    const Title* known = known_title(title);
+    Field field = known == nullptr ? Field::unknown : known->field;
+    for (const std::string& other : titles) {
+      const Title* rival = known_title(other);
+      if (known != nullptr && rival != nullptr && rival < known && rival->field == known->field)
+        field = Field::passed_over;
+    }
+    columns.push_back({field, title});
+  }
+  return columns;
+}
+
+// How values that are written by other measures become positions and radii.
+struct Conversion {
+  std::array<bool, 3> scaled{};
+  bool diameter = false;
+
+  Conversion(const std::vector<Column>& columns, const Head& head, std::uint64_t line) {
+    for (const Column& column : columns) {
+      const Title* title = known_title(column.title);
+      if (title == nullptr || column.field == Field::passed_over) continue;
+      if (title->scaled) scaled[static_cast<std::size_t>(title->field)] = true;
+      if (title->name == "diameter") diameter = true;
+      if (!title->scaled || (head.has_box && !head.tilted)) continue;
+      throw FileFault(line,
+                      fmt::format("has scaled positions (\"{}\"), {}", column.title,
+                                  head.tilted ? "which are not read in a tilted box" : "but no BOX BOUNDS before"));
+    }
+  }
+
+  // False, with a finding, where a position is beyond all numbers.
+  bool apply(const Head& head, ParticleRows& rows, Row& row, std::uint64_t line) const {
+    bool good = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!scaled[axis]) continue;
+      const auto& [low, high] = head.box[axis];
+      const auto field = static_cast<Field>(axis);
+      good = rows.read(field, kTitles[axis].name, low + row[field] * (high - low), row, line) && good;
+    }
+    if (diameter) row[Field::radius] /= 2;
+    return good;
+  }
+};
+
+}  // namespace
+
+void read_lammps_dump(FileScanner& in, ParticleRows& rows) {
+  go_to_frame(in, rows.rules().frame.value_or(kLastFrame), [&in] {
+    const auto head = read_head(in);
+    if (head) skip_rows(in, *head->count);
+    return head.has_value();
+  });
+  const Head head = read_head(in).value();
+  const std::vector<Column> columns = columns_of(head.titles);
+  const Conversion conversion(columns, head, in.line_number());
+  rows.set_labels({"type", true, 1, {}});
+  if (!rows.set_columns(columns, in.line_number())) return;
+  if (!rows.expect(*head.count, in.remaining() / kSmallestRow + 1)) return;
+  std::vector<std::string_view> words;
+  for (std::uint64_t i = 0; i < *head.count; ++i) {
+    const auto line = in.line();
+    if (!line) throw ends_early(in, i, *head.count);
+    split_words(*line, words);
+    Row row = rows.blank();
+    const bool good = rows.read(words, row, in.line_number());
+    if (good && conversion.apply(head, rows, row, in.line_number())) rows.add(row, in.line_number());
+  }
+}
+
+}  // namespace hooke

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hooke/base/vec3.h"
+#include "hooke/core/materials.h"
+#include "hooke/scene/findings.h"
+
+namespace hooke {
+
+inline constexpr std::uint64_t kLastFrame = std::numeric_limits<std::uint64_t>::max();
+
+/// What a scene says of the particles in a file, for what the file leaves open.
+struct ParticleFileRules {
+  std::span<const Material> materials;    ///< of the scene: particles name one, and have its radius and mass
+  std::optional<std::uint16_t> material;  ///< index; of particles that name none
+  Vec3d velocity{0, 0, 0};                ///< m/s; of particles that have none
+  /// Index of the material that a type or species of the file stands for.
+  std::map<std::string, std::uint16_t, std::less<>> types;
+  /// Which snapshot, from 0, or kLastFrame; without one it is up to the format.
+  std::optional<std::uint64_t> frame;
+};
+
+/// The particles of a file, one entry of every column a particle, in the order of the file.
+struct FileParticles {
+  std::vector<std::uint64_t> id;  ///< empty where the file has no such column
+  std::vector<std::uint16_t> material;
+  std::vector<Vec3d> position;       ///< m
+  std::vector<Vec3d> velocity;       ///< m/s
+  std::vector<std::uint64_t> place;  ///< line, the first being 1, or byte where the file is binary
+  bool binary = false;
+};
+
+/// A kind of file that particles are read from.
+struct ParticleFileFormat {
+  std::vector<std::string> extensions;  ///< with their dots, in lower case
+  const char* description;
+  bool has_frames;  ///< may hold several snapshots
+};
+std::vector<ParticleFileFormat> particle_file_formats();
+
+/// The format that the extension of `file` names, in any case of letters; nothing where it names none.
+std::optional<ParticleFileFormat> particle_file_format(const std::filesystem::path& file);
+
+/// About how many particles read_particle_file will find: what the file says of itself, as far as its size allows.
+/// 0 where it can't be read.
+std::uint64_t count_particles(const std::filesystem::path& file, const ParticleFileRules& rules);
+
+/// Reads a file whose extension names a format (docs/scene.md, "Particle files"). Findings and warnings call it `name`
+/// and say the line; particles with a fault are left out. Ids may still be twins, and positions anywhere.
+FileParticles read_particle_file(const std::filesystem::path& file, const std::string& name,
+                                 const ParticleFileRules& rules, Findings& findings, std::vector<Finding>& warnings);
+
+/// How messages call a place of a file: "initial.csv:12", "initial.ply, byte 4096".
+std::string place_in_file(const std::string& name, std::uint64_t place, bool binary);
+
+}  // namespace hooke
