@@ -11,6 +11,7 @@ set -euo pipefail
 build_packages=(
   build-essential cmake ninja-build ccache
   libtbb-dev libexpected-dev nlohmann-json3-dev libvalijson-dev libcli11-dev libfmt-dev libspdlog-dev libhdf5-dev
+  libopenvdb-dev libboost-iostreams-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   python3)
 test_packages=(clang-format-19 lammps python3-vtk9)

@@ -20,11 +20,14 @@ struct Format {
 };
 
 constexpr ExportContent kParticles = ExportContent::particles;
+constexpr ExportContent kContacts = ExportContent::contacts;
+constexpr ExportContent kSurface = ExportContent::surface;
+constexpr ExportContent kVolume = ExportContent::volume;
 
 constexpr Format kFormats[] = {
     {{".csv", kParticles, "a table: step,t,id,material,x,y,z,vx,vy,vz"}, export_csv},
     {{".vtp", kParticles, "VTK PolyData; with several snapshots a .pvd and one .vtp each"}, export_vtp},
-    {{".pvd", kParticles, "ParaView collection of one .vtp a snapshot"}, export_pvd},
+    {{".pvd", kParticles, "ParaView collection of one .vtp a snapshot"}, export_vtp},
     {{".ply", kParticles, "binary PLY points"}, export_ply},
     {{".usda", kParticles, "USD points with time samples"}, export_usda},
     {{".xyz", kParticles, "extended XYZ"}, export_xyz},
@@ -33,6 +36,13 @@ constexpr Format kFormats[] = {
     {{".lammpstrj", kParticles, "LAMMPS text dump"}, export_lammps_dump},
     {{".data", kParticles, "LAMMPS data file, atom_style sphere"}, export_lammps_data},
     {{".lmp", kParticles, "LAMMPS data file, atom_style sphere"}, export_lammps_data},
+    {{".vdb", kParticles, "OpenVDB points"}, export_vdb_points},
+    {{".csv", kContacts, "a table: step,t,id_a,id_b,image_x,image_y,image_z,overlap,fx,fy,fz"}, export_contacts_csv},
+    {{".vtp", kContacts, "VTK PolyData, a line a contact; with several snapshots a .pvd"}, export_contacts_vtp},
+    {{".pvd", kContacts, "ParaView collection of one .vtp a snapshot"}, export_contacts_vtp},
+    {{".obj", kSurface, "Wavefront OBJ mesh"}, export_surface_obj},
+    {{".ply", kSurface, "binary PLY mesh with velocities"}, export_surface_ply},
+    {{".vdb", kVolume, "OpenVDB: density, surface (level set), vel"}, export_vdb_volume},
 };
 
 std::string lower_case(std::string text) {

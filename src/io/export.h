@@ -20,11 +20,16 @@ enum class ExportContent { particles, contacts, surface, volume };
 /// "particles", "contacts", "surface", "volume".
 const char* to_string(ExportContent content);
 
-/// How the surface of a fluid is drawn around its particles.
+/// How the surface of a fluid is drawn around its particles: a smooth skin around spheres. A lone particle's is exactly
+/// its sphere.
 struct SurfaceOptions {
-  double radius = 2;         ///< of the sphere that each particle adds, in its own radii, > 0
-  double smoothing = 1;      ///< how far bumps are smoothed away, in radii of the smallest particle, >= 0
-  double resolution = 0.75;  ///< edge of a voxel, in radii of the smallest particle, > 0
+  /// Of the sphere that a particle stands for, in its own radii, 0.1 to 10. More makes the fluid fatter.
+  double radius = 1;
+  /// How far beyond its sphere a particle's influence reaches, where it blends with that of others, in its own radii,
+  /// 0.1 to 10. More closes wider gaps and flattens bumps; with little the surface is that of the single spheres.
+  double smoothing = 1.5;
+  /// Edge of a voxel, in radii of the smallest particle, from 0.1 to `radius`. Half of it takes eight times as long.
+  double resolution = 0.5;
 };
 
 struct ExportOptions {

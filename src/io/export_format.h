@@ -33,13 +33,18 @@ std::vector<std::filesystem::path> export_each(
     const ExportJob& job, const std::function<void(std::size_t, const std::filesystem::path&)>& write);
 
 // One a format, each in a file of its own; export.cpp lists them.
+ExportFunction export_contacts_csv;
+ExportFunction export_contacts_vtp;
 ExportFunction export_csv;
 ExportFunction export_lammps_data;
 ExportFunction export_lammps_dump;
 ExportFunction export_ply;
+ExportFunction export_surface_obj;
+ExportFunction export_surface_ply;
 ExportFunction export_usda;
+ExportFunction export_vdb_points;
+ExportFunction export_vdb_volume;
 ExportFunction export_vtp;
-ExportFunction export_pvd;
 ExportFunction export_xyz;
 
 }  // namespace hooke

@@ -25,6 +25,7 @@ MAY_USE["apps"] = set(MAY_USE)
 # Libraries of others that only some of ours may see: the border where they can be exchanged.
 KEPT_TO = {
     r"hdf5|H5\w+\.h": {"io"},
+    r"openvdb/": {"io"},
     r"valijson/": {"scene"},
     r"nlohmann/": {"scene", "io", "apps"},
     r"CLI/": {"apps"},

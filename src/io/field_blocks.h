@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hooke/base/parallel.h"
+#include "hooke/base/vec3.h"
+#include "hooke/neighbours/cell_grid.h"
+
+namespace hooke {
+
+/// What particles add up to on a lattice of voxels, block by block: each particle adds to every voxel within its reach
+/// the weight w = (1 - d^2 / reach^2)^3, d (m) its distance from the voxel's centre, and w times each of its values.
+/// Voxel (i, j, k) has its centre at (i, j, k) * edge of a voxel. Blocks are 8 x 8 x 8 voxels, k fastest: OpenVDB's
+/// leaves. All blocks are worked on at once; the sums do not depend on the number of threads.
+class FieldBlocks {
+ public:
+  static constexpr int kEdge = 8;
+  static constexpr std::size_t kVoxels = 512;
+  static constexpr std::int32_t kMaxBlock = (1 << 20) - 64;  ///< largest coordinate of a block that holds a particle
+
+  using Coordinates = std::array<std::int32_t, 3>;
+  template <std::size_t kValues>
+  struct Sums {
+    std::array<float, kVoxels> weight;
+    std::array<std::array<float, kVoxels>, kValues> value;
+  };
+
+  /// The coordinates, in blocks, of what is at `x`; nothing where that is beyond kMaxBlock.
+  static std::optional<Coordinates> block_at(const Vec3d& x, double voxel) {
+    Coordinates at{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double b = std::floor(component(x, axis) / (kEdge * voxel));
+      if (!(std::abs(b) <= kMaxBlock)) return std::nullopt;
+      at[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(b);
+    }
+    return at;
+  }
+
+  /// Every position within kMaxBlock; reach (m, > 0) at most 32 blocks.
+  FieldBlocks(std::span<const Vec3d> position, std::span<const double> reach, double voxel);
+
+  /// Blocks that a particle may reach, by their keys.
+  std::size_t size() const { return blocks_.size(); }
+  Coordinates coordinates(std::size_t block) const { return coordinates_of(blocks_[block]); }
+  /// Index of the block at these coordinates, if there is one.
+  std::optional<std::size_t> find(const Coordinates& at) const;
+
+  /// use(block, sums) for each of `chosen` (indices below size(), ascending), on all threads. `values` has an entry a
+  /// particle.
+  template <std::size_t kValues, class Use>
+  void sum(std::span<const std::size_t> chosen, std::span<const std::array<float, kValues>> values,
+           const Use& use) const {
+    parallel_ranges(chosen.size(), 16, [&](std::size_t first, std::size_t last) {
+      Sums<kValues> sums;
+      std::vector<KeyCursor> cursors(static_cast<std::size_t>((2 * halo_ + 1) * (2 * halo_ + 1)));
+      for (std::size_t c = first; c < last; ++c) {
+        sums.weight.fill(0);
+        for (auto& value : sums.value) value.fill(0);
+        const Coordinates at = coordinates(chosen[c]);
+        auto cursor = cursors.begin();
+        for (std::int32_t x = at[0] - halo_; x <= at[0] + halo_; ++x) {
+          for (std::int32_t y = at[1] - halo_; y <= at[1] + halo_; ++y, ++cursor) {
+            const std::uint64_t row_end = key_of({x, y, at[2] + halo_});
+            for (std::size_t n = cursor->seek(keys_, key_of({x, y, at[2] - halo_}));
+                 n < keys_.size() && keys_[n] <= row_end; ++n) {
+              add<kValues>(at, n, values, sums);
+            }
+          }
+        }
+        use(chosen[c], sums);
+      }
+    });
+  }
+
+ private:
+  // 21 bits an axis, z fastest: a row of blocks along z is one range of keys.
+  static constexpr std::int32_t kOffset = 1 << 20;
+  static std::uint64_t key_of(const Coordinates& at) {
+    const auto bits = [](std::int32_t c) { return static_cast<std::uint64_t>(c + kOffset); };
+    return bits(at[0]) << 42U | bits(at[1]) << 21U | bits(at[2]);
+  }
+  static Coordinates coordinates_of(std::uint64_t key) {
+    const auto axis = [&](unsigned shift) {
+      return static_cast<std::int32_t>(key >> shift & ((1U << 21U) - 1)) - kOffset;
+    };
+    return {axis(42), axis(21), axis(0)};
+  }
+
+  template <std::size_t kValues>
+  void add(const Coordinates& at, std::size_t n, std::span<const std::array<float, kValues>> values,
+           Sums<kValues>& sums) const {
+    const std::size_t particle = order_[n];
+    const double reach = reach_[particle] / voxel_;
+    // In voxels from the block's first one.
+    const auto from_corner = [&](int axis) {
+      return component(position_[particle], axis) / voxel_ - double{kEdge} * at[static_cast<std::size_t>(axis)];
+    };
+    const double x = from_corner(0), y = from_corner(1), z = from_corner(2);
+    if (z + reach < 0 || z - reach > kEdge - 1) return;
+    const auto first = [&](double c) { return std::max(0, static_cast<int>(std::ceil(c - reach))); };
+    const auto last = [&](double c) { return std::min(kEdge - 1, static_cast<int>(std::floor(c + reach))); };
+
+    const auto scale = static_cast<float>(1 / (reach * reach));
+    std::array<float, kEdge> depth;  // (dz / reach)^2
+    for (int k = 0; k < kEdge; ++k) {
+      const auto dz = static_cast<float>(k - z);
+      depth[static_cast<std::size_t>(k)] = scale * dz * dz;
+    }
+    for (int i = first(x); i <= last(x); ++i) {
+      for (int j = first(y); j <= last(y); ++j) {
+        const double dx = i - x;
+        const double dy = j - y;
+        const float rest = 1 - scale * static_cast<float>(dx * dx + dy * dy);
+        if (rest <= 0) continue;
+        const auto row = static_cast<std::size_t>((i * kEdge + j) * kEdge);
+        for (std::size_t k = 0; k < kEdge; ++k) {
+          const float t = rest > depth[k] ? rest - depth[k] : 0.0F;
+          const float w = t * t * t;
+          sums.weight[row + k] += w;
+          for (std::size_t v = 0; v < kValues; ++v) sums.value[v][row + k] += w * values[particle][v];
+        }
+      }
+    }
+  }
+
+  std::span<const Vec3d> position_;
+  std::span<const double> reach_;
+  double voxel_;
+  std::int32_t halo_ = 1;  // as many blocks away a particle may be that reaches into a block
+  std::vector<std::uint64_t> keys_;  // of the blocks that particles are in, ascending
+  std::vector<std::uint32_t> order_;  // whose they are
+  std::vector<std::uint64_t> blocks_;  // keys, ascending
+};
+
+}  // namespace hooke

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/io/fluid_volume.h"
+
+#include <fmt/format.h>
+#include <openvdb/tools/FastSweeping.h>
+#include <openvdb/tools/LevelSetTracker.h>
+#include <openvdb/tools/LevelSetUtil.h>
+#include <openvdb/tools/Morphology.h>
+#include <openvdb/tools/Prune.h>
+#include <openvdb/tools/SignedFloodFill.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "hooke/io/failure.h"
+#include "hooke/io/field_blocks.h"
+
+namespace hooke {
+
+namespace {
+
+constexpr float kBand = 3;  // voxels, half-width of a level set
+
+void check(const SurfaceOptions& options, const std::filesystem::path& file) {
+  const auto refuse = [&](const char* name, double value, const char* allowed) {
+    throw Failure(Error::Kind::bad_input, file, fmt::format("can't draw a surface: {} {} {}", name, value, allowed));
+  };
+  if (!(options.radius >= 0.1 && options.radius <= 10)) refuse("radius", options.radius, "is not from 0.1 to 10");
+  if (!(options.smoothing >= 0.1 && options.smoothing <= 10)) {
+    refuse("smoothing", options.smoothing, "is not from 0.1 to 10");
+  }
+  if (!(options.resolution >= 0.1 && options.resolution <= options.radius)) {
+    refuse("resolution", options.resolution, fmt::format("is not from 0.1 to the radius, {}", options.radius).c_str());
+  }
+}
+
+openvdb::Coord corner(const FieldBlocks::Coordinates& at) {
+  return {at[0] * FieldBlocks::kEdge, at[1] * FieldBlocks::kEdge, at[2] * FieldBlocks::kEdge};
+}
+
+// The blocks that the surface passes through or between, and those around them.
+std::vector<std::size_t> surface_blocks(const FieldBlocks& blocks, float threshold) {
+  enum Side : std::uint8_t { outside = 1, inside = 2, both = 3 };
+  std::vector<std::uint8_t> side(blocks.size());
+  std::vector<std::size_t> all(blocks.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  blocks.sum<0>(all, {}, [&](std::size_t b, const FieldBlocks::Sums<0>& sums) {
+    unsigned found = 0;
+    for (const float weight : sums.weight) found |= unsigned{weight > threshold ? inside : outside};
+    side[b] = static_cast<std::uint8_t>(found);
+  });
+
+  const auto with_neighbours = [&](std::size_t b, const auto& visit) {  // what no particle reaches is outside
+    const FieldBlocks::Coordinates at = blocks.coordinates(b);
+    for (std::int32_t x = -1; x <= 1; ++x) {
+      for (std::int32_t y = -1; y <= 1; ++y) {
+        for (std::int32_t z = -1; z <= 1; ++z) visit(blocks.find({at[0] + x, at[1] + y, at[2] + z}));
+      }
+    }
+  };
+  std::vector<std::uint8_t> chosen(blocks.size());
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (side[b] == outside) continue;  // its inner neighbours look after it
+    unsigned around = 0;
+    with_neighbours(b, [&](std::optional<std::size_t> n) { around |= n ? side[*n] : std::uint8_t{outside}; });
+    if (around != both) continue;
+    with_neighbours(b, [&](std::optional<std::size_t> n) {
+      if (n) chosen[*n] = 1;
+    });
+  }
+  std::erase_if(all, [&](std::size_t b) { return chosen[b] == 0; });
+  return all;
+}
+
+}  // namespace
+
+FluidVolume::FluidVolume(const Snapshot& snapshot, const std::vector<MaterialInfo>& materials,
+                         const SurfaceOptions& options, const std::filesystem::path& file)
+    : particles_(snapshot.particles) {
+  openvdb::initialize();
+  check(options, file);
+  smallest_ = std::numeric_limits<double>::max();
+  for (const std::uint16_t m : particles_.material) smallest_ = std::min(smallest_, materials[m].radius);
+  if (particles_.empty()) smallest_ = 1;
+  voxel_ = options.resolution * smallest_;
+  reach_ratio_ = (options.radius + options.smoothing) / options.radius;
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    if (!FieldBlocks::block_at(particles_.position[i], voxel_)) {
+      throw Failure(Error::Kind::bad_input, file,
+                    fmt::format("particle {} is more than {} voxels from the origin: too far for a grid",
+                                particles_.id[i], FieldBlocks::kMaxBlock * FieldBlocks::kEdge));
+    }
+    const double sphere = options.radius * materials[particles_.material[i]].radius;
+    sphere_.push_back({static_cast<float>(sphere)});
+    reach_.push_back(sphere * reach_ratio_);
+    if (reach_.back() > 32 * FieldBlocks::kEdge * voxel_) {
+      throw Failure(Error::Kind::bad_input, file,
+                    "can't draw a surface: the largest particle is too many voxels wide at this resolution");
+    }
+  }
+}
+
+// A lone particle's weight is w(d) = (1 - d^2 / reach^2)^3, and d - R the distance to its sphere. So the sum S of all
+// weights stands for a particle at the distance w^-1(S), with the mean R by weight: the surface is where
+// S = w(R), which for one particle is exactly its sphere, and a smooth skin around many (soft objects: Wyvill,
+// McPheeters, Wyvill, "Data structure for soft objects", The Visual Computer 2, 1986).
+openvdb::FloatGrid::Ptr FluidVolume::surface_field() const {
+  const auto ratio = static_cast<float>(reach_ratio_);
+  const float at_surface = 1 - 1 / (ratio * ratio);
+  const float background = kBand * static_cast<float>(voxel_);
+  auto grid = openvdb::createLevelSet<openvdb::FloatGrid>(voxel_, kBand);
+  const FieldBlocks blocks(particles_.position, reach_, voxel_);
+  const std::vector<std::size_t> chosen = surface_blocks(blocks, at_surface * at_surface * at_surface);
+
+  std::vector<openvdb::FloatTree::LeafNodeType*> leaf(blocks.size());
+  for (const std::size_t b : chosen) leaf[b] = grid->tree().touchLeaf(corner(blocks.coordinates(b)));
+  blocks.sum<1>(chosen, sphere_, [&](std::size_t b, const FieldBlocks::Sums<1>& sums) {
+    for (std::size_t v = 0; v < FieldBlocks::kVoxels; ++v) {
+      const float weight = sums.weight[v];
+      const float squared = 1 - std::cbrt(weight);  // (d / reach)^2, below 0 where particles crowd
+      const float distance = squared > 0 ? ratio * std::sqrt(squared) : 0;
+      const float radius = weight > 0 ? sums.value[0][v] / weight : background;
+      leaf[b]->setValueOn(static_cast<openvdb::Index>(v), weight > 0 ? radius * (distance - 1) : background);
+    }
+  });
+  openvdb::tools::signedFloodFill(grid->tree());
+  return grid;
+}
+
+openvdb::FloatGrid::Ptr FluidVolume::level_set() const {
+  const openvdb::FloatGrid::Ptr field = surface_field();
+  if (field->empty()) return field;
+  const auto band = openvdb::tools::extractIsosurfaceMask(*field, 0.0);
+  openvdb::tools::dilateActiveValues(band->tree(), static_cast<int>(kBand));
+  field->topologyIntersection(*band);
+  openvdb::FloatGrid::Ptr grid = openvdb::tools::sdfToSdf(*field);
+  openvdb::tools::LevelSetTracker<openvdb::FloatGrid>(*grid).prune();
+  return grid;
+}
+
+openvdb::Vec3SGrid::Ptr FluidVolume::velocity() const {
+  auto grid = openvdb::Vec3SGrid::create();
+  const double voxel = smallest_;
+  grid->setTransform(openvdb::math::Transform::createLinearTransform(voxel));
+  grid->setVectorType(openvdb::VEC_CONTRAVARIANT_RELATIVE);
+
+  std::vector<double> reach(reach_);  // one voxel beyond the surface, at least
+  for (double& r : reach) r = std::max(r, r / reach_ratio_ + 2 * voxel);
+  std::vector<std::array<float, 3>> velocity;
+  velocity.reserve(particles_.size());
+  for (const Vec3d& v : particles_.velocity) {
+    velocity.push_back({static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)});
+  }
+  const FieldBlocks blocks(particles_.position, reach, voxel);
+  std::vector<std::size_t> all(blocks.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::vector<openvdb::Vec3STree::LeafNodeType*> leaf;
+  for (const std::size_t b : all) leaf.push_back(grid->tree().touchLeaf(corner(blocks.coordinates(b))));
+  blocks.sum<3>(all, velocity, [&](std::size_t b, const FieldBlocks::Sums<3>& sums) {
+    for (std::size_t v = 0; v < FieldBlocks::kVoxels; ++v) {
+      const float weight = sums.weight[v];
+      if (weight <= 0) continue;
+      leaf[b]->setValueOn(static_cast<openvdb::Index>(v),
+                          openvdb::Vec3s(sums.value[0][v], sums.value[1][v], sums.value[2][v]) / weight);
+    }
+  });
+  openvdb::tools::pruneInactive(grid->tree());
+  return grid;
+}
+
+}  // namespace hooke

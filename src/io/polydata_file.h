@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "hooke/base/vec3.h"
+#include "hooke/io/export_format.h"
+
+namespace hooke {
+
+/// A .vtp file of VTK: points with data, and cells with data that are all vertices or all lines. Arrays are binary,
+/// appended behind the XML.
+class PolyDataFile {
+ public:
+  enum class Cells { vertices, lines };
+
+  /// Every cell takes the next one (vertices) or two (lines) of the points.
+  PolyDataFile(Cells cells, std::size_t point_count, double time);
+
+  /// `values` has `components` numbers a point or cell; a point's vector becomes what VTK's filters take by default. T:
+  /// float, double, std::int64_t, std::uint16_t, std::uint8_t.
+  template <class T>
+  void add_point_data(const char* name, const std::vector<T>& values, int components = 1) {
+    point_data_ += declare(name, values, components);
+    if (components == 3) vectors_ = name;
+  }
+  template <class T>
+  void add_cell_data(const char* name, const std::vector<T>& values, int components = 1) {
+    cell_data_ += declare(name, values, components);
+  }
+  /// Three numbers a point, m. Float or double.
+  template <class T>
+  void set_points(const std::vector<T>& values) {
+    points_ = declare("Points", values, 3);
+  }
+
+  void write(const std::filesystem::path& file);
+
+ private:
+  template <class T>
+  std::string declare(const char* name, const std::vector<T>& values, int components);
+
+  Cells cells_;
+  std::size_t point_count_;
+  double time_;
+  std::string point_data_, cell_data_, points_;  // XML
+  std::string vectors_;  // name of the points' vectors
+  std::string bytes_;  // of all arrays
+};
+
+/// The components of vectors, one after the other.
+template <class Real>
+std::vector<Real> flatten(const std::vector<Vec3d>& vectors) {
+  std::vector<Real> values;
+  values.reserve(3 * vectors.size());
+  for (const Vec3d& v : vectors) {
+    for (const double c : {v.x, v.y, v.z}) values.push_back(static_cast<Real>(c));
+  }
+  return values;
+}
+
+/// Calls write(index, file) for each snapshot of the job. A .vtp of one snapshot is that file; else there are one a
+/// snapshot and a .pvd that lists them, which is the first file returned.
+std::vector<std::filesystem::path> export_polydata(
+    const ExportJob& job, const std::function<void(std::size_t, const std::filesystem::path&)>& write);
+
+}  // namespace hooke
