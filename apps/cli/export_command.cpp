@@ -58,7 +58,7 @@ ExitStatus export_command(const ExportArguments& arguments) {
   if (!scene) return report_error(scene.error());
   ExportOptions options;
   options.content = arguments.content;
-  options.scene = *scene ? &**scene : nullptr;
+  if (const std::optional<Scene>& kept = *scene) options.scene = &*kept;
   options.surface = arguments.surface;
   const auto files = export_run(*run, *indices, arguments.output, options);
   if (!files) return report_error(files.error(), true);

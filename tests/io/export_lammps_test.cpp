@@ -6,10 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 #include <sstream>
 
-#include "hooke/io/export.h"
 #include "samples.h"
 
 namespace hooke {
@@ -27,12 +25,7 @@ class ExportLammps : public testing::TestWithParam<Precision> {
 
   /// Writes all snapshots, and returns the files.
   std::vector<std::filesystem::path> exported(const std::string& name, const Scene* scene) {
-    const RunReader run = samples::write_run(folder_ / "run", info_, snapshots_);
-    std::vector<std::size_t> all(snapshots_.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    ExportOptions options;
-    options.scene = scene;
-    return export_run(run, all, folder_ / name, options).value();
+    return samples::export_all(samples::write_run(folder_ / "run", info_, snapshots_), folder_ / name, scene);
   }
 
   /// LAMMPS's particles after `commands`.

@@ -9,7 +9,6 @@
 #include <map>
 #include <sstream>
 
-#include "hooke/io/export.h"
 #include "samples.h"
 
 namespace hooke {
@@ -74,12 +73,7 @@ class ExportPlyFile : public testing::Test {
  protected:
   std::vector<std::filesystem::path> exported(const RunInfo& info, const std::vector<Snapshot>& snapshots,
                                               const Scene* scene) {
-    const RunReader run = samples::write_run(folder_ / "run", info, snapshots);
-    std::vector<std::size_t> all;
-    for (std::size_t k = 0; k < snapshots.size(); ++k) all.push_back(k);
-    ExportOptions options;
-    options.scene = scene;
-    return export_run(run, all, folder_ / "p.ply", options).value();
+    return samples::export_all(samples::write_run(folder_ / "run", info, snapshots), folder_ / "p.ply", scene);
   }
 
   const samples::TemporaryFolder folder_;

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <map>
 
-#include "hooke/io/export.h"
 #include "samples.h"
 
 namespace hooke {
@@ -110,11 +109,7 @@ class ExportUsda : public testing::Test {
  protected:
   Stage exported(const RunInfo& info, const std::vector<Snapshot>& snapshots, const Scene* scene) {
     const RunReader run = samples::write_run(folder_ / to_string(info.precision), info, snapshots);
-    std::vector<std::size_t> all;
-    for (std::size_t k = 0; k < snapshots.size(); ++k) all.push_back(k);
-    ExportOptions options;
-    options.scene = scene;
-    EXPECT_EQ(export_run(run, all, folder_ / "p.usda", options).value().size(), 1U);
+    EXPECT_EQ(samples::export_all(run, folder_ / "p.usda", scene).size(), 1U);
     return read_stage(folder_ / "p.usda");
   }
 

@@ -50,12 +50,8 @@ class ExportXyzFile : public testing::Test {
  protected:
   std::vector<Frame> exported(const RunInfo& info, const std::vector<Snapshot>& snapshots, const Scene* scene) {
     const RunReader run = samples::write_run(folder / "run", info, snapshots);
-    std::vector<std::size_t> all(snapshots.size());
-    for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
-    ExportOptions options;
-    options.scene = scene;
-    const auto written = export_run(run, all, folder / "run.xyz", options);
-    EXPECT_EQ(written.value(), std::vector<std::filesystem::path>{folder / "run.xyz"});
+    const auto written = samples::export_all(run, folder / "run.xyz", scene);
+    EXPECT_EQ(written, std::vector<std::filesystem::path>{folder / "run.xyz"});
     return read_frames(folder / "run.xyz");
   }
 
@@ -112,8 +108,8 @@ TEST_F(ExportXyzFile, HasNoCellWithoutAScene) {
 
 TEST_F(ExportXyzFile, HasASecondExtension) {
   const RunReader run = samples::write_run(folder / "run", samples::run_info(), {samples::snapshot(0, 3)});
-  ASSERT_TRUE(export_run(run, std::vector<std::size_t>{0}, folder / "a.xyz"));
-  ASSERT_TRUE(export_run(run, std::vector<std::size_t>{0}, folder / "a.extxyz"));
+  samples::export_all(run, folder / "a.xyz");
+  samples::export_all(run, folder / "a.extxyz");
   EXPECT_EQ(samples::read_file(folder / "a.extxyz"), samples::read_file(folder / "a.xyz"));
 }
 

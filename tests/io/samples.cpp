@@ -11,10 +11,12 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <numeric>
 #include <random>
 #include <sstream>
 #include <stdexcept>
 
+#include "hooke/io/export.h"
 #include "hooke/io/failure.h"
 
 namespace hooke::samples {
@@ -109,6 +111,14 @@ RunReader write_run(const fs::path& folder, const RunInfo& info, const std::vect
   for (const Snapshot& snapshot : snapshots) take(writer.write_snapshot(snapshot));
   take(writer.finish());
   return take(RunReader::open(folder));
+}
+
+std::vector<fs::path> export_all(const RunReader& run, const fs::path& file, const Scene* scene) {
+  std::vector<std::size_t> all(run.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  ExportOptions options;
+  options.scene = scene;
+  return take(export_run(run, all, file, options));
 }
 
 namespace {

@@ -41,6 +41,9 @@ SeriesRow series_row(std::int64_t step);
 Scene scene(const RunInfo& info);
 /// Writes a run of these snapshots and opens it. Throws where that fails.
 RunReader write_run(const std::filesystem::path& folder, const RunInfo& info, const std::vector<Snapshot>& snapshots);
+/// Exports all snapshots of a run; the files. Throws where that fails.
+std::vector<std::filesystem::path> export_all(const RunReader& run, const std::filesystem::path& file,
+                                              const Scene* scene = nullptr);
 
 /// Whether ids, materials, positions and velocities (and accelerations) are the same bits.
 bool same(const ParticleSet& a, const ParticleSet& b);
