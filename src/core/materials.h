@@ -12,6 +12,9 @@
 
 namespace hooke {
 
+/// How pictures show a material.
+enum class MaterialLook { ball, water };
+
 /// What particles are made of.
 struct Material {
   std::string name;
@@ -20,6 +23,7 @@ struct Material {
   ContactCoefficients<double> contact;  ///< against its own kind, and against walls without an entry
   double drag = 0;                      ///< k_d, kg/s, >= 0
   std::string color;                    ///< "#rrggbb", or empty
+  MaterialLook look = MaterialLook::ball;
 };
 
 /// Coefficients of one pair of materials, or of one material and the walls, given in place of the mixed ones.

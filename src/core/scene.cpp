@@ -115,6 +115,20 @@ void check_contacts(const Scene& scene, Checker& check) {
   }
 }
 
+void check_camera(const SceneCamera& camera, Checker& check) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (camera.eye) check.finite(fmt::format("camera.eye[{}]", axis), component(*camera.eye, axis));
+    if (camera.target) check.finite(fmt::format("camera.target[{}]", axis), component(*camera.target, axis));
+  }
+  if (camera.eye && camera.target && *camera.eye == *camera.target) {
+    check.add("camera.target", "must be another point than camera.eye");
+  }
+  if (!(camera.field_of_view >= 1 && camera.field_of_view <= 150)) {
+    check.add("camera.field_of_view", fmt::format("{} must be from 1 to 150 degrees", camera.field_of_view));
+  }
+  check.finite("camera.orbit", camera.orbit);
+}
+
 }  // namespace
 
 bool OutputCadence::is_due(std::int64_t step, double dt) const {
@@ -142,6 +156,7 @@ std::vector<Finding> validate(const Scene& scene) {
   check_contacts(scene, check);
   check.not_negative("output.every", scene.output.seconds);
   if (scene.output.steps < 0) check.add("output.every_steps", fmt::format("{} must be 1 or more", scene.output.steps));
+  check_camera(scene.camera, check);
   return check.findings;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,14 @@ struct OutputCadence {
   bool is_due(std::int64_t step, double dt) const;
 };
 
+/// From where pictures show a scene. What is left out follows from the scene's action (render/camera.h).
+struct SceneCamera {
+  std::optional<Vec3d> eye;     ///< m
+  std::optional<Vec3d> target;  ///< m, other than the eye
+  double field_of_view = 35;    ///< from the bottom of the picture to its top, degrees, 1 to 150
+  double orbit = 0;             ///< how fast the eye circles the target, around what points up, degrees/s
+};
+
 /// Everything that rules a simulation but the particles themselves: plain data with default values.
 /// A scene file fills it, or code does. SI units.
 struct Scene {
@@ -60,6 +69,7 @@ struct Scene {
   std::vector<Material> materials;        ///< at most 1,024
   std::vector<ContactEntry> contacts;     ///< pairs that do not follow the mixing rule
   OutputCadence output;
+  SceneCamera camera;
 };
 
 /// What makes `scene` unusable, if anything: values that are not finite, signs, empty domains, twins of a

@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#include "hooke/render/camera.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace hooke {
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+double norm(const Vec3d& v) { return std::sqrt(dot(v, v)); }
+Vec3d normalized(const Vec3d& v) { return (1 / norm(v)) * v; }
+Vec3d cross(const Vec3d& a, const Vec3d& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+// `v` turned about the unit vector `axis` (Rodrigues' formula).
+Vec3d rotated(const Vec3d& v, const Vec3d& axis, double angle) {
+  return std::cos(angle) * v + std::sin(angle) * cross(axis, v) + ((1 - std::cos(angle)) * dot(axis, v)) * axis;
+}
+
+std::array<Vec3d, 8> corners(const Box& box) {
+  std::array<Vec3d, 8> all;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i] = {i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z};
+  }
+  return all;
+}
+
+// The picture is wider than it is high: its long side should be the box's longest level one.
+Vec3d level_axis(const Box& box, const Vec3d& up) {
+  Vec3d longest{0, 0, 0};
+  double most = -1;
+  for (const Vec3d& axis : {Vec3d{1, 0, 0}, Vec3d{0, 0, 1}, Vec3d{0, 1, 0}}) {
+    const double length = dot(box.max - box.min, axis) * (1 - std::abs(dot(axis, up)));
+    if (length > 1.001 * most) {
+      most = length;
+      longest = axis;
+    }
+  }
+  return normalized(longest - dot(longest, up) * up);
+}
+
+}  // namespace
+
+CameraAxes axes(const Camera& camera) {
+  const Vec3d back = normalized(camera.eye - camera.target);
+  const Vec3d right = normalized(cross(camera.up, back));
+  return {right, cross(back, right), back};
+}
+
+Vec3d up_of(const Scene& scene) {
+  const double strength = norm(scene.gravity);
+  return strength > 0 ? (-1 / strength) * scene.gravity : Vec3d{0, 1, 0};
+}
+
+Box action_box(const Scene& scene, const ParticleSet& first) {
+  constexpr double kHeadroom = 1.15;
+  Box box{scene.domain.min, scene.domain.max};
+  if (first.empty()) return box;
+  const Vec3d up = up_of(scene);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double upward = component(up, axis);
+    if (std::abs(upward) < 0.9) continue;  // a level axis, or gravity along none
+    double& floor = component(upward > 0 ? box.min : box.max, axis);
+    double& ceiling = component(upward > 0 ? box.max : box.min, axis);
+    double reach = 0;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      const double height = std::abs(component(first.position[i], axis) - floor);
+      reach = std::max(reach, height + scene.materials[first.material[i]].radius);
+    }
+    reach = std::min(kHeadroom * reach, scene.domain.length(axis));
+    ceiling = floor + (upward > 0 ? reach : -reach);
+  }
+  return box;
+}
+
+Vec3d direction_to_sun(const Box& box, const Vec3d& up) {
+  const Vec3d across = level_axis(box, up);
+  return normalized(up + 0.4 * cross(across, up) + 0.6 * across);
+}
+
+Camera default_camera(const Box& box, const Vec3d& up, double field_of_view, double aspect) {
+  constexpr double kElevation = 20 * kDegree, kAzimuth = -24 * kDegree;
+  constexpr double kFilled = 0.92;  // of the picture's width or height
+  const Vec3d across = level_axis(box, up);
+  const Vec3d front = cross(across, up);
+  const Vec3d from =
+      std::cos(kElevation) * (std::cos(kAzimuth) * front + std::sin(kAzimuth) * across) + std::sin(kElevation) * up;
+  Camera camera{box.center() + from, box.center(), up, field_of_view};
+  const CameraAxes own = axes(camera);
+  const double tangent_y = kFilled * std::tan(0.5 * field_of_view * kDegree);
+  const double tangent_x = tangent_y * aspect;
+
+  // In the camera's own axes, what lies on a line through a corner that leaves the corner at the picture's rim: the
+  // eye must be above all lines of the one rim and below those of the other; where two such wedges meet is the nearest
+  // eye that sees everything.
+  struct Wedge {
+    double high = -1e300, low = 1e300;  // bounds of  shift + distance * tangent  and  shift - distance * tangent
+  };
+  Wedge x, y;
+  for (const Vec3d& corner : corners(box)) {
+    const Vec3d c = corner - box.center();
+    const double depth = dot(c, own.back);
+    const double right = dot(c, own.right), high = dot(c, own.up);
+    x.high = std::max(x.high, right + depth * tangent_x);
+    x.low = std::min(x.low, right - depth * tangent_x);
+    y.high = std::max(y.high, high + depth * tangent_y);
+    y.low = std::min(y.low, high - depth * tangent_y);
+  }
+  const double distance = std::max((x.high - x.low) / (2 * tangent_x), (y.high - y.low) / (2 * tangent_y));
+  camera.target = box.center() + (0.5 * (x.high + x.low)) * own.right + (0.5 * (y.high + y.low)) * own.up;
+  camera.eye = camera.target + distance * own.back;
+  return camera;
+}
+
+Camera camera_at(const Scene& scene, const Box& action, double aspect, double time) {
+  const SceneCamera& wanted = scene.camera;
+  Camera camera = default_camera(action, up_of(scene), wanted.field_of_view, aspect);
+  if (wanted.target) {
+    if (!wanted.eye) camera.eye += *wanted.target - camera.target;
+    camera.target = *wanted.target;
+  }
+  if (wanted.eye) camera.eye = *wanted.eye;
+  camera.eye = camera.target + rotated(camera.eye - camera.target, camera.up, wanted.orbit * kDegree * time);
+  // Straight up or down, anything level will do for the top of the picture.
+  const Vec3d view = normalized(camera.eye - camera.target);
+  if (std::abs(dot(view, camera.up)) > 0.9999) camera.up = level_axis({{0, 0, 0}, {1, 1, 2}}, camera.up);
+  return camera;
+}
+
+}  // namespace hooke

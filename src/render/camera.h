@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "hooke/base/vec3.h"
+#include "hooke/core/particles.h"
+#include "hooke/core/scene.h"
+
+namespace hooke {
+
+/// An axis-parallel box, m.
+struct Box {
+  Vec3d min{0, 0, 0};
+  Vec3d max{1, 1, 1};
+
+  Vec3d center() const { return 0.5 * (min + max); }
+};
+
+/// A pinhole camera.
+struct Camera {
+  Vec3d eye{0, 0, 1};          ///< m
+  Vec3d target{0, 0, 0};       ///< m, in the middle of the picture, not at the eye
+  Vec3d up{0, 1, 0};           ///< what points up in the picture; unit vector, not along the view
+  double field_of_view = 35;   ///< from the bottom of the picture to its top, degrees, in (0, 180)
+};
+
+/// The camera's own axes: unit vectors, right-handed, `back` from the target to the eye.
+struct CameraAxes {
+  Vec3d right, up, back;
+};
+CameraAxes axes(const Camera& camera);
+
+/// Against gravity; y where there is none.
+Vec3d up_of(const Scene& scene);
+
+/// Where a scene's action takes place: the domain, but only as high as the particles reach at the start, `first`, and a
+/// bit.
+Box action_box(const Scene& scene, const ParticleSet& first);
+
+/// Where the sun stands in pictures of `box`, a unit vector: high, over the right shoulder of the default camera.
+Vec3d direction_to_sun(const Box& box, const Vec3d& up);
+
+/// A camera that shows all of `box`, from in front and a little above, its long side across the picture.
+/// `aspect`: width of the picture over its height, > 0.
+Camera default_camera(const Box& box, const Vec3d& up, double field_of_view, double aspect);
+
+/// The camera of a picture at `time` (s): the scene's, or the default one for what it leaves out, carried around the
+/// target by the scene's orbit.
+Camera camera_at(const Scene& scene, const Box& action, double aspect, double time);
+
+}  // namespace hooke

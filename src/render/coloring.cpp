@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#include "hooke/render/coloring.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hooke/core/contacts.h"
+
+namespace hooke {
+
+namespace {
+
+double norm(const Vec3d& v) { return std::sqrt(dot(v, v)); }
+
+// How high the action reaches from the floor, against gravity, m.
+double reach(const Box& action, const Vec3d& up) {
+  const Vec3d size = action.max - action.min;
+  return std::abs(size.x * up.x) + std::abs(size.y * up.y) + std::abs(size.z * up.z);
+}
+
+// Height of the action's lowest corner, along `up`, m.
+double floor_height(const Box& action, const Vec3d& up) { return dot(action.center(), up) - 0.5 * reach(action, up); }
+
+double fastest(const ParticleSet& particles) {
+  double most = 0;
+  for (const Vec3d& v : particles.velocity) most = std::max(most, norm(v));
+  return most;
+}
+
+// Twice what the weight of all particles, spread over the floor, would press with; Pa.
+double weight_pressure(const Scene& scene, const ParticleSet& first, const Box& action) {
+  double mass = 0;
+  for (const std::uint16_t material : first.material) mass += scene.materials[material].mass;
+  const Vec3d size = action.max - action.min;
+  const double height = reach(action, up_of(scene));
+  const double floor_area = size.x * size.y * size.z / height;
+  return 2 * mass * norm(scene.gravity) / floor_area;
+}
+
+double or_one(double value) { return value > 0 && std::isfinite(value) ? value : 1; }
+
+}  // namespace
+
+const char* title(ColorBy by) {
+  switch (by) {
+    case ColorBy::material:
+      return "";
+    case ColorBy::speed:
+      return "speed (m/s)";
+    case ColorBy::height:
+      return "height (m)";
+    case ColorBy::pressure:
+      return "pressure (Pa)";
+    case ColorBy::contacts:
+      return "contacts";
+    case ColorBy::id:
+      return "id";
+  }
+  return "";
+}
+
+ColorScale default_scale(const Scene& scene, const ParticleSet& first, ColorBy by) {
+  const Box action = action_box(scene, first);
+  const double height = reach(action, up_of(scene));
+  switch (by) {
+    case ColorBy::material:
+      return {by, 0, 1};
+    case ColorBy::speed:
+      return {by, 0, or_one(std::max(std::sqrt(2 * norm(scene.gravity) * height), fastest(first)))};
+    case ColorBy::height:
+      return {by, 0, or_one(height)};
+    case ColorBy::pressure:
+      return {by, 0, or_one(weight_pressure(scene, first, action))};
+    case ColorBy::contacts:
+      return {by, 0, 12};
+    case ColorBy::id:
+      return {by, 0, first.empty() ? 1 : or_one(static_cast<double>(first.id.back()))};
+  }
+  return {};
+}
+
+std::vector<double> color_values(const Scene& scene, const ParticleSet& particles, const Box& action, ColorBy by) {
+  std::vector<double> values;
+  if (by == ColorBy::material) return values;
+  if (by == ColorBy::pressure) return contact_figures(scene, particles).pressure;
+  values.reserve(particles.size());
+  if (by == ColorBy::contacts) {
+    const auto figures = contact_figures(scene, particles);
+    values.assign(figures.count.begin(), figures.count.end());
+    return values;
+  }
+  const Vec3d up = up_of(scene);
+  const double ground = floor_height(action, up);
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    values.push_back(by == ColorBy::speed    ? norm(particles.velocity[i])
+                     : by == ColorBy::height ? dot(particles.position[i], up) - ground
+                                             : static_cast<double>(particles.id[i]));
+  }
+  return values;
+}
+
+}  // namespace hooke

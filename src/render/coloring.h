@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "hooke/core/particles.h"
+#include "hooke/core/scene.h"
+#include "hooke/render/camera.h"
+
+namespace hooke {
+
+/// What the colour of a particle tells.
+enum class ColorBy {
+  material,  ///< its material's own colour; water that is fast or thin turns white
+  speed,     ///< |v|, m/s
+  height,    ///< above the floor of the scene's action, against gravity, m
+  pressure,  ///< of its contacts, Pa (core/contacts.h)
+  contacts,  ///< how many it has
+  id,        ///< what came from where
+};
+
+/// All of them, by the names that the command line knows.
+struct ColorByName {
+  const char* name;
+  ColorBy by;
+};
+inline constexpr ColorByName kColorByNames[] = {
+    {"material", ColorBy::material}, {"speed", ColorBy::speed},       {"height", ColorBy::height},
+    {"pressure", ColorBy::pressure}, {"contacts", ColorBy::contacts}, {"id", ColorBy::id},
+};
+
+/// A quantity and the values at the two ends of its colour map. One scale holds for all pictures of a film.
+struct ColorScale {
+  ColorBy by = ColorBy::material;
+  double low = 0;
+  double high = 1;  ///< > low
+};
+
+/// What the legend says: "speed (m/s)"; empty for materials.
+const char* title(ColorBy by);
+
+/// A scale that suits a whole run, from its scene and its `first` snapshot: speeds up to that of a fall through the
+/// scene's action, the pressure below all particles spread over the floor twice, 12 contacts, every id.
+ColorScale default_scale(const Scene& scene, const ParticleSet& first, ColorBy by);
+
+/// The quantity of every particle, in the set's order. Empty for materials.
+std::vector<double> color_values(const Scene& scene, const ParticleSet& particles, const Box& action, ColorBy by);
+
+}  // namespace hooke

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#include "hooke/render/frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hooke/base/parallel.h"
+
+namespace hooke {
+
+namespace {
+
+// Materials without a colour of their own, one after the other.
+constexpr const char* kPalette[] = {"#2f7fd6", "#e4933a", "#4cb35a", "#c9485b",
+                                    "#8e5bc0", "#5bb8c4", "#d6c12f", "#7d8794"};
+
+std::vector<Color> material_colors(const Scene& scene) {
+  std::vector<Color> colors;
+  for (const Material& material : scene.materials) {
+    const char* own = material.color.c_str();
+    colors.push_back(parse_color(*own ? own : kPalette[colors.size() % std::size(kPalette)]));
+  }
+  return colors;
+}
+
+// Drawn at their own size, the spheres at a surface leave gaps through which those below would show.
+constexpr float kWaterRadius = 1.25f;
+
+// Water is clear up to a third of the speed of a fall from the top, and white from nine tenths.
+std::uint8_t foam_of(const Vec3d& velocity, double foam_speed) {
+  const double share = std::clamp((std::sqrt(dot(velocity, velocity)) / foam_speed - 0.35) / 0.55, 0.0, 1.0);
+  return static_cast<std::uint8_t>(1 + std::lround(254 * share * share));
+}
+
+std::optional<double> ground_of(const Scene& scene, const Box& action, const Vec3d& up) {
+  if (scene.gravity == Vec3d{0, 0, 0}) return {};
+  double lowest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double upward = component(up, axis);
+    lowest += upward * component(upward > 0 ? action.min : action.max, axis);
+  }
+  return lowest;
+}
+
+}  // namespace
+
+Look make_look(const Scene& scene, const ParticleSet& first, ColorBy by,
+               const std::optional<std::array<double, 2>>& range) {
+  Look look{action_box(scene, first), default_scale(scene, first, by), 0};
+  look.foam_speed = default_scale(scene, first, ColorBy::speed).high;
+  if (range) {
+    look.scale.low = (*range)[0];
+    look.scale.high = (*range)[1];
+  }
+  return look;
+}
+
+Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, const Look& look, double aspect) {
+  Frame frame;
+  frame.up = up_of(scene);
+  frame.to_sun = direction_to_sun(look.action, frame.up);
+  frame.camera = camera_at(scene, look.action, aspect, time);
+  frame.origin = look.action.center();
+  frame.camera.eye -= frame.origin;
+  frame.camera.target -= frame.origin;
+  frame.action = {look.action.min - frame.origin, look.action.max - frame.origin};
+  frame.ground = ground_of(scene, frame.action, frame.up);
+  frame.tank.min = scene.domain.min - frame.origin;
+  frame.tank.max = scene.domain.max - frame.origin;
+  for (std::size_t axis = 0; axis < 3; ++axis) frame.tank.walls[axis] = scene.domain.boundary[axis] == Boundary::spring;
+  if (look.scale.by != ColorBy::material) frame.scale = look.scale;
+
+  const std::vector<Color> colors = material_colors(scene);
+  const std::vector<double> values = color_values(scene, particles, look.action, look.scale.by);
+  frame.spheres.resize(particles.size());
+  parallel_ranges(particles.size(), 4096, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const Material& material = scene.materials[particles.material[i]];
+      const Vec3f at = vec_cast<float>(particles.position[i] - frame.origin);
+      Sphere& sphere = frame.spheres[i];
+      sphere = {at.x, at.y, at.z, static_cast<float>(material.radius), colors[particles.material[i]], 0};
+      if (!values.empty()) {
+        sphere.color = map_color((values[i] - look.scale.low) / (look.scale.high - look.scale.low));
+      } else if (material.look == MaterialLook::water) {
+        sphere.foam = foam_of(particles.velocity[i], look.foam_speed);
+        sphere.radius *= kWaterRadius;
+      }
+    }
+  });
+  return frame;
+}
+
+}  // namespace hooke

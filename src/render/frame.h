@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "hooke/core/particles.h"
+#include "hooke/core/scene.h"
+#include "hooke/render/camera.h"
+#include "hooke/render/color_map.h"
+#include "hooke/render/coloring.h"
+
+namespace hooke {
+
+/// A sphere to be drawn.
+struct Sphere {
+  float x, y, z;        ///< centre, relative to Frame::origin, m
+  float radius;         ///< m
+  Color color;
+  std::uint8_t foam;    ///< 0: an opaque ball; else water, 1 clear to 255 white
+};
+
+/// The tank: the domain, and which of its faces are walls.
+struct Tank {
+  Vec3d min, max;               ///< relative to Frame::origin, m
+  std::array<bool, 3> walls{};  ///< whether the two faces across each axis push back
+};
+
+/// All that a picture shows: no solver, no file, no device.
+struct Frame {
+  Vec3d origin{0, 0, 0};  ///< what is drawn is relative to this, so that single precision does in any domain, m
+  std::vector<Sphere> spheres;
+  Tank tank;
+  Camera camera;  ///< eye and target relative to the origin
+  Box action;     ///< relative to the origin
+  Vec3d up{0, 1, 0};
+  Vec3d to_sun{0, 1, 0};  ///< unit vector
+  std::optional<double> ground;     ///< height of the ground along `up`, relative to the origin, m
+  std::optional<ColorScale> scale;  ///< of the legend, where there is one
+};
+
+/// What stays the same for all pictures of a run.
+struct Look {
+  Box action;
+  ColorScale scale;
+  double foam_speed = 1;  ///< speed at which water is white, m/s
+};
+
+/// The look of a run, from its scene and its `first` snapshot; `range` in place of the default scale's ends.
+Look make_look(const Scene& scene, const ParticleSet& first, ColorBy by,
+               const std::optional<std::array<double, 2>>& range = {});
+
+/// The picture of `particles` at `time` (s). `aspect`: width over height.
+Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, const Look& look, double aspect);
+
+}  // namespace hooke

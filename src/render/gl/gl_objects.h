@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <initializer_list>
+#include <string>
+#include <utility>
+
+#include "hooke/base/vec3.h"
+#include "hooke/render/camera.h"
+
+namespace hooke::gl {
+
+/// The name of an OpenGL object, deleted with its owner, in the context that is current then.
+template <auto& Delete>
+class Object {
+ public:
+  Object() = default;
+  explicit Object(GLuint name) : name_(name) {}
+  ~Object() {
+    if (name_ != 0) Delete(name_);
+  }
+  Object(Object&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+  Object& operator=(Object&& other) noexcept {
+    std::swap(name_, other.name_);
+    return *this;
+  }
+  GLuint get() const { return name_; }
+
+ private:
+  GLuint name_ = 0;
+};
+
+inline void delete_buffer(GLuint name) { glDeleteBuffers(1, &name); }
+inline void delete_vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
+inline void delete_texture(GLuint name) { glDeleteTextures(1, &name); }
+inline void delete_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
+inline void delete_program(GLuint name) { glDeleteProgram(name); }
+
+using Buffer = Object<delete_buffer>;
+using VertexArray = Object<delete_vertex_array>;
+using Framebuffer = Object<delete_framebuffer>;
+
+/// A two-dimensional texture.
+struct Texture : Object<delete_texture> {
+  using Object::Object;
+  GLenum format = GL_NONE;
+};
+
+/// Without a first content; `filter` is GL_NEAREST or GL_LINEAR.
+Texture make_texture(int width, int height, GLenum format, GLenum filter);
+/// Draws into `colors`, in this order, and `depth` (null: none), with its stencil where it has one.
+Framebuffer make_framebuffer(std::initializer_list<const Texture*> colors, const Texture* depth);
+Buffer make_buffer();
+VertexArray make_vertex_array();
+
+/// A vertex and a fragment shader, and their uniforms by name. Shaders are the project's own files: one that does not
+/// compile throws std::runtime_error with the driver's words.
+class Program {
+ public:
+  Program() = default;
+  Program(const char* vertex, const char* fragment);
+
+  void use() const { glUseProgram(program_.get()); }
+  // Of the program in use.
+  void set(const char* name, int value) const { glUniform1i(at(name), value); }
+  void set(const char* name, int x, int y) const { glUniform2i(at(name), x, y); }
+  void set(const char* name, float value) const { glUniform1f(at(name), value); }
+  void set(const char* name, float x, float y) const { glUniform2f(at(name), x, y); }
+  void set(const char* name, const Vec3f& v) const { glUniform3f(at(name), v.x, v.y, v.z); }
+  /// The 3 x 3 matrix whose rows are these.
+  void set_rows(const char* name, const Vec3f& x, const Vec3f& y, const Vec3f& z) const;
+  /// Lets the sampler `name` read `texture` through texture unit `unit`.
+  void read(const char* name, int unit, const Texture& texture) const;
+
+ private:
+  GLint at(const char* name) const { return glGetUniformLocation(program_.get(), name); }
+
+  Object<delete_program> program_;
+};
+
+}  // namespace hooke::gl

@@ -1,0 +1,474 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#include "hooke/render/gl/gl_renderer.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "hooke/render/gl/egl_context.h"
+#include "hooke/render/gl/gl_objects.h"
+#include "hooke/render/gl/shaders.h"
+#include "hooke/render/visible_spheres.h"
+#include "hooke/render/water_thickness.h"
+
+namespace hooke {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using gl::Buffer;
+using gl::Framebuffer;
+using gl::Program;
+using gl::Texture;
+using gl::VertexArray;
+
+constexpr int kSunMap = 2048;  // pixels along each side
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+float length_of(const Vec3d& v) { return static_cast<float>(std::sqrt(dot(v, v))); }
+
+// Spheres on the device, one instance of a square each.
+class SphereBuffer {
+ public:
+  SphereBuffer() : array_(gl::make_vertex_array()), buffer_(gl::make_buffer()) {
+    glBindVertexArray(array_.get());
+    glBindBuffer(GL_ARRAY_BUFFER, buffer_.get());
+    attribute(0, 3, GL_FLOAT, offsetof(Sphere, x));
+    attribute(1, 1, GL_FLOAT, offsetof(Sphere, radius));
+    attribute(2, 4, GL_UNSIGNED_BYTE, offsetof(Sphere, color));
+  }
+
+  void clear() { spheres_.clear(); }
+  void add(const Sphere& sphere) { spheres_.push_back(sphere); }
+  void upload() const {
+    glBindBuffer(GL_ARRAY_BUFFER, buffer_.get());
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(spheres_.size() * sizeof(Sphere)), spheres_.data(),
+                 GL_STREAM_DRAW);
+  }
+  void draw() const {
+    glBindVertexArray(array_.get());
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(spheres_.size()));
+  }
+
+ private:
+  static void attribute(GLuint location, GLint components, GLenum type, std::size_t offset) {
+    glEnableVertexAttribArray(location);
+    glVertexAttribPointer(location, components, type, type == GL_UNSIGNED_BYTE, sizeof(Sphere),
+                          reinterpret_cast<const void*>(offset));
+    glVertexAttribDivisor(location, 1);
+  }
+
+  VertexArray array_;
+  Buffer buffer_;
+  std::vector<Sphere> spheres_;
+};
+static_assert(sizeof(Sphere) == 20 && offsetof(Sphere, foam) == offsetof(Sphere, color) + 3);
+
+// A parallel projection along the sun's rays that holds the whole action and, as far as it may splash, what is above.
+struct Sun {
+  Projection projection;
+  float range = 1;  // m, from its eye to the farthest that it lights
+  Vec3f to;         // unit vector
+};
+
+Sun make_sun(const Frame& frame) {
+  constexpr double kRoom = 1.3;
+  const Vec3d center = frame.action.center();
+  const double radius = 0.5 * kRoom * length_of(frame.action.max - frame.action.min);
+  const Camera camera{
+      center + radius * frame.to_sun, center,
+      std::abs(dot(frame.to_sun, frame.up)) < 0.99 ? frame.up : Vec3d{frame.up.y, frame.up.z, frame.up.x}};
+  Sun sun{project(camera, kSunMap, kSunMap), static_cast<float>(2 * radius), vec_cast<float>(frame.to_sun)};
+  sun.projection.parallel = true;
+  sun.projection.nearest = 0;
+  sun.projection.scale = static_cast<float>(0.5 * kSunMap / radius);
+  return sun;
+}
+
+class GlRenderer final : public Renderer {
+ public:
+  GlRenderer(EglContext context, const RenderSettings& settings)
+      : context_(std::move(context)),
+        settings_(settings),
+        width_(settings.width * settings.samples),
+        height_(settings.height * settings.samples) {
+    make_targets();
+    make_programs();
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  }
+
+  Expected<Image> render(const Frame& frame) override {
+    const Clock::time_point start = Clock::now();
+    const Projection view = project(frame.camera, width_, height_);
+    const Sun sun = make_sun(frame);
+    const std::vector<std::uint32_t> seen = visible_spheres(frame.spheres, view);
+    const std::vector<std::uint32_t> sunlit = visible_spheres(frame.spheres, sun.projection);
+    const bool water =
+        std::any_of(frame.spheres.begin(), frame.spheres.end(), [](const Sphere& s) { return s.foam > 0; });
+    if (water) upload_thickness(water_thickness(frame.spheres, view));
+    figures_ = {seen.size(), seconds_since(start), 0};
+
+    const float sphere_size = typical_radius(frame);
+    upload(frame.spheres, sunlit);
+    draw_sun_map(sun);
+    upload(frame.spheres, seen);
+    draw_spheres(view);
+    reduce();
+    const Projection pixels = project(frame.camera, settings_.width, settings_.height);
+    if (water) smooth_water(pixels, sphere_size);
+    draw_ambient(pixels, sphere_size, frame);
+    draw_backdrop(frame, pixels, sun, sphere_size);
+    shade_balls(frame, view, sun, sphere_size);
+    if (water) shade_water(frame, view, sun, sphere_size);
+    resolve();
+    draw_tank(frame, pixels);
+    Image image = read_image();
+    if (const GLenum error = glGetError(); error != GL_NO_ERROR) {
+      return fail(Error::Kind::run_failed, "OpenGL", "error " + std::to_string(error) + " of " + context_.device());
+    }
+    figures_.total_seconds = seconds_since(start);
+    return image;
+  }
+
+  RenderFigures figures() const override { return figures_; }
+  std::string device() const override { return context_.device(); }
+
+ private:
+  void make_targets() {
+    const int w = settings_.width, h = settings_.height;
+    color_ = gl::make_texture(width_, height_, GL_RGBA8, GL_NEAREST);
+    normal_ = gl::make_texture(width_, height_, GL_RGBA8, GL_NEAREST);
+    depth_ = gl::make_texture(width_, height_, GL_R32F, GL_NEAREST);
+    depth_stencil_ = gl::make_texture(width_, height_, GL_DEPTH32F_STENCIL8, GL_NEAREST);
+    shaded_ = gl::make_texture(width_, height_, GL_RGBA8, GL_NEAREST);
+    for (Texture& surface : surface_) surface = gl::make_texture(w, h, GL_RG32F, GL_NEAREST);
+    for (Texture& ambient : ambient_) ambient = gl::make_texture(w, h, GL_R8, GL_LINEAR);
+    water_normal_ = gl::make_texture(w, h, GL_RGBA8, GL_LINEAR);
+    thickness_ = gl::make_texture(1, 1, GL_R32F, GL_LINEAR);
+    backdrop_ = gl::make_texture(w, h, GL_RGBA8, GL_NEAREST);
+    result_ = gl::make_texture(w, h, GL_RGBA8, GL_NEAREST);
+    sun_map_ = gl::make_texture(kSunMap, kSunMap, GL_DEPTH_COMPONENT32F, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+
+    to_sun_map_ = gl::make_framebuffer({}, &sun_map_);
+    to_spheres_ = gl::make_framebuffer({&color_, &normal_, &depth_}, &depth_stencil_);
+    to_surface_[0] = gl::make_framebuffer({&surface_[0]}, nullptr);
+    to_surface_[1] = gl::make_framebuffer({&surface_[1]}, nullptr);
+    to_ambient_ = gl::make_framebuffer({&ambient_[0], &water_normal_}, nullptr);
+    to_blurred_ = gl::make_framebuffer({&ambient_[1]}, nullptr);
+    to_backdrop_ = gl::make_framebuffer({&backdrop_}, nullptr);
+    to_shaded_ = gl::make_framebuffer({&shaded_}, &depth_stencil_);
+    to_result_ = gl::make_framebuffer({&result_}, nullptr);
+    nothing_ = gl::make_vertex_array();
+    edge_array_ = gl::make_vertex_array();
+    edge_buffer_ = gl::make_buffer();
+  }
+
+  void make_programs() {
+    using namespace gl::shaders;
+    const std::string view = view_glsl, lit = view + light_glsl;
+    const auto picture = [](const std::string& fragment) { return Program(whole_picture_vert, fragment.c_str()); };
+    sun_program_ = Program(spheres_vert, sun_depth_frag);
+    sphere_program_ = Program(spheres_vert, spheres_frag);
+    reduce_program_ = picture(reduce_frag);
+    smooth_program_ = picture(smooth_frag);
+    ambient_program_ = picture(view + ambient_frag);
+    blur_program_ = picture(blur_frag);
+    backdrop_program_ = picture(lit + backdrop_frag);
+    ball_program_ = picture(lit + shade_ball_frag);
+    water_program_ = picture(lit + shade_water_frag);
+    resolve_program_ = picture(resolve_frag);
+    edge_program_ = Program(edges_vert, edges_frag);
+  }
+
+  static float typical_radius(const Frame& frame) {
+    return frame.spheres.empty() ? 1.0f : frame.spheres[frame.spheres.size() / 2].radius;
+  }
+
+  void upload_thickness(const WaterThickness& thickness) {
+    glBindTexture(GL_TEXTURE_2D, thickness_.get());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R32F, thickness.columns, thickness.rows, 0, GL_RED, GL_FLOAT,
+                 thickness.meters.data());
+  }
+
+  static void begin(const Framebuffer& target, int width, int height) {
+    glBindFramebuffer(GL_FRAMEBUFFER, target.get());
+    glViewport(0, 0, width, height);
+  }
+
+  void cover() const {
+    glBindVertexArray(nothing_.get());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+
+  static void set_view(const Program& program, const Projection& view) {
+    program.set("eye", view.eye);
+    program.set_rows("to_view", view.right, view.up, view.back);
+  }
+
+  void upload(std::span<const Sphere> spheres, std::span<const std::uint32_t> chosen) {
+    balls_.clear();
+    water_.clear();
+    for (const std::uint32_t i : chosen) (spheres[i].foam > 0 ? water_ : balls_).add(spheres[i]);
+    balls_.upload();
+    water_.upload();
+  }
+
+  void draw_sun_map(const Sun& sun) {
+    begin(to_sun_map_, kSunMap, kSunMap);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    glClearDepth(1);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    sun_program_.use();
+    set_view(sun_program_, sun.projection);
+    const float scale = 2 * sun.projection.scale / kSunMap;
+    sun_program_.set("scale", scale, scale);
+    sun_program_.set("parallel", 1);
+    sun_program_.set("range", sun.range);
+    balls_.draw();
+    water_.draw();
+    glDisable(GL_DEPTH_TEST);
+  }
+
+  // What samples show is told apart by the stencil, so that each kind is shaded by itself.
+  enum Stencil { kNothing, kBall, kWater };
+
+  void draw_spheres(const Projection& view) {
+    begin(to_spheres_, width_, height_);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);  // what is stored falls with the distance
+    glClearDepth(0);
+    glClearStencil(kNothing);
+    glClearColor(0, 0, 0, 0);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+    sphere_program_.use();
+    set_view(sphere_program_, view);
+    sphere_program_.set("scale", 2 * view.scale / view.width, 2 * view.scale / view.height);
+    sphere_program_.set("parallel", 0);
+    sphere_program_.set("nearest", view.nearest);
+    glEnable(GL_STENCIL_TEST);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    glStencilFunc(GL_ALWAYS, kBall, 0xff);
+    balls_.draw();
+    glStencilFunc(GL_ALWAYS, kWater, 0xff);
+    water_.draw();
+    glDisable(GL_STENCIL_TEST);
+    glDisable(GL_DEPTH_TEST);
+  }
+
+  void reduce() {
+    begin(to_surface_[0], settings_.width, settings_.height);
+    reduce_program_.use();
+    reduce_program_.read("depths", 0, depth_);
+    reduce_program_.read("colors", 1, color_);
+    reduce_program_.set("samples", settings_.samples);
+    cover();
+  }
+
+  void smooth_water(const Projection& pixels, float sphere_size) {
+    smooth_program_.use();
+    smooth_program_.set("range", 4.0f * sphere_size);
+    smooth_program_.set("scale", pixels.scale);
+    // Wide with few samples first, then what lies between them.
+    const float reaches[] = {4.0f, 1.5f};
+    for (std::size_t pass = 0; pass < 2; ++pass) {
+      begin(to_surface_[1 - pass], settings_.width, settings_.height);
+      smooth_program_.read("surface", 0, surface_[pass]);
+      smooth_program_.set("reach", reaches[pass] * sphere_size);
+      cover();
+    }
+  }
+
+  void draw_ambient(const Projection& pixels, float sphere_size, const Frame& frame) {
+    begin(to_ambient_, settings_.width, settings_.height);
+    const Program& program = ambient_program_;
+    program.use();
+    set_picture(program, pixels);
+    program.read("surface", 0, surface_[0]);
+    program.read("normals", 1, normal_);
+    program.set("samples", settings_.samples);
+    program.set("reach", 2.5f * sphere_size);
+    program.set("far_reach", 0.08f * length_of(frame.action.max - frame.action.min));
+    cover();
+    begin(to_blurred_, settings_.width, settings_.height);
+    blur_program_.use();
+    blur_program_.read("ambient", 0, ambient_[0]);
+    cover();
+  }
+
+  static void set_picture(const Program& program, const Projection& view) {
+    program.set("picture", view.width, view.height);
+    program.set("scale", view.scale);
+  }
+
+  // What light.glsl asks for.
+  void set_light(const Program& program, const Frame& frame, const Projection& view, const Sun& sun,
+                 float sphere_size) const {
+    program.use();
+    set_picture(program, view);
+    set_view(program, view);
+    program.read("sun_map", 0, sun_map_);
+    program.set_rows("to_sun", sun.projection.right, sun.projection.up, sun.projection.back);
+    program.set("to_light", sun.to);
+    program.set("sun_eye", sun.projection.eye);
+    const float scale = 2 * sun.projection.scale / kSunMap;
+    program.set("sun_scale", Vec3f{scale, scale, 1 / sun.range});
+    program.set("sun_blur", 0.003f * sun.range);
+    program.set("up", vec_cast<float>(frame.up));
+    program.set("has_ground", frame.ground ? 1 : 0);
+    program.set("ground", static_cast<float>(frame.ground.value_or(0)));
+    program.set("action_center", vec_cast<float>(frame.action.center()));
+    program.set("action_size", length_of(frame.action.max - frame.action.min));
+    program.set("sphere_size", sphere_size);
+  }
+
+  void draw_backdrop(const Frame& frame, const Projection& pixels, const Sun& sun, float sphere_size) {
+    begin(to_backdrop_, settings_.width, settings_.height);
+    set_light(backdrop_program_, frame, pixels, sun, sphere_size);
+    cover();
+  }
+
+  void begin_shading(const Program& program, Stencil kind) {
+    program.read("depths", 1, depth_);
+    program.read("colors", 2, color_);
+    program.read("normals", 3, normal_);
+    program.read("ambient", 4, ambient_[1]);
+    begin(to_shaded_, width_, height_);
+    glEnable(GL_STENCIL_TEST);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    glStencilFunc(GL_EQUAL, kind, 0xff);
+  }
+
+  void shade_balls(const Frame& frame, const Projection& view, const Sun& sun, float sphere_size) {
+    set_light(ball_program_, frame, view, sun, sphere_size);
+    begin_shading(ball_program_, kBall);
+    cover();
+    glDisable(GL_STENCIL_TEST);
+  }
+
+  void shade_water(const Frame& frame, const Projection& view, const Sun& sun, float sphere_size) {
+    const Program& program = water_program_;
+    set_light(program, frame, view, sun, sphere_size);
+    program.read("surface", 5, surface_[0]);
+    program.read("water_normals", 6, water_normal_);
+    program.read("thickness", 7, thickness_);
+    program.set("samples", settings_.samples);
+    const Vec3d size = frame.action.max - frame.action.min;
+    const double height = std::abs(size.x * frame.up.x) + std::abs(size.y * frame.up.y) + std::abs(size.z * frame.up.z);
+    program.set("water_scale", static_cast<float>(0.6 * height));
+    begin_shading(program, kWater);
+    cover();
+    glDisable(GL_STENCIL_TEST);
+  }
+
+  void resolve() {
+    begin(to_result_, settings_.width, settings_.height);
+    resolve_program_.use();
+    resolve_program_.read("depths", 0, depth_);
+    resolve_program_.read("shaded", 1, shaded_);
+    resolve_program_.read("backdrop", 2, backdrop_);
+    resolve_program_.set("samples", settings_.samples);
+    cover();
+  }
+
+  // Edges of the domain that belong to a wall.
+  void draw_tank(const Frame& frame, const Projection& view) {
+    const Tank& tank = frame.tank;
+    std::vector<Vec3f> ends;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+      if (!tank.walls[static_cast<std::size_t>(u)] && !tank.walls[static_cast<std::size_t>(v)]) continue;
+      for (int corner = 0; corner < 4; ++corner) {
+        Vec3d from = tank.min;
+        component(from, u) = component(corner & 1 ? tank.max : tank.min, u);
+        component(from, v) = component(corner & 2 ? tank.max : tank.min, v);
+        Vec3d to = from;
+        component(to, axis) = component(tank.max, axis);
+        ends.push_back(vec_cast<float>(from));
+        ends.push_back(vec_cast<float>(to));
+      }
+    }
+    begin(to_result_, settings_.width, settings_.height);
+    glBindVertexArray(edge_array_.get());
+    glBindBuffer(GL_ARRAY_BUFFER, edge_buffer_.get());
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(ends.size() * sizeof(Vec3f)), ends.data(), GL_STREAM_DRAW);
+    for (GLuint end = 0; end < 2; ++end) {
+      glEnableVertexAttribArray(end);
+      glVertexAttribPointer(end, 3, GL_FLOAT, GL_FALSE, 2 * sizeof(Vec3f),
+                            reinterpret_cast<const void*>(end * sizeof(Vec3f)));
+      glVertexAttribDivisor(end, 1);
+    }
+    edge_program_.use();
+    set_view(edge_program_, view);
+    edge_program_.set("scale", 2 * view.scale / view.width, 2 * view.scale / view.height);
+    edge_program_.set("picture", view.width, view.height);
+    edge_program_.set("width", 1.4f);
+    edge_program_.set("nearest", view.nearest);
+    edge_program_.read("depths", 0, depth_);
+    edge_program_.set("samples", settings_.samples);
+    edge_program_.set("color", Vec3f{0.93f, 0.95f, 0.97f});
+    edge_program_.set("opacity", 0.55f);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(ends.size() / 2));
+    glDisable(GL_BLEND);
+  }
+
+  Image read_image() const {
+    Image flipped(settings_.width, settings_.height);
+    glReadPixels(0, 0, flipped.width, flipped.height, GL_RGBA, GL_UNSIGNED_BYTE, flipped.pixels.data());
+    const std::size_t row = Image::kChannels * static_cast<std::size_t>(flipped.width);
+    for (int y = 0; y < flipped.height / 2; ++y) {
+      std::swap_ranges(flipped.at(0, y), flipped.at(0, y) + row, flipped.at(0, flipped.height - 1 - y));
+    }
+    return flipped;
+  }
+
+  EglContext context_;  // outlives all that is in it
+  RenderSettings settings_;
+  int width_, height_;  // of what is drawn: several samples a pixel
+  RenderFigures figures_;
+
+  Texture sun_map_, color_, normal_, depth_, depth_stencil_, shaded_;  // several samples a pixel
+  Texture water_normal_, thickness_, backdrop_, result_;
+  std::array<Texture, 2> surface_, ambient_;
+  Framebuffer to_sun_map_, to_spheres_, to_ambient_, to_blurred_, to_backdrop_, to_shaded_, to_result_;
+  std::array<Framebuffer, 2> to_surface_;
+  SphereBuffer balls_, water_;
+  VertexArray nothing_, edge_array_;
+  Buffer edge_buffer_;
+  Program sun_program_, sphere_program_, reduce_program_, smooth_program_, ambient_program_, blur_program_,
+      backdrop_program_, ball_program_, water_program_, resolve_program_, edge_program_;
+};
+
+}  // namespace
+
+Expected<std::unique_ptr<Renderer>> make_gl_renderer(const RenderSettings& settings) {
+  if (settings.width < 1 || settings.height < 1 || settings.samples < 1 || settings.samples > 4) {
+    return fail(Error::Kind::bad_input, "size", "width and height must be at least 1, samples from 1 to 4");
+  }
+  auto context = EglContext::create();
+  if (!context) return fail(std::move(context).error());
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+  if (std::max(settings.width, settings.height) * settings.samples > most) {
+    return fail(Error::Kind::bad_input, "size",
+                "at most " + std::to_string(most / settings.samples) + " pixels along a side with this driver");
+  }
+  try {
+    return std::make_unique<GlRenderer>(std::move(*context), settings);
+  } catch (const std::runtime_error& error) {
+    return fail(Error::Kind::bad_input, "OpenGL", error.what());
+  }
+}
+
+}  // namespace hooke

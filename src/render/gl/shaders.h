@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace hooke::gl::shaders {
+
+// The texts of the files of the same name in shaders/. Those that use view.glsl or light.glsl begin with them.
+extern const char* const whole_picture_vert;
+extern const char* const spheres_vert;
+extern const char* const spheres_frag;
+extern const char* const sun_depth_frag;
+extern const char* const reduce_frag;
+extern const char* const smooth_frag;
+extern const char* const view_glsl;
+extern const char* const ambient_frag;
+extern const char* const blur_frag;
+extern const char* const light_glsl;
+extern const char* const backdrop_frag;
+extern const char* const shade_ball_frag;
+extern const char* const shade_water_frag;
+extern const char* const edges_vert;
+extern const char* const edges_frag;
+extern const char* const resolve_frag;
+
+}  // namespace hooke::gl::shaders

@@ -1,0 +1,79 @@
+// The sun, the sky and the ground.
+uniform sampler2DShadow sun_map;
+uniform vec3 eye;
+uniform mat3 to_view;            // right, up, back
+uniform mat3 to_sun;             // of the sun's map
+uniform vec3 to_light;           // unit vector to the sun
+uniform vec3 sun_eye;
+uniform vec3 sun_scale;          // from metres to the map, [-1, 1]; depth to [0, 1]
+uniform float sun_blur;          // of shadows, m
+uniform vec3 up;
+uniform bool has_ground;
+uniform float ground;            // its height, m
+uniform vec3 action_center;
+uniform float action_size;       // m
+uniform float sphere_size;       // radius of a typical sphere, m
+
+const vec3 kSun = vec3(1.60, 1.51, 1.38);
+const vec3 kHorizon = vec3(0.20, 0.25, 0.31), kZenith = vec3(0.05, 0.08, 0.13);
+
+// What is behind all: dark, so that foam stands out.
+vec3 sky(vec3 direction) { return mix(kHorizon, kZenith, smoothstep(-0.05, 0.7, dot(direction, up))); }
+
+// What surfaces mirror: a bright sky, and a wide soft light around the sun.
+vec3 mirrored_sky(vec3 direction) {
+  vec3 color = mix(vec3(0.62, 0.70, 0.78), vec3(0.24, 0.36, 0.52), smoothstep(-0.05, 0.7, dot(direction, up)));
+  float toward = max(0.0, dot(direction, to_light));
+  float wide = toward * toward * toward;
+  return color + vec3(1.0, 0.95, 0.85) * (0.35 * wide * wide + 0.8 * smoothstep(0.93, 1.0, toward));
+}
+
+// The share of the sun's light that arrives: the mean of two samples of the map a turn, in a ring around the point.
+float sunlight(vec3 point, float turn, int turns) {
+  vec3 at = (to_sun * (point - sun_eye)) * vec3(sun_scale.xy, -sun_scale.z);
+  float light = 0.0;
+  for (int i = 0; i < turns; ++i) {
+    float share = fract(turn + 0.618 * float(i));
+    float angle = 6.2831853 * share;
+    vec2 shift = sun_blur * (0.3 + 0.7 * fract(share * 7.0)) * vec2(cos(angle), sin(angle)) * sun_scale.xy;
+    light += texture(sun_map, vec3(0.5 + 0.5 * (at.xy + shift), at.z)) +
+             texture(sun_map, vec3(0.5 + 0.5 * (at.xy - shift), at.z));
+  }
+  return any(greaterThan(abs(at.xy), vec2(0.999))) || at.z > 1.0 ? 1.0 : light / float(2 * turns);
+}
+
+vec3 ground_color(vec3 point, float sun) {
+  vec3 from = point - action_center;
+  float away = length(from - dot(from, up) * up) / action_size;
+  vec3 lit = vec3(0.115, 0.13, 0.15) * (0.3 + 0.7 * sun);
+  return mix(lit, kHorizon, smoothstep(0.4, 3.0, away));
+}
+
+vec3 ground_point(vec3 from, vec3 direction) {
+  return from - ((dot(from, up) - ground) / min(dot(direction, up), -1e-3)) * direction;
+}
+
+bool sees_ground(vec3 from, vec3 direction) {
+  return has_ground && dot(direction, up) < -1e-3 && dot(from, up) > ground;
+}
+
+// Reflection of a surface seen straight on, and at grazing angles (C. Schlick, 1994).
+float mirror(float straight, float cosine) {
+  float missing = 1.0 - cosine, square = missing * missing;
+  return straight + (1.0 - straight) * square * square * missing;
+}
+
+float highlight(vec3 normal, vec3 to_eye, float sharpness) {
+  return pow(max(0.0, dot(normal, normalize(to_eye + to_light))), sharpness) * (sharpness + 8.0) / 25.0;
+}
+
+vec3 matte_light(vec3 normal, float sun, float sky_share) {
+  vec3 around = mix(vec3(0.20, 0.19, 0.19), vec3(0.60, 0.68, 0.80), 0.5 + 0.5 * dot(normal, up)) * sky_share;
+  return around + kSun * (max(0.0, dot(normal, to_light)) * sun);
+}
+
+// Bright light saturates gently; what is stored is the root, for evener steps.
+vec4 stored(vec3 color) {
+  color = color * (1.0 + color / 5.0) / (1.0 + color);
+  return vec4(sqrt(clamp(1.25 * color, 0.0, 1.0)), 1.0);
+}

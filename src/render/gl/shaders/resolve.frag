@@ -1,0 +1,26 @@
+#version 330 core
+// The mean of each pixel's samples, as screens take it (sRGB), with a noise of one step against bands.
+uniform sampler2D depths;
+uniform sampler2D shaded;
+uniform sampler2D backdrop;   // where a sample shows nothing
+uniform int samples;
+
+out vec4 image;
+
+float noise(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }
+
+void main() {
+  ivec2 first = ivec2(gl_FragCoord.xy) * samples;
+  vec3 behind = texelFetch(backdrop, ivec2(gl_FragCoord.xy), 0).rgb;
+  vec3 sum = vec3(0.0);
+  for (int y = 0; y < samples; ++y) {
+    for (int x = 0; x < samples; ++x) {
+      ivec2 at = first + ivec2(x, y);
+      vec3 root = texelFetch(depths, at, 0).x == 0.0 ? behind : texelFetch(shaded, at, 0).rgb;
+      sum += root * root;
+    }
+  }
+  vec3 linear = sum / float(samples * samples);
+  vec3 encoded = mix(12.92 * linear, 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, linear));
+  image = vec4(encoded + (noise(gl_FragCoord.xy) - 0.5) / 255.0, 1.0);
+}

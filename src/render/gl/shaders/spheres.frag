@@ -1,0 +1,27 @@
+#version 330 core
+// Where the ray of a sample meets a sphere. All relative to the sphere's centre: seen from far away, a ball is smaller
+// than the rounding of its distance.
+uniform float nearest;     // m
+
+flat in vec3 view_center;
+flat in float view_radius;
+flat in vec4 tint;
+in vec3 offset;
+
+layout(location = 0) out vec4 color;   // of the material, and its foam
+layout(location = 1) out vec4 normal;  // in view space, from [-1, 1] to [0, 1]
+layout(location = 2) out vec4 depth;   // m; negative where water
+
+void main() {
+  vec3 ray = normalize(view_center + offset);
+  float b = dot(offset, ray);
+  float discriminant = b * b - dot(offset, offset) + view_radius * view_radius;
+  if (discriminant < 0.0) discard;
+  vec3 hit = offset - (b + sqrt(discriminant)) * ray;
+  float distance = -(view_center + hit).z;
+  if (distance < nearest) discard;
+  gl_FragDepth = nearest / distance;
+  color = tint;
+  normal = vec4(0.5 + 0.5 * hit / view_radius, 1.0);
+  depth = vec4(tint.a > 0.0 ? -distance : distance);
+}

@@ -1,0 +1,36 @@
+#version 330 core
+// A square for every sphere, between the eye and the sphere, that just covers its outline. Lengths in metres.
+uniform vec3 eye;
+uniform mat3 to_view;      // right, up, back
+uniform vec2 scale;        // from metres (at depth 1 where not parallel) to half a picture
+uniform bool parallel;     // the sun's rays
+
+layout(location = 0) in vec3 center;
+layout(location = 1) in float radius;
+layout(location = 2) in vec4 color;
+
+flat out vec3 view_center;
+flat out float view_radius;
+flat out vec4 tint;
+out vec3 offset;           // from the centre to a point of the square
+
+void main() {
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+  view_center = to_view * (center - eye);
+  view_radius = radius;
+  tint = color;
+  if (parallel) {
+    offset = radius * vec3(corner, 1.0);
+    gl_Position = vec4((view_center + offset).xy * scale, 0.0, 1.0);
+    return;
+  }
+  float d = length(view_center);
+  vec3 ahead = view_center / d;
+  float half_side = (d - radius) * radius / sqrt(max(d * d - radius * radius, 1e-20));
+  vec3 u = normalize(cross(abs(ahead.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0), ahead));
+  vec3 v = cross(ahead, u);
+  offset = -radius * ahead + half_side * (corner.x * u + corner.y * v);
+  vec3 point = view_center + offset;
+  // From inside of a sphere nothing of it is seen.
+  gl_Position = d > radius ? vec4(point.xy * scale, 0.0, -point.z) : vec4(2.0, 2.0, 2.0, 1.0);
+}

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hooke/base/expected.h"
+
+namespace hooke {
+
+/// A picture: 8 bits for each of red, green, blue (sRGB) and a fourth byte that is ignored; the first row is the top.
+struct Image {
+  static constexpr std::size_t kChannels = 4;
+
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> pixels;  ///< kChannels * width * height
+
+  Image() = default;
+  Image(int w, int h)
+      : width(w),
+        height(h),
+        pixels(kChannels * static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
+
+  std::uint8_t* at(int x, int y) {
+    return pixels.data() +
+           kChannels * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+  }
+  const std::uint8_t* at(int x, int y) const { return const_cast<Image*>(this)->at(x, y); }
+};
+
+/// The bytes of a PNG file, 8 bits a channel, without alpha.
+Expected<std::string> encode_png(const Image& image);
+/// The picture in a PNG file's bytes, whatever its kind; bad_input where they are none.
+Expected<Image> decode_png(const std::string& bytes);
+
+}  // namespace hooke

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "hooke/render/frame.h"
+#include "hooke/render/image.h"
+
+namespace hooke {
+
+struct RenderSettings {
+  int width = 1280;  ///< pixels, 1 to 16,384
+  int height = 720;
+  /// Each pixel is the mean of this squared, 1 to 4.
+  int samples = 2;
+};
+
+/// What drawing the last frame took.
+struct RenderFigures {
+  std::size_t spheres_drawn = 0;  ///< of all, after those that can't be seen were left out
+  double cull_seconds = 0;
+  double total_seconds = 0;
+};
+
+/// Draws frames into images. Belongs to the thread that made it.
+class Renderer {
+ public:
+  virtual ~Renderer() = default;
+  /// bad_input where the device can't draw a picture of this size.
+  virtual Expected<Image> render(const Frame& frame) = 0;
+  virtual RenderFigures figures() const = 0;
+  /// The device that draws, in its driver's words.
+  virtual std::string device() const = 0;
+};
+
+}  // namespace hooke

@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#include "hooke/render/visible_spheres.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "hooke/base/parallel.h"
+
+namespace hooke {
+
+namespace {
+
+constexpr std::size_t kGrain = 8192;
+constexpr std::size_t kBuckets = 16384;  // of distance
+constexpr std::size_t kBands = 4;        // of the picture, each by one thread
+
+// A sphere hides what is behind the middle of its disc, out to this share of its radius, beyond the distance at which
+// its surface lies there: sqrt(1 - 0.9^2) = 0.436 of the radius before its centre, and a little for perspective.
+constexpr float kHidingShare = 0.9f;
+constexpr float kHidingDepth = 0.4f;
+
+// A sphere on the picture.
+struct Disc {
+  float x, y;       // pixels
+  float inner;      // pixels, of a circle inside of the outline
+  float outer;      // pixels, of a circle around it
+  float distance;   // from the eye to the centre, along the ray where there is perspective, m
+  float radius;     // m
+  std::uint32_t sphere;
+};
+
+// Where the sphere is outside of the picture or behind the eye, outer < 0.
+Disc project(const Sphere& sphere, std::uint32_t index, const Projection& view) {
+  const Vec3f to{sphere.x - view.eye.x, sphere.y - view.eye.y, sphere.z - view.eye.z};
+  const float depth = -dot(to, view.back);
+  const float scale = view.parallel ? view.scale : view.scale / std::max(depth, view.nearest);
+  const float right = scale * dot(to, view.right), up = scale * dot(to, view.up);
+  Disc disc{0.5f * view.width + right,
+            0.5f * view.height + up,
+            scale * sphere.radius,
+            scale * sphere.radius,
+            depth,
+            sphere.radius,
+            index};
+  if (!view.parallel) {
+    disc.distance = std::sqrt(dot(to, to));
+    // Away from the picture's middle the outline is an ellipse that sticks out of the circle.
+    const float tangent_square = (right * right + up * up) / (view.scale * view.scale);
+    const float size_square = disc.inner * disc.inner / (view.scale * view.scale);
+    disc.outer *= std::sqrt((1 + tangent_square) / std::max(1e-3f, 1 - size_square)) + size_square;
+    if (disc.inner > 0.1f * view.scale) disc.inner = 0;  // too near for a circle: hides nothing
+  }
+  const bool outside = depth + sphere.radius < view.nearest || disc.x + disc.outer < 0 || disc.y + disc.outer < 0 ||
+                       disc.x - disc.outer > view.width || disc.y - disc.outer > view.height;
+  // What the eye may be in fills the picture.
+  if (!view.parallel && depth < view.nearest + 1.5f * sphere.radius) disc.outer = view.width + view.height;
+  if (outside) disc.outer = -1;
+  return disc;
+}
+
+// Which pixels of a band of rows are covered, a bit each.
+class Coverage {
+ public:
+  Coverage(int width, int first_row, int last_row)
+      : width_(width),
+        first_row_(first_row),
+        last_row_(last_row),
+        words_(static_cast<std::size_t>(width + 63) / 64),
+        bits_(words_ * static_cast<std::size_t>(last_row - first_row)) {}
+
+  // Whether every pixel with its centre in the disc is covered.
+  bool covers(float x, float y, float radius) const {
+    return each_word(x, y, radius, [&](std::size_t word, std::uint64_t mask) { return (bits_[word] & mask) == mask; });
+  }
+  void cover(float x, float y, float radius) {
+    each_word(x, y, radius, [&](std::size_t word, std::uint64_t mask) {
+      bits_[word] |= mask;
+      return true;
+    });
+  }
+
+ private:
+  // body(word, bits of it in the disc), for as long as it returns true; whether it always did.
+  template <class Body>
+  bool each_word(float x, float y, float radius, const Body& body) const {
+    const int low = std::max(first_row_, static_cast<int>(std::ceil(y - radius - 0.5f)));
+    const int high = std::min(last_row_ - 1, static_cast<int>(std::floor(y + radius - 0.5f)));
+    for (int row = low; row <= high; ++row) {
+      const float away = static_cast<float>(row) + 0.5f - y;
+      const float half = std::sqrt(std::max(0.0f, radius * radius - away * away));
+      const int left = std::max(0, static_cast<int>(std::ceil(x - half - 0.5f)));
+      const int right = std::min(width_ - 1, static_cast<int>(std::floor(x + half - 0.5f)));
+      for (int first = left; first <= right;) {
+        const int last = std::min(right, first | 63);
+        const std::uint64_t mask = (~std::uint64_t{0} >> (63 - (last - first))) << (first & 63);
+        const std::size_t word =
+            static_cast<std::size_t>(row - first_row_) * words_ + static_cast<std::size_t>(first / 64);
+        if (!body(word, mask)) return false;
+        first = last + 1;
+      }
+    }
+    return true;
+  }
+
+  int width_, first_row_, last_row_;
+  std::size_t words_;
+  std::vector<std::uint64_t> bits_;
+};
+
+// Discs in buckets of the distance of their nearest point.
+struct Buckets {
+  std::vector<Disc> discs;           // by bucket
+  std::vector<std::size_t> first;    // of each bucket, and the end
+  float nearest = 0, per_meter = 0;
+
+  // The first bucket all of which lies behind `distance`.
+  std::size_t behind(float distance) const { return of(distance) + 1; }
+  std::size_t of(float distance) const {
+    return static_cast<std::size_t>(std::clamp((distance - nearest) * per_meter, 0.0f, kBuckets - 1.0f));
+  }
+};
+
+float front(const Disc& disc) { return disc.distance - disc.radius; }
+
+Buckets sort_by_front(const std::vector<Disc>& discs) {
+  Buckets buckets;
+  float nearest = std::numeric_limits<float>::max(), farthest = std::numeric_limits<float>::lowest();
+  for (const Disc& disc : discs) {
+    if (disc.outer < 0) continue;
+    nearest = std::min(nearest, front(disc));
+    farthest = std::max(farthest, front(disc));
+  }
+  buckets.nearest = nearest;
+  buckets.per_meter = farthest > nearest ? kBuckets / (farthest - nearest) : 0;
+  buckets.first.assign(kBuckets + 1, 0);
+  for (const Disc& disc : discs) {
+    if (disc.outer >= 0) ++buckets.first[buckets.of(front(disc)) + 1];
+  }
+  for (std::size_t b = 0; b < kBuckets; ++b) buckets.first[b + 1] += buckets.first[b];
+  buckets.discs.resize(buckets.first.back());
+  std::vector<std::size_t> next(buckets.first.begin(), buckets.first.end() - 1);
+  for (const Disc& disc : discs) {
+    if (disc.outer >= 0) buckets.discs[next[buckets.of(front(disc))]++] = disc;
+  }
+  return buckets;
+}
+
+// Marks what is seen in the rows of one band, from the nearest to the farthest: a sphere is seen where a pixel of its
+// disc is not yet covered, and then covers, for all that begin behind its surface.
+void mark_seen(const Buckets& buckets, Coverage& coverage, float low, float high, std::vector<std::uint8_t>& seen) {
+  constexpr std::uint32_t kNone = static_cast<std::uint32_t>(-1);
+  std::vector<std::uint32_t> waiting(kBuckets, kNone);  // the last disc that will cover from this bucket on
+  struct Link {
+    std::uint32_t disc, previous;
+  };
+  std::vector<Link> links;
+  for (std::size_t b = 0; b < kBuckets; ++b) {
+    for (std::uint32_t link = waiting[b]; link != kNone; link = links[link].previous) {
+      const Disc& disc = buckets.discs[links[link].disc];
+      coverage.cover(disc.x, disc.y, kHidingShare * disc.inner);
+    }
+    for (std::size_t k = buckets.first[b]; k < buckets.first[b + 1]; ++k) {
+      const Disc& disc = buckets.discs[k];
+      if (disc.y + disc.outer < low || disc.y - disc.outer > high) continue;
+      if (coverage.covers(disc.x, disc.y, disc.outer)) continue;
+      seen[disc.sphere] = 1;
+      const std::size_t from = std::max(b + 1, buckets.behind(disc.distance - kHidingDepth * disc.radius));
+      if (from >= kBuckets || disc.inner <= 0) continue;
+      links.push_back({static_cast<std::uint32_t>(k), waiting[from]});
+      waiting[from] = static_cast<std::uint32_t>(links.size() - 1);
+    }
+  }
+}
+
+}  // namespace
+
+Projection project(const Camera& camera, int width, int height) {
+  const CameraAxes own = axes(camera);
+  const double half_angle = 0.5 * camera.field_of_view * std::numbers::pi / 180;
+  Projection view;
+  view.eye = vec_cast<float>(camera.eye);
+  view.right = vec_cast<float>(own.right);
+  view.up = vec_cast<float>(own.up);
+  view.back = vec_cast<float>(own.back);
+  view.width = static_cast<float>(width);
+  view.height = static_cast<float>(height);
+  view.scale = static_cast<float>(0.5 * height / std::tan(half_angle));
+  view.nearest = static_cast<float>(1e-3 * std::sqrt(dot(camera.eye - camera.target, camera.eye - camera.target)));
+  return view;
+}
+
+std::vector<std::uint32_t> visible_spheres(std::span<const Sphere> spheres, const Projection& view) {
+  std::vector<Disc> discs(spheres.size());
+  parallel_ranges(spheres.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) discs[i] = project(spheres[i], static_cast<std::uint32_t>(i), view);
+  });
+  const Buckets buckets = sort_by_front(discs);
+
+  // Bands share no pixel, so each has its own marks.
+  const int width = static_cast<int>(view.width), height = static_cast<int>(view.height);
+  std::vector<std::vector<std::uint8_t>> seen(kBands, std::vector<std::uint8_t>(spheres.size()));
+  parallel_ranges(kBands, 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t band = first; band < last; ++band) {
+      const int low = height * static_cast<int>(band) / static_cast<int>(kBands);
+      const int high = height * static_cast<int>(band + 1) / static_cast<int>(kBands);
+      Coverage coverage(width, low, high);
+      mark_seen(buckets, coverage, static_cast<float>(low), static_cast<float>(high), seen[band]);
+    }
+  });
+  std::vector<std::uint32_t> visible;
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    if (std::any_of(seen.begin(), seen.end(), [i](const auto& band) { return band[i] != 0; })) {
+      visible.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+  return visible;
+}
+
+}  // namespace hooke

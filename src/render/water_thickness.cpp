@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#include "hooke/render/water_thickness.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "hooke/base/parallel.h"
+
+namespace hooke {
+
+namespace {
+
+constexpr float kPacking = 1.25f;  // 0.64 of their own volume: those of Frame are larger by a quarter
+// Sums of whole numbers do not depend on their order.
+constexpr float kUnits = 1 << 14;  // a typical radius
+
+// Each cell becomes combine(the one before, itself, the one after), along the rows and then along the columns.
+template <class Combine>
+void filter(WaterThickness& thickness, const Combine& combine) {
+  const auto along = [&](int count, int lines, int step, int line_step) {
+    std::vector<float> line(static_cast<std::size_t>(count) + 2);
+    for (int l = 0; l < lines; ++l) {
+      float* const cells = thickness.meters.data() + static_cast<std::ptrdiff_t>(l) * line_step;
+      const auto cell = [&](int i) -> float& { return cells[static_cast<std::ptrdiff_t>(i) * step]; };
+      for (int i = 0; i < count; ++i) line[static_cast<std::size_t>(i) + 1] = cell(i);
+      line.front() = line[1];
+      line.back() = line[static_cast<std::size_t>(count)];
+      for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+        cell(static_cast<int>(i)) = combine(line[i], line[i + 1], line[i + 2]);
+      }
+    }
+  };
+  along(thickness.columns, thickness.rows, 1, thickness.columns);
+  along(thickness.rows, thickness.columns, thickness.columns, 1);
+}
+
+}  // namespace
+
+WaterThickness water_thickness(std::span<const Sphere> spheres, const Projection& view) {
+  WaterThickness thickness;
+  thickness.columns = static_cast<int>(std::ceil(view.width / WaterThickness::kCell));
+  thickness.rows = static_cast<int>(std::ceil(view.height / WaterThickness::kCell));
+  const std::size_t cells = static_cast<std::size_t>(thickness.columns) * static_cast<std::size_t>(thickness.rows);
+  thickness.meters.resize(cells);
+  const auto first_water = std::find_if(spheres.begin(), spheres.end(), [](const Sphere& s) { return s.foam > 0; });
+  if (first_water == spheres.end()) return thickness;
+
+  const float unit = first_water->radius / kUnits;
+  std::vector<std::uint64_t> sums(cells);
+  parallel_ranges(spheres.size(), 8192, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const Sphere& sphere = spheres[i];
+      if (sphere.foam == 0) continue;
+      const Vec3f to{sphere.x - view.eye.x, sphere.y - view.eye.y, sphere.z - view.eye.z};
+      const float depth = -dot(to, view.back);
+      if (depth < view.nearest) continue;
+      const float scale = view.parallel ? view.scale : view.scale / depth;
+      const float x = (0.5f * view.width + scale * dot(to, view.right)) / WaterThickness::kCell;
+      const float y = (0.5f * view.height + scale * dot(to, view.up)) / WaterThickness::kCell;
+      if (!(x >= 0 && y >= 0 && x < static_cast<float>(thickness.columns) && y < static_cast<float>(thickness.rows))) {
+        continue;
+      }
+      const float side = WaterThickness::kCell / scale;  // of a cell at this depth, m
+      const float volume = 4 * std::numbers::pi_v<float> / 3 * sphere.radius * sphere.radius * sphere.radius;
+      const float meters = std::min(volume / kPacking / (side * side), 100 * sphere.radius);
+      const std::size_t cell =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(thickness.columns) + static_cast<std::size_t>(x);
+      std::atomic_ref(sums[cell]).fetch_add(static_cast<std::uint64_t>(meters / unit), std::memory_order_relaxed);
+    }
+  });
+  for (std::size_t c = 0; c < cells; ++c) thickness.meters[c] = unit * static_cast<float>(sums[c]);
+  // Cells at the rim are filled in part only: they take after their neighbours. Then no cell may show.
+  filter(thickness, [](float before, float own, float after) { return std::max({before, own, after}); });
+  filter(thickness, [](float before, float own, float after) { return 0.25f * (before + after) + 0.5f * own; });
+  filter(thickness, [](float before, float own, float after) { return 0.25f * (before + after) + 0.5f * own; });
+  return thickness;
+}
+
+}  // namespace hooke
