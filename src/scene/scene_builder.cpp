@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "hooke/scene/json_path.h"
 #include "hooke/scene/nearest.h"
@@ -90,8 +91,21 @@ void build_materials(const Json& materials, Scene& scene, Findings& findings) {
     material.contact.damping = value("damping", 0);
     material.drag = value("drag", 0);
     material.color = text_or(member(entry, "color"), "");
+    if (member(entry, "look") == "water") material.look = MaterialLook::water;
     scene.materials.push_back(std::move(material));
   }
+}
+
+void build_camera(const Json& camera, Scene& scene, Findings& findings) {
+  const auto point = [&](const char* key) -> std::optional<Vec3d> {
+    if (!member(camera, key).is_array() || findings.touches(join_path("camera", key))) return {};
+    return vec3_or(member(camera, key), {});
+  };
+  scene.camera.eye = point("eye");
+  scene.camera.target = point("target");
+  if (findings.touches("camera")) return;
+  scene.camera.field_of_view = number_or(member(camera, "field_of_view"), scene.camera.field_of_view);
+  scene.camera.orbit = number_or(member(camera, "orbit"), scene.camera.orbit);
 }
 
 std::vector<std::string> names_of(const std::vector<Material>& materials) {
@@ -210,6 +224,7 @@ Scene build_scene(Json& json, Findings& findings) {
     scene.output.seconds = number_or(member(json.at("output"), "every"), 0);
     scene.output.steps = count_or(member(json.at("output"), "every_steps"), 0);
   }
+  build_camera(member(json, "camera"), scene, findings);
   add_core_findings(scene, contacts.index_of, findings);
   return scene;
 }
