@@ -156,13 +156,10 @@ void add_export(CLI::App& app, CommandLine& line) {
     return command.add_option(name, value, fmt::format("{} (default: {})", description, value))->option_text("R");
   };
   SurfaceOptions& surface = exports.surface;
-  add_surface_option("--surface-radius", surface.radius, "of the sphere that each particle adds, in its own radii")
-      ->check(CLI::PositiveNumber);
+  add_surface_option("--surface-radius", surface.radius, "of the sphere that a particle stands for, in its own radii");
   add_surface_option("--surface-smoothing", surface.smoothing,
-                     "how far bumps are smoothed away, in radii of the smallest particle")
-      ->check(CLI::NonNegativeNumber);
-  add_surface_option("--surface-resolution", surface.resolution, "edge of a voxel, in radii of the smallest particle")
-      ->check(CLI::PositiveNumber);
+                     "how far beyond it a particle blends with others, in its own radii");
+  add_surface_option("--surface-resolution", surface.resolution, "edge of a voxel, in radii of the smallest particle");
   command.footer(format_list);
   command.callback([&line] { line.command = [&line] { return export_command(line.exports); }; });
 }

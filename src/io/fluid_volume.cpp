@@ -4,12 +4,13 @@
 #include "hooke/io/fluid_volume.h"
 
 #include <fmt/format.h>
+#include <openvdb/tools/ChangeBackground.h>
 #include <openvdb/tools/FastSweeping.h>
-#include <openvdb/tools/LevelSetTracker.h>
 #include <openvdb/tools/LevelSetUtil.h>
 #include <openvdb/tools/Morphology.h>
 #include <openvdb/tools/Prune.h>
 #include <openvdb/tools/SignedFloodFill.h>
+#include <openvdb/tree/LeafManager.h>
 
 #include <cmath>
 #include <numeric>
@@ -24,16 +25,14 @@ namespace {
 constexpr float kBand = 3;  // voxels, half-width of a level set
 
 void check(const SurfaceOptions& options, const std::filesystem::path& file) {
-  const auto refuse = [&](const char* name, double value, const char* allowed) {
-    throw Failure(Error::Kind::bad_input, file, fmt::format("can't draw a surface: {} {} {}", name, value, allowed));
+  const auto check_range = [&](const char* name, double value, double min, double max) {
+    if (value >= min && value <= max) return;
+    throw Failure(Error::Kind::bad_input, file,
+                  fmt::format("can't draw a surface: {} {} is not from {} to {}", name, value, min, max));
   };
-  if (!(options.radius >= 0.1 && options.radius <= 10)) refuse("radius", options.radius, "is not from 0.1 to 10");
-  if (!(options.smoothing >= 0.1 && options.smoothing <= 10)) {
-    refuse("smoothing", options.smoothing, "is not from 0.1 to 10");
-  }
-  if (!(options.resolution >= 0.1 && options.resolution <= options.radius)) {
-    refuse("resolution", options.resolution, fmt::format("is not from 0.1 to the radius, {}", options.radius).c_str());
-  }
+  check_range("radius", options.radius, 0.1, 10);
+  check_range("resolution", options.resolution, 0.1, options.radius);
+  check_range("smoothing", options.smoothing, options.resolution, 10);
 }
 
 openvdb::Coord corner(const FieldBlocks::Coordinates& at) {
@@ -136,7 +135,19 @@ openvdb::FloatGrid::Ptr FluidVolume::level_set() const {
   openvdb::tools::dilateActiveValues(band->tree(), static_cast<int>(kBand));
   field->topologyIntersection(*band);
   openvdb::FloatGrid::Ptr grid = openvdb::tools::sdfToSdf(*field);
-  openvdb::tools::LevelSetTracker<openvdb::FloatGrid>(*grid).prune();
+
+  // Beyond the band everything is the background.
+  const float background = kBand * static_cast<float>(voxel_);
+  openvdb::tree::LeafManager<openvdb::FloatTree> leaves(grid->tree());
+  leaves.foreach ([background](openvdb::FloatTree::LeafNodeType& leaf, std::size_t) {
+    for (openvdb::Index v = 0; v < FieldBlocks::kVoxels; ++v) {
+      const float distance = leaf.getValue(v);
+      if (leaf.isValueOn(v) && std::abs(distance) < background) continue;
+      leaf.setValueOff(v, distance < 0 ? -background : background);
+    }
+  });
+  openvdb::tools::changeLevelSetBackground(grid->tree(), background);
+  openvdb::tools::pruneLevelSet(grid->tree());
   return grid;
 }
 
