@@ -71,16 +71,15 @@ TEST_F(ExportCommand, AsAndTheSurfaceAreChecked) {
   const Outcome unknown = hooke({"export", "s", "--as", "surface", "-o", "p.csv"});
   EXPECT_EQ(unknown.status, 2);
   EXPECT_THAT(unknown.err, HasSubstr("no extension that names a format for surface"));
-  for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{{"--as", "foam"},
-                                                                                     {"--surface-radius", "0"},
-                                                                                     {"--surface-smoothing", "-1"},
-                                                                                     {"--surface-resolution", "0"},
-                                                                                     {"--surface-radius", "big"}}) {
-    const Outcome outcome = hooke({"export", "s", "-o", "q.csv", wrong[0], wrong[1]});
+  EXPECT_EQ(hooke({"export", "s", "--as", "foam", "-o", "q.csv"}).status, 2);
+  for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{
+           {"radius", "0"}, {"smoothing", "-1"}, {"resolution", "0"}, {"radius", "big"}}) {
+    const Outcome outcome = hooke({"export", "s", "--as", "surface", "-o", "q.obj", "--surface-" + wrong[0], wrong[1]});
     EXPECT_EQ(outcome.status, 2) << testing::PrintToString(wrong);
     EXPECT_THAT(outcome.err, HasSubstr(wrong[0]));
   }
   EXPECT_FALSE(exists("q.csv"));
+  EXPECT_FALSE(exists("q.obj"));
 }
 
 }  // namespace
