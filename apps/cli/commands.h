@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "hooke/io/export.h"
+#include "hooke/render/coloring.h"
 
 namespace hooke::cli {
 
@@ -33,6 +35,17 @@ struct DeviceArguments {
   int threads = 0;  ///< 0: as many as the machine has
 };
 
+/// How pictures are taken.
+struct PictureArguments {
+  int width = 1280;  ///< pixels
+  int height = 720;  ///< pixels
+  double frames_per_second = 30;
+  int samples = 2;  ///< squared, a pixel
+  ColorBy color_by = ColorBy::material;
+  std::optional<std::array<double, 2>> range;  ///< of the colour map
+  bool legend = true;
+};
+
 struct RunArguments {
   SceneArguments scene;
   DeviceArguments device;
@@ -40,6 +53,8 @@ struct RunArguments {
   bool overwrite = false;
   std::filesystem::path resume;           ///< a checkpoint, or empty
   std::optional<double> checkpoint_every; ///< simulated seconds
+  std::filesystem::path film;             ///< empty: none
+  PictureArguments picture;               ///< of the film
   std::filesystem::path report;           ///< empty: only the run folder's
   bool quiet = false;
 };
@@ -58,6 +73,14 @@ struct BenchArguments {
   bool json = false;
 };
 
+struct RenderArguments {
+  std::filesystem::path run;
+  std::filesystem::path output;
+  std::optional<double> time;          ///< of a still, s
+  std::vector<std::string> overrides;  ///< of the run's scene, PATH=VALUE
+  PictureArguments picture;
+};
+
 struct ExportArguments {
   std::filesystem::path run;
   std::filesystem::path output;
@@ -72,6 +95,7 @@ struct ExportArguments {
 ExitStatus run_command(const RunArguments& arguments);
 ExitStatus check_command(const CheckArguments& arguments);
 ExitStatus bench_command(const BenchArguments& arguments);
+ExitStatus render_command(const RenderArguments& arguments);
 ExitStatus export_command(const ExportArguments& arguments);
 ExitStatus info_command(const std::filesystem::path& file);
 ExitStatus scenes_command();

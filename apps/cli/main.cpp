@@ -13,6 +13,7 @@
 #include <new>
 
 #include "commands.h"
+#include "hooke/render/film.h"
 #include "log.h"
 
 namespace hooke::cli {
@@ -25,6 +26,7 @@ struct CommandLine {
   RunArguments run;
   CheckArguments check;
   BenchArguments bench;
+  RenderArguments render;
   ExportArguments exports;
   std::filesystem::path info;
   std::optional<std::int64_t> steps;
@@ -53,6 +55,48 @@ void add_device_options(CLI::App& command, DeviceArguments& device) {
       ->check(CLI::IsMember({"cpu", "reference", "cuda", "auto"}));
 }
 
+// "1280x720" into width and height.
+std::string parse_size(const std::string& text, PictureArguments& picture) {
+  int width = 0, height = 0;
+  char rest = 0;
+  constexpr int kMost = 16384;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 1 || height < 1 || width > kMost ||
+      height > kMost) {
+    return fmt::format("{} is no size such as 1280x720, from 1x1 to {}x{}", text, kMost, kMost);
+  }
+  picture.width = width;
+  picture.height = height;
+  return {};
+}
+
+void add_picture_options(CLI::App& command, PictureArguments& picture) {
+  command
+      .add_option_function<std::string>(
+          "--size", [](const std::string&) {}, "of the picture, pixels (default: 1280x720)")
+      ->option_text("WxH")
+      ->check([&picture](const std::string& text) { return parse_size(text, picture); });
+  command.add_option("--fps", picture.frames_per_second, "frames of a film for each simulated second (default: 30)")
+      ->option_text("F")
+      ->check(CLI::Range(1e-3, 1000.0));
+  std::map<std::string, ColorBy> names;
+  for (const ColorByName& name : kColorByNames) names[name.name] = name.by;
+  command
+      .add_option("--color-by", picture.color_by,
+                  "material (default), speed, height, pressure, contacts or id; all but material with a legend")
+      ->option_text("WHAT")
+      ->transform(CLI::CheckedTransformer(names));
+  command
+      .add_option_function<std::vector<double>>(
+          "--color-range", [&picture](const std::vector<double>& ends) { picture.range = {ends[0], ends[1]}; },
+          "values at the two ends of the colours (default: from the scene)")
+      ->option_text("LOW HIGH")
+      ->expected(2);
+  command.add_option("--samples", picture.samples, "samples a pixel, along each side (default: 2)")
+      ->option_text("N")
+      ->check(CLI::Range(1, 4));
+  command.add_flag("!--no-legend", picture.legend, "leave out the time and the legend");
+}
+
 void add_run(CLI::App& app, CommandLine& line) {
   CLI::App& command =
       *app.add_subcommand("run", "run a scene and write a folder with its snapshots, series and checkpoint");
@@ -77,6 +121,10 @@ void add_run(CLI::App& app, CommandLine& line) {
                   "simulated seconds between checkpoints (default: ten a run)")
       ->option_text("T")
       ->check(CLI::PositiveNumber);
+  command
+      .add_option("--film", run.film, fmt::format("draw a film while it runs, into this file ({})", film_extensions()))
+      ->option_text("FILE");
+  add_picture_options(command, run.picture);
   command.add_option("--report", run.report, "write the report to this file too")->option_text("FILE");
   command.add_flag("-q,--quiet", run.quiet, "print nothing but errors");
   command.callback([&line] {
@@ -115,6 +163,25 @@ void add_bench(CLI::App& app, CommandLine& line) {
   add_device_options(command, bench.device);
   command.add_flag("--json", bench.json, "print one JSON object");
   command.callback([&line] { line.command = [&line] { return bench_command(line.bench); }; });
+}
+
+void add_render(CLI::App& app, CommandLine& line) {
+  CLI::App& command = *app.add_subcommand("render", "draw a picture or a film of a run");
+  RenderArguments& render = line.render;
+  command.add_option("RUN", render.run, "run folder")->required();
+  command
+      .add_option("-o,--output", render.output,
+                  fmt::format("picture (.png), numbered pictures (frame_%04d.png) or film ({})", film_extensions()))
+      ->option_text("FILE")
+      ->required();
+  command.add_option("--time", render.time, "of a picture, s, between two snapshots too (default: the last snapshot)")
+      ->option_text("T");
+  add_picture_options(command, render.picture);
+  command
+      .add_option("--set", render.overrides, "replace a value of the run's scene, e.g. camera.orbit=5; may be repeated")
+      ->option_text("PATH=VALUE")
+      ->allow_extra_args(false);
+  command.callback([&line] { line.command = [&line] { return render_command(line.render); }; });
 }
 
 constexpr ExportContent kContents[] = {ExportContent::particles, ExportContent::surface, ExportContent::volume,
@@ -184,6 +251,7 @@ ExitStatus parse_and_run(int argc, char** argv) {
   add_run(app, line);
   add_check(app, line);
   add_bench(app, line);
+  add_render(app, line);
   add_export(app, line);
   add_others(app, line);
   try {

@@ -19,33 +19,51 @@ constexpr std::chrono::seconds kRateWindow{5};
 
 }  // namespace
 
+StatusLine::StatusLine(bool wanted) : wanted_(wanted), terminal_(isatty(STDOUT_FILENO) != 0), printed_(Clock::now()) {}
+
+StatusLine::~StatusLine() { clear(); }
+
+bool StatusLine::due() const {
+  const Clock::duration interval = terminal_ ? Clock::duration(kTerminalInterval) : Clock::duration(kPipeInterval);
+  return wanted_ && Clock::now() - printed_ >= interval;
+}
+
+void StatusLine::show(const std::string& text) {
+  printed_ = Clock::now();
+  fmt::print("{}{}{}", terminal_ ? "\r\x1b[K" : "", text, terminal_ ? "" : "\n");
+  std::fflush(stdout);
+  shown_ = terminal_;
+}
+
+void StatusLine::clear() {
+  if (!shown_) return;
+  fmt::print("\r\x1b[K");
+  std::fflush(stdout);
+  shown_ = false;
+}
+
 Progress::Progress(std::int64_t first, std::int64_t last, double time_step, bool wanted)
     : last_(last),
       time_step_(time_step),
       wanted_(wanted),
-      terminal_(isatty(STDOUT_FILENO) != 0),
-      printed_(Clock::now()),
-      recent_{{printed_, first}} {}
-
-Progress::~Progress() { clear(); }
+      status_(wanted),
+      recent_{{Clock::now(), first}} {}
 
 void Progress::update(std::int64_t step, std::uint64_t particles) {
   if (!wanted_) return;
   const Clock::time_point now = Clock::now();
   recent_.push_back({now, step});
   while (recent_.size() > 2 && now - recent_[1].at > kRateWindow) recent_.pop_front();
-  if (now - printed_ < (terminal_ ? Clock::duration(kTerminalInterval) : Clock::duration(kPipeInterval))) return;
-  printed_ = now;
-  fmt::print("{}{}{}", terminal_ ? "\r\x1b[K" : "", line(step, particles), terminal_ ? "" : "\n");
-  std::fflush(stdout);
-  shown_ = terminal_;
+  status_.update([&] { return line(step, particles); });
 }
 
-void Progress::clear() {
-  if (!shown_) return;
-  fmt::print("\r\x1b[K");
-  std::fflush(stdout);
-  shown_ = false;
+void FrameProgress::update(std::int64_t done) {
+  status_.update([&] {
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const double a_frame = seconds / static_cast<double>(done);
+    return fmt::format("frame {} of {}   {:.2f} s a frame   left {}", done, count_, a_frame,
+                       clock_time(a_frame * static_cast<double>(count_ - done)));
+  });
 }
 
 std::string Progress::line(std::int64_t step, std::uint64_t particles) const {

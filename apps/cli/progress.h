@@ -9,20 +9,43 @@
 
 namespace hooke::cli {
 
-/// Tells how far a run is: on a terminal one line that is rewritten, on a pipe a plain line every ten seconds.
+/// Says how something goes on: on a terminal one line that is rewritten, on a pipe a plain line every ten seconds.
+class StatusLine {
+ public:
+  /// Silent unless `wanted`.
+  explicit StatusLine(bool wanted);
+  ~StatusLine();
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
+
+  /// Prints text() when it is time to.
+  template <class Text>
+  void update(const Text& text) {
+    if (due()) show(text());
+  }
+  /// Takes the line off the terminal, so that something else can be printed.
+  void clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool due() const;
+  void show(const std::string& text);
+
+  bool wanted_;
+  bool terminal_;
+  bool shown_ = false;
+  Clock::time_point printed_;
+};
+
+/// Tells how far a run is.
 class Progress {
  public:
   /// A run from step `first` to step `last` of `time_step` seconds each. Silent unless `wanted`.
   Progress(std::int64_t first, std::int64_t last, double time_step, bool wanted);
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
 
   /// `step` steps are done and `particles` are there. Cheap: prints only when it is time to.
   void update(std::int64_t step, std::uint64_t particles);
-
-  /// Takes the line off the terminal, so that something else can be printed.
-  void clear();
+  void clear() { status_.clear(); }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -36,10 +59,20 @@ class Progress {
   std::int64_t last_;
   double time_step_;
   bool wanted_;
-  bool terminal_;
-  bool shown_ = false;
-  Clock::time_point printed_;
+  StatusLine status_;
   std::deque<Sample> recent_;  // of the last seconds: what the rate is taken from
+};
+
+/// Tells how many of a film's frames are drawn.
+class FrameProgress {
+ public:
+  explicit FrameProgress(std::int64_t count) : count_(count) {}
+  void update(std::int64_t done);
+
+ private:
+  std::int64_t count_;
+  StatusLine status_{true};
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 /// "512,000": a whole number with its thousands apart.

@@ -8,12 +8,15 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <system_error>
 #include <utility>
 
 #include "commands.h"
+#include "film_thread.h"
 #include "hooke/io/describe_file.h"
 #include "hooke/io/run_folder.h"
+#include "hooke/render/film.h"
 #include "interrupt.h"
 #include "log.h"
 #include "open_simulation.h"
@@ -31,9 +34,12 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 class Run {
  public:
   /// `in_place`: the folder holds what this run has written up to the step that it goes on from.
-  Run(Simulation& simulation, RunWriter& writer, const OutputCadence& checkpoints, bool in_place, bool quiet)
+  /// `film`: where one is drawn, or null.
+  Run(Simulation& simulation, RunWriter& writer, FilmThread* film, const OutputCadence& checkpoints, bool in_place,
+      bool quiet)
       : simulation_(simulation),
         writer_(writer),
+        film_(film),
         checkpoints_(checkpoints),
         new_folder_(!in_place),
         first_(simulation.step_count()),
@@ -62,13 +68,16 @@ class Run {
     return simulation_.scene().output.is_due(step, simulation_.scene().time_step);
   }
   bool checkpoint_due(std::int64_t step) const { return checkpoints_.is_due(step, simulation_.scene().time_step); }
+  bool frame_due(std::int64_t step) const {
+    return film_ != nullptr && film_->is_due(static_cast<double>(step) * simulation_.scene().time_step);
+  }
 
   // Steps up to the next output, but for no longer than a fraction of a second: signals and progress wait meanwhile.
   Expected<void> advance() {
     const std::int64_t now = simulation_.step_count();
     const std::int64_t most = std::min(last_, now + batch_);
     std::int64_t target = now + 1;
-    while (target < most && !output_due(target) && !checkpoint_due(target)) ++target;
+    while (target < most && !output_due(target) && !checkpoint_due(target) && !frame_due(target)) ++target;
 
     const Clock::time_point start = Clock::now();
     if (auto stepped = simulation_.step(target - now); !stepped) return stepped;
@@ -85,6 +94,7 @@ class Run {
   // What is due at this step; at the end of the run, everything.
   Expected<void> write_outputs(bool at_end) {
     const std::int64_t step = simulation_.step_count();
+    if (frame_due(step)) film_->show(simulation_);
     const bool must = at_end || (step == first_ && new_folder_);
     if (must || output_due(step)) {
       const auto measurements = simulation_.measure();
@@ -105,6 +115,7 @@ class Run {
 
   Simulation& simulation_;
   RunWriter& writer_;
+  FilmThread* film_;
   OutputCadence checkpoints_;
   bool new_folder_;
   std::int64_t first_;
@@ -189,6 +200,20 @@ void print_summary(const RunReport& report, const RunWriter& writer) {
   fmt::print("written to {}\n", writer.folder().string());
 }
 
+// Whether the film is whole; if not, that has been said.
+bool finish_film(FilmThread& film, const RunArguments& arguments) {
+  const auto summary = film.finish();
+  if (!summary) return false;
+  const double length = static_cast<double>(summary->frames) / arguments.picture.frames_per_second;
+  spdlog::info("film of {} frames, {:.2f} s each to draw: {}", summary->frames, summary->seconds_a_frame,
+               arguments.film.string());
+  if (!arguments.quiet) {
+    fmt::print("film of {} frames, {:.2f} s, {:.2f} s each to draw, in {}\n", summary->frames, length,
+               summary->seconds_a_frame, arguments.film.string());
+  }
+  return true;
+}
+
 // A run that failed keeps its last good state; says which.
 ExitStatus report_failure(const Error& error, RunWriter& writer) {
   const ExitStatus status = report_error(error, true);
@@ -214,6 +239,13 @@ ExitStatus run_command(const RunArguments& arguments) {
       return report_error(writable.error());
     }
   }
+  if (!arguments.film.empty()) {
+    const PictureArguments& p = arguments.picture;
+    if (auto possible = check_film(arguments.film, {p.width, p.height, p.frames_per_second}); !possible) {
+      return report_error(possible.error());
+    }
+    if (auto writable = check_output_file(arguments.film, "--film"); !writable) return report_error(writable.error());
+  }
   auto opened = open_simulation(arguments.scene, arguments.device, arguments.resume);
   if (!opened) return report_error(opened.error());
   Simulation& simulation = opened->simulation;
@@ -223,14 +255,21 @@ ExitStatus run_command(const RunArguments& arguments) {
          {{arguments.resume.string(), fmt::format("is of step {}, after the end of the run at step {}",
                                                   simulation.step_count(), simulation.scene().steps)}}});
   }
+  std::unique_ptr<FilmThread> film;
+  if (!arguments.film.empty()) {
+    auto started = FilmThread::start(arguments.film, arguments.picture, simulation);
+    if (!started) return report_error(started.error());
+    film = std::move(*started);
+  }
   auto writer = open_writer(arguments, *opened);
   if (!writer) return report_error(writer.error());
   if (auto logging = log_to_file(writer->log_path()); !logging) return report_error(logging.error(), true);
   log_start(*opened);
 
-  Run run(simulation, *writer, checkpoint_cadence(arguments.checkpoint_every, simulation.scene().steps),
+  Run run(simulation, *writer, film.get(), checkpoint_cadence(arguments.checkpoint_every, simulation.scene().steps),
           resumes_in_place(arguments), arguments.quiet);
   const auto complete = run.to_the_end();
+  const bool film_good = film == nullptr || finish_film(*film, arguments);
   if (!complete) return report_failure(complete.error(), *writer);
   const auto report = write_reports(run, simulation, *writer, arguments);
   if (!report) return report_failure(report.error(), *writer);
@@ -243,7 +282,7 @@ ExitStatus run_command(const RunArguments& arguments) {
     return kInterrupted;
   }
   if (!arguments.quiet) print_summary(*report, *writer);
-  return kDone;
+  return film_good ? kDone : kRunFailed;
 }
 
 }  // namespace hooke::cli

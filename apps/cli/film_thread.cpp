@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "film_thread.h"
+
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <condition_variable>
+#include <deque>
+#include <future>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "hooke/render/film.h"
+#include "hooke/render/interpolate.h"
+#include "studio.h"
+
+namespace hooke::cli {
+
+struct FilmThread::Impl {
+  struct Shot {
+    ParticleSet particles;
+    double late = 0;  // s after the time of the frame
+    double time = 0;  // of the frame, s
+  };
+  static constexpr std::size_t kMostWaiting = 2;
+
+  std::filesystem::path file;
+  PictureArguments picture;
+  std::int64_t next_frame = 0;  // its time is next_frame / frames_per_second
+
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::deque<Shot> waiting;
+  bool ending = false;
+  std::optional<Error> error;  // nothing is drawn any more
+  Summary summary;
+  std::thread thread;
+
+  double time_of(std::int64_t frame) const { return static_cast<double>(frame) / picture.frames_per_second; }
+
+  // The thread's own: OpenGL belongs to the one that opened it.
+  void draw(const Simulation& simulation, std::promise<Expected<void>> started) {
+    auto studio = Studio::open(picture);
+    if (!studio) return started.set_value(fail(std::move(studio).error()));
+    auto film = FilmWriter::create(file, {picture.width, picture.height, picture.frames_per_second});
+    if (!film) return started.set_value(fail(std::move(film).error()));
+    studio->set_scene(simulation.scene(), simulation.particles());
+    started.set_value({});
+
+    double seconds = 0;
+    while (std::optional<Shot> shot = take()) {
+      auto image =
+          studio->picture(shot->late > 0 ? drawn_back(shot->particles, shot->late) : shot->particles, shot->time);
+      seconds += studio->figures().total_seconds;
+      auto added = image ? film->add(*image) : Expected<void>(fail(std::move(image).error()));
+      if (!added) return give_up(std::move(added).error());
+    }
+    if (auto finished = film->finish(); !finished) return give_up(std::move(finished).error());
+    const std::lock_guard lock(mutex);
+    summary = {film->frames(), film->frames() > 0 ? seconds / static_cast<double>(film->frames()) : 0};
+  }
+
+  // The next shot; none where the film is to end.
+  std::optional<Shot> take() {
+    std::unique_lock lock(mutex);
+    changed.wait(lock, [&] { return ending || !waiting.empty(); });
+    if (waiting.empty()) return {};
+    Shot shot = std::move(waiting.front());
+    waiting.pop_front();
+    changed.notify_all();
+    return shot;
+  }
+
+  void give_up(Error why) {
+    spdlog::error("the film ends here: {}", why.text());
+    const std::lock_guard lock(mutex);
+    error = std::move(why);
+    waiting.clear();
+    changed.notify_all();
+  }
+
+  void end() {
+    {
+      const std::lock_guard lock(mutex);
+      ending = true;
+      changed.notify_all();
+    }
+    if (thread.joinable()) thread.join();
+  }
+};
+
+Expected<std::unique_ptr<FilmThread>> FilmThread::start(const std::filesystem::path& file,
+                                                        const PictureArguments& picture, const Simulation& simulation) {
+  auto impl = std::make_unique<Impl>();
+  impl->file = file;
+  impl->picture = picture;
+  impl->next_frame = static_cast<std::int64_t>(std::ceil(simulation.time() * picture.frames_per_second - 1e-6));
+  std::promise<Expected<void>> started;
+  auto outcome = started.get_future();
+  impl->thread = std::thread([&impl = *impl, &simulation, started = std::move(started)]() mutable {
+    impl.draw(simulation, std::move(started));
+  });
+  if (auto good = outcome.get(); !good) {
+    impl->thread.join();
+    return fail(std::move(good).error());
+  }
+  return std::unique_ptr<FilmThread>(new FilmThread(std::move(impl)));
+}
+
+FilmThread::FilmThread(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+FilmThread::~FilmThread() { impl_->end(); }
+
+bool FilmThread::is_due(double time) const { return impl_->time_of(impl_->next_frame) <= time + 1e-9; }
+
+void FilmThread::show(const Simulation& simulation) {
+  for (const double time = simulation.time(); is_due(time); ++impl_->next_frame) {
+    const double frame_time = impl_->time_of(impl_->next_frame);
+    std::unique_lock lock(impl_->mutex);
+    impl_->changed.wait(lock, [&] { return impl_->error || impl_->waiting.size() < Impl::kMostWaiting; });
+    if (impl_->error) return;
+    impl_->waiting.push_back({simulation.particles(), std::max(0.0, time - frame_time), frame_time});
+    impl_->changed.notify_all();
+  }
+}
+
+Expected<FilmThread::Summary> FilmThread::finish() {
+  impl_->end();
+  if (impl_->error) return fail(*impl_->error);
+  return impl_->summary;
+}
+
+}  // namespace hooke::cli

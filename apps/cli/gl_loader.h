@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "hooke/base/expected.h"
+#include "hooke/render/renderer.h"
+
+/// What hooke-gl.so exports.
+extern "C" void hooke_make_gl_renderer(const hooke::RenderSettings& settings,
+                                       hooke::Expected<std::unique_ptr<hooke::Renderer>>& renderer);
+
+namespace hooke::cli {
+
+/// make_gl_renderer() of hooke-gl.so, which lies beside this program or in its library folder. bad_input where it, or
+/// what it needs, can't be loaded. The renderer belongs to the thread that calls this.
+Expected<std::unique_ptr<Renderer>> load_gl_renderer(const RenderSettings& settings);
+
+}  // namespace hooke::cli

@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+// The part of the program that needs OpenGL's libraries, loaded only when a picture is wanted: everything else runs
+// where there are none (gl_loader.h).
+
+#include "gl_loader.h"
+#include "hooke/render/gl/gl_renderer.h"
+
+extern "C" __attribute__((visibility("default"))) void hooke_make_gl_renderer(
+    const hooke::RenderSettings& settings, hooke::Expected<std::unique_ptr<hooke::Renderer>>& renderer) {
+  renderer = hooke::make_gl_renderer(settings);
+}

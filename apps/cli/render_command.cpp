@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <regex>
+#include <utility>
+
+#include "commands.h"
+#include "hooke/io/report.h"
+#include "hooke/io/run_folder.h"
+#include "hooke/render/film.h"
+#include "hooke/render/interpolate.h"
+#include "hooke/scene/load_scene.h"
+#include "interrupt.h"
+#include "log.h"
+#include "output_file.h"
+#include "progress.h"
+#include "studio.h"
+
+namespace hooke::cli {
+namespace {
+
+/// The particles of a run at any time between its first snapshot and its last.
+class Playback {
+ public:
+  Playback(const RunReader& run, const Scene& scene) : run_(run), scene_(scene) {}
+
+  /// `time` in [first, last], best ascending from call to call: the two snapshots around it are kept.
+  Expected<ParticleSet> at(double time) {
+    const auto times = run_.times();
+    const auto later = std::upper_bound(times.begin(), times.end(), time);
+    const std::size_t after = std::min(static_cast<std::size_t>(later - times.begin()), run_.size() - 1);
+    const std::size_t before = after > 0 && times[after] > time ? after - 1 : after;
+    if (auto read = load(before_, before); !read) return fail(std::move(read).error());
+    if (time == times[before]) return before_->particles;
+    if (auto read = load(after_, after); !read) return fail(std::move(read).error());
+    return interpolate(scene_, {before_->time, before_->particles}, {after_->time, after_->particles}, time);
+  }
+
+ private:
+  Expected<void> load(std::optional<Snapshot>& slot, std::size_t index) {
+    if (slot && slot->step == run_.steps()[index]) return {};
+    if (&slot == &before_ && after_ && after_->step == run_.steps()[index]) {
+      std::swap(before_, after_);
+      return {};
+    }
+    auto snapshot = run_.read(index);
+    if (!snapshot) return fail(std::move(snapshot).error());
+    slot = std::move(*snapshot);
+    return {};
+  }
+
+  const RunReader& run_;
+  const Scene& scene_;
+  std::optional<Snapshot> before_, after_;
+};
+
+bool is_picture(const std::filesystem::path& file) { return file.extension() == ".png" || file.extension() == ".PNG"; }
+
+// "frames/%04d.png": where the numbers go, and how many digits they have at least.
+std::optional<std::string> numbered_name(const std::filesystem::path& pattern, std::size_t number) {
+  static const std::regex kNumber("%0?([0-9]*)d");
+  std::smatch match;
+  const std::string name = pattern.filename().string();
+  if (!std::regex_search(name, match, kNumber)) return {};
+  const int digits = match[1].length() > 0 ? std::min(std::stoi(match[1].str()), 20) : 1;
+  return match.prefix().str() + fmt::format("{:0{}}", number, digits) + match.suffix().str();
+}
+
+Expected<void> write_picture(const Image& image, const std::filesystem::path& file) {
+  const auto bytes = encode_png(image);
+  if (!bytes) return fail(bytes.error());
+  return write_text_file(file, *bytes);
+}
+
+// The scene that the run folder keeps, with what --set changes of it.
+Expected<LoadedScene> load_kept_scene(const RenderArguments& arguments) {
+  LoadOptions options;
+  options.overrides = arguments.overrides;
+  options.allow_outside = true;  // the particles that such paths lead to are not read again
+  options.with_particles = false;
+  const std::filesystem::path& run = arguments.run;
+  return load_scene((std::filesystem::is_directory(run) ? run : run.parent_path()) / kSceneFile, options);
+}
+
+Expected<void> check_time(double time, const RunReader& run) {
+  const double first = run.times().front(), last = run.times().back();
+  const double rounding = 1e-9 * std::max(1.0, std::abs(last));
+  if (time >= first - rounding && time <= last + rounding) return {};
+  return fail(Error::Kind::bad_input, "--time",
+              fmt::format("{} s is outside of the run, which goes from {} s to {} s", time, first, last));
+}
+
+Expected<void> render_still(const RenderArguments& arguments, const RunReader& run, Playback& playback,
+                            Studio& studio) {
+  const double last = run.times().back();
+  const double time = std::clamp(arguments.time.value_or(last), run.times().front(), last);
+  const auto particles = playback.at(time);
+  if (!particles) return fail(particles.error());
+  const auto image = studio.picture(*particles, time);
+  if (!image) return fail(image.error());
+  if (auto written = write_picture(*image, arguments.output); !written) return written;
+  fmt::print("{} particles at {:.6g} s in {}\n", with_commas(particles->size()), time, arguments.output.string());
+  return {};
+}
+
+// One image a frame of simulated time, given to `take`; how many, or that a signal came first.
+template <class Take>
+Expected<std::pair<std::int64_t, bool>> render_frames(const RenderArguments& arguments, const RunReader& run,
+                                                      Playback& playback, Studio& studio, const Take& take) {
+  const double first = run.times().front(), last = run.times().back();
+  const double fps = arguments.picture.frames_per_second;
+  const auto count = static_cast<std::int64_t>(std::floor((last - first) * fps + 1e-6)) + 1;
+  const Interrupt interrupt;
+  FrameProgress progress(count);
+  std::int64_t frame = 0;
+  for (; frame < count && !interrupt.requested(); ++frame) {
+    const double time = std::min(first + static_cast<double>(frame) / fps, last);
+    const auto particles = playback.at(time);
+    if (!particles) return fail(particles.error());
+    const auto image = studio.picture(*particles, time);
+    if (!image) return fail(image.error());
+    if (auto taken = take(*image, frame); !taken) return fail(std::move(taken).error());
+    progress.update(frame + 1);
+  }
+  return std::pair{frame, frame == count};
+}
+
+Expected<ExitStatus> render_film(const RenderArguments& arguments, const RunReader& run, Playback& playback,
+                                 Studio& studio) {
+  const PictureArguments& picture = arguments.picture;
+  auto film = FilmWriter::create(arguments.output, {picture.width, picture.height, picture.frames_per_second});
+  if (!film) return fail(std::move(film).error());
+  const auto done = render_frames(arguments, run, playback, studio,
+                                  [&](const Image& image, std::int64_t) { return film->add(image); });
+  if (!done) return fail(done.error());
+  if (auto finished = film->finish(); !finished) return fail(std::move(finished).error());
+  fmt::print("{} frames, {:.2f} s, in {}{}\n", done->first,
+             static_cast<double>(done->first) / picture.frames_per_second, arguments.output.string(),
+             done->second ? "" : ", interrupted");
+  return done->second ? kDone : kInterrupted;
+}
+
+Expected<ExitStatus> render_sequence(const RenderArguments& arguments, const RunReader& run, Playback& playback,
+                                     Studio& studio) {
+  const std::filesystem::path folder = arguments.output.parent_path();
+  const auto done = render_frames(arguments, run, playback, studio, [&](const Image& image, std::int64_t frame) {
+    return write_picture(image, folder / *numbered_name(arguments.output, static_cast<std::size_t>(frame)));
+  });
+  if (!done) return fail(done.error());
+  fmt::print("{} pictures, the first of them {}{}\n", done->first,
+             (folder / *numbered_name(arguments.output, 0)).string(), done->second ? "" : ", interrupted");
+  return done->second ? kDone : kInterrupted;
+}
+
+Expected<ExitStatus> render(const RenderArguments& arguments) {
+  const bool still = is_picture(arguments.output) && !numbered_name(arguments.output, 0);
+  if (!is_picture(arguments.output) && !is_film(arguments.output)) {
+    return fail(Error::Kind::bad_input, arguments.output.string(),
+                "has no extension of a picture or a film; known are .png, " + film_extensions());
+  }
+  if (!still && arguments.time) {
+    return fail(Error::Kind::bad_input, "--time", "is of a single picture (.png); a film shows the whole run");
+  }
+  if (auto writable = check_output_file(arguments.output, "--output"); !writable) return fail(writable.error());
+  if (is_film(arguments.output)) {
+    const PictureArguments& p = arguments.picture;
+    if (auto possible = check_film(arguments.output, {p.width, p.height, p.frames_per_second}); !possible) {
+      return fail(possible.error());
+    }
+  }
+  const auto run = RunReader::open(arguments.run);
+  if (!run) return fail(run.error());
+  if (run->size() == 0) return fail(Error::Kind::bad_input, arguments.run.string(), "holds no snapshot yet");
+  if (arguments.time) {
+    if (auto inside = check_time(*arguments.time, *run); !inside) return fail(inside.error());
+  }
+  const auto loaded = load_kept_scene(arguments);
+  if (!loaded) return fail(loaded.error());
+  auto studio = Studio::open(arguments.picture);
+  if (!studio) return fail(std::move(studio).error());
+  const auto first = run->read(0);
+  if (!first) return fail(first.error());
+  studio->set_scene(loaded->scene, first->particles);
+
+  Playback playback(*run, loaded->scene);
+  if (is_film(arguments.output)) return render_film(arguments, *run, playback, *studio);
+  if (!still) return render_sequence(arguments, *run, playback, *studio);
+  if (auto done = render_still(arguments, *run, playback, *studio); !done) return fail(done.error());
+  return kDone;
+}
+
+}  // namespace
+
+ExitStatus render_command(const RenderArguments& arguments) {
+  const auto status = render(arguments);
+  return status ? *status : report_error(status.error());
+}
+
+}  // namespace hooke::cli

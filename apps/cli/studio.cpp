@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "studio.h"
+
+#include <fmt/format.h>
+
+#include "gl_loader.h"
+#include "hooke/render/legend.h"
+
+namespace hooke::cli {
+
+Expected<Studio> Studio::open(const PictureArguments& arguments) {
+  auto renderer = load_gl_renderer({arguments.width, arguments.height, arguments.samples});
+  if (!renderer) return fail(std::move(renderer).error());
+  return Studio(arguments, std::move(*renderer));
+}
+
+void Studio::set_scene(const Scene& scene, const ParticleSet& first) {
+  scene_ = &scene;
+  look_ = make_look(scene, first, arguments_.color_by, arguments_.range);
+}
+
+Expected<Image> Studio::picture(const ParticleSet& particles, double time) {
+  const double aspect = static_cast<double>(arguments_.width) / arguments_.height;
+  const Frame frame = make_frame(*scene_, particles, time, look_, aspect);
+  auto image = renderer_->render(frame);
+  if (!image) return image;
+  figures_ = renderer_->figures();
+  if (frame.scale && arguments_.legend) draw_legend(*image, *frame.scale);
+  if (arguments_.legend) draw_caption(*image, fmt::format("{:.2f} s", time));
+  return image;
+}
+
+}  // namespace hooke::cli

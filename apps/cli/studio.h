@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "commands.h"
+#include "hooke/base/expected.h"
+#include "hooke/core/particles.h"
+#include "hooke/core/scene.h"
+#include "hooke/render/renderer.h"
+
+namespace hooke::cli {
+
+/// Takes the pictures of one run: the renderer, and what stays the same from picture to picture. Belongs to the thread
+/// that made it.
+class Studio {
+ public:
+  /// bad_input where there is no OpenGL, or it can't draw pictures of this size.
+  static Expected<Studio> open(const PictureArguments& arguments);
+
+  /// `first`: the first snapshot of the run, from which scales and camera follow. `scene` must live on.
+  void set_scene(const Scene& scene, const ParticleSet& first);
+
+  /// The picture at `time` (s), with its legend.
+  Expected<Image> picture(const ParticleSet& particles, double time);
+
+  const RenderFigures& figures() const { return figures_; }
+  std::string device() const { return renderer_->device(); }
+
+ private:
+  Studio(const PictureArguments& arguments, std::unique_ptr<Renderer> renderer)
+      : arguments_(arguments),
+        renderer_(std::move(renderer)) {}
+
+  PictureArguments arguments_;
+  std::unique_ptr<Renderer> renderer_;
+  const Scene* scene_ = nullptr;
+  Look look_;
+  RenderFigures figures_;
+};
+
+}  // namespace hooke::cli

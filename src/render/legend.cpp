@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#include "hooke/render/legend.h"
+
+#include <cairo.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "hooke/render/color_map.h"
+
+namespace hooke {
+
+namespace {
+
+// Draws on an image; Cairo wants its pixels as blue, green, red, so they are turned around and back.
+class Canvas {
+ public:
+  explicit Canvas(Image& image)
+      : image_(image),
+        surface_(
+            (swap_red_and_blue(), cairo_image_surface_create_for_data(image.pixels.data(), CAIRO_FORMAT_RGB24,
+                                                                      image.width, image.height, 4 * image.width))),
+        context_(cairo_create(surface_)) {
+    cairo_select_font_face(context_, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(context_, unit() * 1.1);
+  }
+  Canvas(const Canvas&) = delete;
+  Canvas& operator=(const Canvas&) = delete;
+  ~Canvas() {
+    cairo_destroy(context_);
+    cairo_surface_flush(surface_);
+    cairo_surface_destroy(surface_);
+    swap_red_and_blue();
+  }
+
+  cairo_t* context() const { return context_; }
+  /// A length that grows with the picture, about the height of a line of text, pixels.
+  double unit() const { return std::max(9.0, image_.height / 45.0); }
+
+  enum class Align { left, center, right };
+  /// White, with a dark rim to be read before anything; `x`, `y`: on the base line.
+  void text(const std::string& words, double x, double y, Align align) const {
+    cairo_text_extents_t size;
+    cairo_text_extents(context_, words.c_str(), &size);
+    const double shift = align == Align::left ? 0 : align == Align::center ? 0.5 * size.x_advance : size.x_advance;
+    cairo_move_to(context_, x - shift, y);
+    cairo_text_path(context_, words.c_str());
+    cairo_set_source_rgba(context_, 0.04, 0.06, 0.09, 0.75);
+    cairo_set_line_width(context_, unit() * 0.18);
+    cairo_set_line_join(context_, CAIRO_LINE_JOIN_ROUND);
+    cairo_stroke_preserve(context_);
+    cairo_set_source_rgb(context_, 0.95, 0.96, 0.97);
+    cairo_fill(context_);
+  }
+
+ private:
+  void swap_red_and_blue() const {
+    for (std::size_t i = 0; i < image_.pixels.size(); i += Image::kChannels) {
+      std::swap(image_.pixels[i], image_.pixels[i + 2]);
+    }
+  }
+
+  Image& image_;
+  cairo_surface_t* surface_;
+  cairo_t* context_;
+};
+
+// A round step that makes four to eight of the range.
+double round_step(double range) {
+  const double power = std::pow(10, std::floor(std::log10(range / 4)));
+  for (const double step : {5.0, 2.0}) {
+    if (range / (step * power) >= 4) return step * power;
+  }
+  return power;
+}
+
+}  // namespace
+
+void draw_legend(Image& image, const ColorScale& scale) {
+  const Canvas canvas(image);
+  cairo_t* const c = canvas.context();
+  const double unit = canvas.unit();
+  const double width = std::min(16 * unit, 0.45 * image.width), height = 0.7 * unit;
+  const double left = image.width - width - 2 * unit, top = image.height - 3.1 * unit;
+  constexpr int kStripes = 256;
+  for (int i = 0; i < kStripes; ++i) {
+    const Color color = map_color((i + 0.5) / kStripes);
+    cairo_set_source_rgb(c, color.red / 255.0, color.green / 255.0, color.blue / 255.0);
+    cairo_rectangle(c, left + width * i / kStripes, top, width / kStripes + 0.6, height);
+    cairo_fill(c);
+  }
+  cairo_set_source_rgba(c, 0.95, 0.96, 0.97, 0.8);
+  cairo_set_line_width(c, std::max(1.0, unit / 14));
+  cairo_rectangle(c, left, top, width, height);
+  cairo_stroke(c);
+  canvas.text(title(scale.by), left, top - 0.55 * unit, Canvas::Align::left);
+  const double step = round_step(scale.high - scale.low);
+  const double first = std::ceil(scale.low / step - 1e-9);
+  for (double k = first; k * step <= scale.high + 1e-9 * step; ++k) {
+    const double x = left + width * (k * step - scale.low) / (scale.high - scale.low);
+    cairo_set_source_rgba(c, 0.95, 0.96, 0.97, 0.8);
+    cairo_move_to(c, x, top + height);
+    cairo_line_to(c, x, top + height + 0.3 * unit);
+    cairo_stroke(c);
+    canvas.text(fmt::format("{:.4g}", k * step == 0 ? 0 : k * step), x, top + height + 1.5 * unit,
+                Canvas::Align::center);
+  }
+}
+
+void draw_caption(Image& image, const std::string& text) {
+  const Canvas canvas(image);
+  canvas.text(text, 1.4 * canvas.unit(), image.height - 1.4 * canvas.unit(), Canvas::Align::left);
+}
+
+}  // namespace hooke
