@@ -153,7 +153,7 @@ openvdb::FloatGrid::Ptr FluidVolume::level_set() const {
 
 openvdb::Vec3SGrid::Ptr FluidVolume::velocity() const {
   auto grid = openvdb::Vec3SGrid::create();
-  const double voxel = smallest_;
+  const double voxel = std::max(smallest_, voxel_);
   grid->setTransform(openvdb::math::Transform::createLinearTransform(voxel));
   grid->setVectorType(openvdb::VEC_CONTRAVARIANT_RELATIVE);
 

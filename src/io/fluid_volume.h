@@ -25,8 +25,8 @@ class FluidVolume {
   openvdb::FloatGrid::Ptr surface_field() const;
   /// The distance to the surface, negative inside, within three voxels of it: a level set by OpenVDB's book.
   openvdb::FloatGrid::Ptr level_set() const;
-  /// The velocity (m/s) of the particles around each voxel, out to beyond the surface: the mean by weight. Its voxels
-  /// are as large as the smallest particle.
+  /// The velocity (m/s) of the particles around each voxel, the mean by weight, out to beyond the surface. Its voxels
+  /// are a radius of the smallest particle wide, or as wide as the surface's where those are wider.
   openvdb::Vec3SGrid::Ptr velocity() const;
 
  private:
