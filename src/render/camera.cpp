@@ -32,20 +32,6 @@ std::array<Vec3d, 8> corners(const Box& box) {
   return all;
 }
 
-// The picture is wider than it is high: its long side should be the box's longest level one.
-Vec3d level_axis(const Box& box, const Vec3d& up) {
-  Vec3d longest{0, 0, 0};
-  double most = -1;
-  for (const Vec3d& axis : {Vec3d{1, 0, 0}, Vec3d{0, 0, 1}, Vec3d{0, 1, 0}}) {
-    const double length = dot(box.max - box.min, axis) * (1 - std::abs(dot(axis, up)));
-    if (length > 1.001 * most) {
-      most = length;
-      longest = axis;
-    }
-  }
-  return normalized(longest - dot(longest, up) * up);
-}
-
 }  // namespace
 
 CameraAxes axes(const Camera& camera) {
@@ -80,16 +66,29 @@ Box action_box(const Scene& scene, const ParticleSet& first) {
   return box;
 }
 
+LevelAxes level_axes(const Box& box, const Vec3d& up) {
+  Vec3d longest{0, 0, 0};
+  double most = -1;
+  for (const Vec3d& axis : {Vec3d{1, 0, 0}, Vec3d{0, 0, 1}, Vec3d{0, 1, 0}}) {
+    const double length = dot(box.max - box.min, axis) * (1 - std::abs(dot(axis, up)));
+    if (length > 1.001 * most) {
+      most = length;
+      longest = axis;
+    }
+  }
+  const Vec3d across = normalized(longest - dot(longest, up) * up);
+  return {across, cross(across, up)};
+}
+
 Vec3d direction_to_sun(const Box& box, const Vec3d& up) {
-  const Vec3d across = level_axis(box, up);
-  return normalized(up + 0.4 * cross(across, up) + 0.6 * across);
+  const LevelAxes level = level_axes(box, up);
+  return normalized(up + 0.4 * level.front + 0.6 * level.across);
 }
 
 Camera default_camera(const Box& box, const Vec3d& up, double field_of_view, double aspect) {
   constexpr double kElevation = 20 * kDegree, kAzimuth = -24 * kDegree;
   constexpr double kFilled = 0.92;  // of the picture's width or height
-  const Vec3d across = level_axis(box, up);
-  const Vec3d front = cross(across, up);
+  const auto [across, front] = level_axes(box, up);
   const Vec3d from =
       std::cos(kElevation) * (std::cos(kAzimuth) * front + std::sin(kAzimuth) * across) + std::sin(kElevation) * up;
   Camera camera{box.center() + from, box.center(), up, field_of_view};
@@ -130,7 +129,7 @@ Camera camera_at(const Scene& scene, const Box& action, double aspect, double ti
   camera.eye = camera.target + rotated(camera.eye - camera.target, camera.up, wanted.orbit * kDegree * time);
   // Straight up or down, anything level will do for the top of the picture.
   const Vec3d view = normalized(camera.eye - camera.target);
-  if (std::abs(dot(view, camera.up)) > 0.9999) camera.up = level_axis({{0, 0, 0}, {1, 1, 2}}, camera.up);
+  if (std::abs(dot(view, camera.up)) > 0.9999) camera.up = -level_axes(action, camera.up).front;
   return camera;
 }
 

@@ -37,6 +37,13 @@ Vec3d up_of(const Scene& scene);
 /// bit.
 Box action_box(const Scene& scene, const ParticleSet& first);
 
+/// Level unit vectors of `box`, at right angles: along its longer level side, which pictures show from left to right,
+/// and from it to the viewer.
+struct LevelAxes {
+  Vec3d across, front;
+};
+LevelAxes level_axes(const Box& box, const Vec3d& up);
+
 /// Where the sun stands in pictures of `box`, a unit vector: high, over the right shoulder of the default camera.
 Vec3d direction_to_sun(const Box& box, const Vec3d& up);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "hooke/base/parallel.h"
+#include "hooke/render/aeration.h"
 
 namespace hooke {
 
@@ -27,10 +28,20 @@ std::vector<Color> material_colors(const Scene& scene) {
 // Drawn at their own size, the spheres at a surface leave gaps through which those below would show.
 constexpr float kWaterRadius = 1.25f;
 
-// Water is clear up to a third of the speed of a fall from the top, and white from nine tenths.
-std::uint8_t foam_of(const Vec3d& velocity, double foam_speed) {
+// Water is white where it is fast: from nine tenths of the speed of a fall from the top, and clear up to a third of it;
+// and where it is mixed with air.
+std::uint8_t foam_of(const Vec3d& velocity, double foam_speed, float air) {
   const double share = std::clamp((std::sqrt(dot(velocity, velocity)) / foam_speed - 0.35) / 0.55, 0.0, 1.0);
-  return static_cast<std::uint8_t>(1 + std::lround(254 * share * share));
+  const double white = 1 - (1 - share * share) * (1 - 0.8 * static_cast<double>(air));
+  return static_cast<std::uint8_t>(1 + std::lround(254 * white));
+}
+
+// Empty where nothing looks like water.
+std::vector<float> water_aeration(const Scene& scene, const ParticleSet& particles) {
+  const auto water = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                  [](const Material& m) { return m.look == MaterialLook::water; });
+  if (water == scene.materials.end()) return {};
+  return aeration(scene, particles, water->radius);
 }
 
 std::optional<double> ground_of(const Scene& scene, const Box& action, const Vec3d& up) {
@@ -59,6 +70,9 @@ Look make_look(const Scene& scene, const ParticleSet& first, ColorBy by,
 Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, const Look& look, double aspect) {
   Frame frame;
   frame.up = up_of(scene);
+  const LevelAxes level = level_axes(look.action, frame.up);
+  frame.across = level.across;
+  frame.along = level.front;
   frame.to_sun = direction_to_sun(look.action, frame.up);
   frame.camera = camera_at(scene, look.action, aspect, time);
   frame.origin = look.action.center();
@@ -73,6 +87,7 @@ Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, 
 
   const std::vector<Color> colors = material_colors(scene);
   const std::vector<double> values = color_values(scene, particles, look.action, look.scale.by);
+  const std::vector<float> air = values.empty() ? water_aeration(scene, particles) : std::vector<float>();
   frame.spheres.resize(particles.size());
   parallel_ranges(particles.size(), 4096, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
@@ -83,7 +98,7 @@ Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, 
       if (!values.empty()) {
         sphere.color = map_color((values[i] - look.scale.low) / (look.scale.high - look.scale.low));
       } else if (material.look == MaterialLook::water) {
-        sphere.foam = foam_of(particles.velocity[i], look.foam_speed);
+        sphere.foam = foam_of(particles.velocity[i], look.foam_speed, air[i]);
         sphere.radius *= kWaterRadius;
       }
     }

@@ -37,6 +37,8 @@ struct Frame {
   Camera camera;  ///< eye and target relative to the origin
   Box action;     ///< relative to the origin
   Vec3d up{0, 1, 0};
+  Vec3d across{1, 0, 0};  ///< level unit vectors, of which `across` is along the longer side of the action
+  Vec3d along{0, 0, 1};
   Vec3d to_sun{0, 1, 0};  ///< unit vector
   std::optional<double> ground;     ///< height of the ground along `up`, relative to the origin, m
   std::optional<ColorScale> scale;  ///< of the legend, where there is one

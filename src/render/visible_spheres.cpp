@@ -62,52 +62,81 @@ Disc project(const Sphere& sphere, std::uint32_t index, const Projection& view) 
   return disc;
 }
 
-// Which pixels of a band of rows are covered, a bit each.
+// Which pixels of a band of rows are covered: a word for each tile of 8 x 8 of them, a byte a row.
 class Coverage {
  public:
+  static constexpr int kTile = 8;  // pixels
+
+  /// Rows [first_row, last_row); first_row a multiple of kTile.
   Coverage(int width, int first_row, int last_row)
-      : width_(width),
-        first_row_(first_row),
-        last_row_(last_row),
-        words_(static_cast<std::size_t>(width + 63) / 64),
-        bits_(words_ * static_cast<std::size_t>(last_row - first_row)) {}
+      : columns_((width + kTile - 1) / kTile),
+        first_tile_(first_row / kTile),
+        last_tile_((last_row + kTile - 1) / kTile),
+        bits_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(last_tile_ - first_tile_)) {
+    // What lies outside of the picture needs no cover.
+    for (int y = first_tile_; y < last_tile_; ++y) {
+      for (int row = 0; row < kTile; ++row) {
+        const std::uint64_t byte =
+            y * kTile + row >= last_row ? 0xff : 0xff & ~((1u << (kTile - columns_ * kTile + width)) - 1);
+        bits_[index(columns_ - 1, y)] |= byte << (8 * row);
+        if (y * kTile + row < last_row) continue;
+        for (int x = 0; x + 1 < columns_; ++x) bits_[index(x, y)] |= std::uint64_t{0xff} << (8 * row);
+      }
+    }
+  }
 
   // Whether every pixel with its centre in the disc is covered.
   bool covers(float x, float y, float radius) const {
-    return each_word(x, y, radius, [&](std::size_t word, std::uint64_t mask) { return (bits_[word] & mask) == mask; });
+    return each_tile(x, y, radius, [&](std::size_t tile, int column, int row) {
+      const std::uint64_t bits = bits_[tile];
+      return ~bits == 0 ||
+             (disc_in_tile(x - static_cast<float>(column), y - static_cast<float>(row), radius) & ~bits) == 0;
+    });
   }
   void cover(float x, float y, float radius) {
-    each_word(x, y, radius, [&](std::size_t word, std::uint64_t mask) {
-      bits_[word] |= mask;
+    each_tile(x, y, radius, [&](std::size_t tile, int column, int row) {
+      bits_[tile] |= disc_in_tile(x - static_cast<float>(column), y - static_cast<float>(row), radius);
       return true;
     });
   }
 
  private:
-  // body(word, bits of it in the disc), for as long as it returns true; whether it always did.
+  // body(tile, its first column, its first row) for the tiles that the disc may reach, as long as it returns true;
+  // whether it always did.
   template <class Body>
-  bool each_word(float x, float y, float radius, const Body& body) const {
-    const int low = std::max(first_row_, static_cast<int>(std::ceil(y - radius - 0.5f)));
-    const int high = std::min(last_row_ - 1, static_cast<int>(std::floor(y + radius - 0.5f)));
+  bool each_tile(float x, float y, float radius, const Body& body) const {
+    const auto tile_of = [](float pixel) { return static_cast<int>(std::floor(pixel / kTile)); };
+    const int left = std::max(0, tile_of(x - radius)), right = std::min(columns_ - 1, tile_of(x + radius));
+    const int low = std::max(first_tile_, tile_of(y - radius)), high = std::min(last_tile_ - 1, tile_of(y + radius));
     for (int row = low; row <= high; ++row) {
-      const float away = static_cast<float>(row) + 0.5f - y;
-      const float half = std::sqrt(std::max(0.0f, radius * radius - away * away));
-      const int left = std::max(0, static_cast<int>(std::ceil(x - half - 0.5f)));
-      const int right = std::min(width_ - 1, static_cast<int>(std::floor(x + half - 0.5f)));
-      for (int first = left; first <= right;) {
-        const int last = std::min(right, first | 63);
-        const std::uint64_t mask = (~std::uint64_t{0} >> (63 - (last - first))) << (first & 63);
-        const std::size_t word =
-            static_cast<std::size_t>(row - first_row_) * words_ + static_cast<std::size_t>(first / 64);
-        if (!body(word, mask)) return false;
-        first = last + 1;
+      for (int column = left; column <= right; ++column) {
+        if (!body(index(column, row), column * kTile, row * kTile)) return false;
       }
     }
     return true;
   }
 
-  int width_, first_row_, last_row_;
-  std::size_t words_;
+  // The pixels of a tile with their centres in a disc; x, y from the tile's corner.
+  static std::uint64_t disc_in_tile(float x, float y, float radius) {
+    std::uint64_t bits = 0;
+    for (int row = 0; row < kTile; ++row) {
+      const float away = static_cast<float>(row) + 0.5f - y;
+      const float square = radius * radius - away * away;
+      if (square < 0) continue;
+      const float half = std::sqrt(square);
+      const int left = static_cast<int>(std::ceil(std::max(x - half - 0.5f, 0.0f)));
+      const int right = static_cast<int>(std::floor(std::min(x + half - 0.5f, kTile - 1.0f)));
+      if (left <= right) bits |= (std::uint64_t{0xff} >> (kTile - 1 - right + left) << left) << (8 * row);
+    }
+    return bits;
+  }
+
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row - first_tile_) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
+  }
+
+  int columns_, first_tile_, last_tile_;
   std::vector<std::uint64_t> bits_;
 };
 
@@ -202,11 +231,13 @@ std::vector<std::uint32_t> visible_spheres(std::span<const Sphere> spheres, cons
 
   // Bands share no pixel, so each has its own marks.
   const int width = static_cast<int>(view.width), height = static_cast<int>(view.height);
+  const int tiles = (height + Coverage::kTile - 1) / Coverage::kTile;
+  const int rows = Coverage::kTile * ((tiles + static_cast<int>(kBands) - 1) / static_cast<int>(kBands));
   std::vector<std::vector<std::uint8_t>> seen(kBands, std::vector<std::uint8_t>(spheres.size()));
   parallel_ranges(kBands, 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t band = first; band < last; ++band) {
-      const int low = height * static_cast<int>(band) / static_cast<int>(kBands);
-      const int high = height * static_cast<int>(band + 1) / static_cast<int>(kBands);
+      const int low = std::min(height, rows * static_cast<int>(band));
+      const int high = std::min(height, low + rows);
       Coverage coverage(width, low, high);
       mark_seen(buckets, coverage, static_cast<float>(low), static_cast<float>(high), seen[band]);
     }

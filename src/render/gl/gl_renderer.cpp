@@ -72,6 +72,12 @@ class SphereBuffer {
 };
 static_assert(sizeof(Sphere) == 20 && offsetof(Sphere, foam) == offsetof(Sphere, color) + 3);
 
+// Between the lines of the ground: the power of ten of which the action is 3 to 30 long, m.
+float ground_step(const Frame& frame) {
+  const float size = length_of(frame.action.max - frame.action.min);
+  return std::pow(10.0f, std::floor(std::log10(size / 3)));
+}
+
 // A parallel projection along the sun's rays that holds the whole action and, as far as it may splash, what is above.
 struct Sun {
   Projection projection;
@@ -280,10 +286,12 @@ class GlRenderer final : public Renderer {
     smooth_program_.set("scale", pixels.scale);
     // Wide with few samples first, then what lies between them.
     const float reaches[] = {4.0f, 1.5f};
+    const int taps[] = {16, 8};
     for (std::size_t pass = 0; pass < 2; ++pass) {
       begin(to_surface_[1 - pass], settings_.width, settings_.height);
       smooth_program_.read("surface", 0, surface_[pass]);
       smooth_program_.set("reach", reaches[pass] * sphere_size);
+      smooth_program_.set("taps", taps[pass]);
       cover();
     }
   }
@@ -334,6 +342,9 @@ class GlRenderer final : public Renderer {
   void draw_backdrop(const Frame& frame, const Projection& pixels, const Sun& sun, float sphere_size) {
     begin(to_backdrop_, settings_.width, settings_.height);
     set_light(backdrop_program_, frame, pixels, sun, sphere_size);
+    backdrop_program_.set("across", vec_cast<float>(frame.across));
+    backdrop_program_.set("along", vec_cast<float>(frame.along));
+    backdrop_program_.set("line_step", ground_step(frame));
     cover();
   }
 

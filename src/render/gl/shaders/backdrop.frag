@@ -1,12 +1,25 @@
 // The ground and the sky, where nothing is before them.
+uniform vec3 across;             // level unit vectors, along the ground's lines
+uniform vec3 along;
+uniform float line_step;         // m
+
 out vec4 shaded;
+
+// How much of a pixel the ground's lines take, of which one lies at every whole number.
+float lines(float place) {
+  float width = max(fwidth(place), 1e-6);
+  float from_line = abs(fract(place - 0.5) - 0.5) / width;
+  return max(0.0, 1.0 - from_line) * clamp(0.25 / width - 1.0, 0.0, 1.0);
+}
 
 void main() {
   vec3 direction = normalize(view_point(gl_FragCoord.xy, 1.0)) * to_view;
+  vec3 point = ground_point(eye, direction);
+  float line = max(lines(dot(point - action_center, across) / line_step), lines(dot(point - action_center, along) / line_step));
   vec3 color = sky(direction);
   if (sees_ground(eye, direction)) {
-    vec3 point = ground_point(eye, direction);
-    color = ground_color(point, sunlight(point + 0.02 * sphere_size * up, noise(gl_FragCoord.xy), 4));
+    color = ground_color(point, sunlight(point + 0.02 * sphere_size * up, noise(gl_FragCoord.xy), 3));
+    color += 0.035 * line * exp(-length(point - action_center) / action_size);
   }
   shaded = stored(color);
 }

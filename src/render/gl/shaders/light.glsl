@@ -15,7 +15,7 @@ uniform float action_size;       // m
 uniform float sphere_size;       // radius of a typical sphere, m
 
 const vec3 kSun = vec3(1.60, 1.51, 1.38);
-const vec3 kHorizon = vec3(0.20, 0.25, 0.31), kZenith = vec3(0.05, 0.08, 0.13);
+const vec3 kHorizon = vec3(0.12, 0.16, 0.21), kZenith = vec3(0.03, 0.05, 0.09);
 
 // What is behind all: dark, so that foam stands out.
 vec3 sky(vec3 direction) { return mix(kHorizon, kZenith, smoothstep(-0.05, 0.7, dot(direction, up))); }
@@ -45,7 +45,7 @@ float sunlight(vec3 point, float turn, int turns) {
 vec3 ground_color(vec3 point, float sun) {
   vec3 from = point - action_center;
   float away = length(from - dot(from, up) * up) / action_size;
-  vec3 lit = vec3(0.115, 0.13, 0.15) * (0.3 + 0.7 * sun);
+  vec3 lit = vec3(0.095, 0.108, 0.125) * (0.3 + 0.7 * sun);
   return mix(lit, kHorizon, smoothstep(0.4, 3.0, away));
 }
 

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#include "hooke/render/aeration.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+
+#include "hooke/base/parallel.h"
+
+namespace hooke {
+
+namespace {
+
+constexpr double kCell = 2.5;       // edge, in radii
+constexpr double kMostCells = 4e6;  // larger cells where there would be more
+constexpr double kPacked = 0.6;     // share of the space that particles of a pool fill
+
+// Cells over the space that the particles take up inside the domain.
+struct Cells {
+  Vec3d origin{0, 0, 0};
+  double edge = 1;
+  std::array<std::size_t, 3> count{1, 1, 1};
+
+  std::size_t along(double x, int axis) const {
+    const double cell = std::floor((x - component(origin, axis)) / edge);
+    return static_cast<std::size_t>(
+        std::clamp(cell, 0.0, static_cast<double>(count[static_cast<std::size_t>(axis)] - 1)));
+  }
+  std::size_t of(const Vec3d& x) const { return (along(x.z, 2) * count[1] + along(x.y, 1)) * count[0] + along(x.x, 0); }
+  std::size_t size() const { return count[0] * count[1] * count[2]; }
+};
+
+Cells make_cells(const ParticleSet& particles, double radius) {
+  Vec3d low = particles.position.front(), high = low;
+  for (const Vec3d& x : particles.position) {
+    low = {std::min(low.x, x.x), std::min(low.y, x.y), std::min(low.z, x.z)};
+    high = {std::max(high.x, x.x), std::max(high.y, x.y), std::max(high.z, x.z)};
+  }
+  Cells cells{low, kCell * radius, {}};
+  const auto count_along = [&](int axis) {
+    return std::max(1.0, std::ceil((component(high, axis) - component(low, axis)) / cells.edge + 1e-9));
+  };
+  while (count_along(0) * count_along(1) * count_along(2) > kMostCells) cells.edge *= 1.25;
+  for (int axis = 0; axis < 3; ++axis)
+    cells.count[static_cast<std::size_t>(axis)] = static_cast<std::size_t>(count_along(axis));
+  return cells;
+}
+
+// Each cell becomes the sum of itself and its two neighbours along one axis.
+void add_neighbours(std::vector<std::uint32_t>& values, std::size_t count, std::size_t stride) {
+  const std::size_t lines = values.size() / count;
+  parallel_ranges(lines, 256, [&](std::size_t first, std::size_t last) {
+    for (std::size_t line = first; line < last; ++line) {
+      std::uint32_t* const start = values.data() + line / stride * stride * count + line % stride;
+      std::uint32_t before = 0, own = start[0];
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t after = i + 1 < count ? start[(i + 1) * stride] : 0;
+        start[i * stride] = before + own + after;
+        before = own;
+        own = after;
+      }
+    }
+  });
+}
+
+// The part of three cells around `cell` that lies inside the domain, where nothing is beyond a wall, m.
+double room(const Cells& cells, const Domain& domain, int axis, std::size_t cell) {
+  const double low = component(cells.origin, axis) + (static_cast<double>(cell) - 1) * cells.edge;
+  return std::min(low + 3 * cells.edge, component(domain.max, axis)) - std::max(low, component(domain.min, axis));
+}
+
+}  // namespace
+
+std::vector<float> aeration(const Scene& scene, const ParticleSet& particles, double radius) {
+  std::vector<float> air(particles.size());
+  if (particles.empty()) return air;
+  const Cells cells = make_cells(particles, radius);
+  std::vector<std::uint32_t> counts(cells.size());
+  parallel_ranges(particles.size(), 8192, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      std::atomic_ref(counts[cells.of(particles.position[i])]).fetch_add(1, std::memory_order_relaxed);
+    }
+  });
+  add_neighbours(counts, cells.count[0], 1);
+  add_neighbours(counts, cells.count[1], cells.count[0]);
+  add_neighbours(counts, cells.count[2], cells.count[0] * cells.count[1]);
+
+  std::array<std::vector<double>, 3> rooms;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t c = 0; c < cells.count[axis]; ++c) {
+      rooms[axis].push_back(std::max(room(cells, scene.domain, static_cast<int>(axis), c), cells.edge));
+    }
+  }
+  const double particle = 4 * std::numbers::pi / 3 * radius * radius * radius / kPacked;
+  parallel_ranges(particles.size(), 8192, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const Vec3d& x = particles.position[i];
+      const double space =
+          rooms[0][cells.along(x.x, 0)] * rooms[1][cells.along(x.y, 1)] * rooms[2][cells.along(x.z, 2)];
+      const double filled = counts[cells.of(x)] * particle / space;
+      // A smooth surface leaves half of the space empty, its corners some more.
+      air[i] = static_cast<float>(std::clamp((0.42 - filled) / 0.32, 0.0, 1.0));
+    }
+  });
+  return air;
+}
+
+}  // namespace hooke
