@@ -10,19 +10,24 @@ RUN_ARGS ?=
 BENCH_ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help run test soak build bench format lint install clean setup setup-test setup-lint
+.PHONY: help run gallery test soak build bench format lint install clean setup setup-test setup-lint
 
 help:  ## this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
 
-run: build  ## build, and run the dam break of 512,000 particles into out/water
-	@echo "Running scenes/water.json: a dam break of 512,000 particles (Ctrl-C stops it cleanly)."
-	build/hooke run scenes/water.json -o out/water --overwrite $(RUN_ARGS)
-	@echo "In out/water:"
-	@echo "  particles.vtkhdf  every snapshot; open it in ParaView 5.12 or later"
-	@echo "  series.csv        energy, momentum, overlap over time"
-	@echo "  report.json       what happened; log.txt: how; checkpoint.h5: its end, to go on from"
+run: build  ## build, run the dam break of 512,000 particles into out/water, and film it
+	@echo "Running scenes/water.json: a dam break of 512,000 particles, and filming it (Ctrl-C stops it cleanly)."
+	build/hooke run scenes/water.json -o out/water --overwrite --film out/water.mp4 $(RUN_ARGS)
 	@build/hooke info out/water
+	@echo "Made:"
+	@echo "  out/water.mp4                   the film; one second of it is one second of the scene"
+	@echo "  out/water/particles.vtkhdf      every snapshot; open it in ParaView 5.12 or later, or hooke export it"
+	@echo "  out/water/series.csv            energy, momentum, overlap over time"
+	@echo "  out/water/report.json, log.txt  what happened, and how; checkpoint.h5: its end, to go on from"
+	@echo "Another view of it: build/hooke render out/water -o out/speed.mp4 --color-by speed"
+
+gallery: build  ## run every scene and draw a picture of each into docs/gallery.md
+	tools/gallery.sh
 
 test: setup-test  ## build with assertions and sanitizers, run every test but the long ones
 	tools/test.sh

@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Hooke authors
+# SPDX-License-Identifier: MIT
+#
+# Runs every scene of scenes/ into out/gallery, draws one picture of each into docs/images, and writes docs/gallery.md.
+#   tools/gallery.sh [NAME ...]   only these scenes; a run that is there already is not run again
+set -euo pipefail
+cd "$(dirname "$0")/.."
+hooke=build/hooke
+
+# What a picture shows best: the time of its moment (s), and more options of hooke render.
+declare -A moment=(
+  [water]="--time 5.6"
+  [ball-pit]="--time 0.95"
+  [mixed]="--time 2.4"
+  [table-6.1]="--color-by height"
+)
+
+names=("$@")
+if ((${#names[@]} == 0)); then
+  for scene in scenes/*.json; do names+=("$(basename "$scene" .json)"); done
+fi
+mkdir -p out/gallery docs/images
+for name in "${names[@]}"; do
+  run=out/gallery/$name
+  [[ -e $run/report.json ]] || $hooke run "scenes/$name.json" -o "$run" --overwrite
+  # shellcheck disable=SC2086  # options, word by word
+  $hooke render "$run" -o "docs/images/$name.png" --size 1280x720 ${moment[$name]:-}
+done
+
+python3 - <<'PAGE'
+import json, pathlib
+page = ["# Gallery", "",
+        "The scenes that come with Hooke, each with the picture that `make gallery` draws of it. `hooke run scenes/NAME.json "
+        "--film NAME.mp4` makes the film.", ""]
+for image in sorted(pathlib.Path("docs/images").glob("*.png"), key=lambda p: (p.stem != "water", p.stem)):
+    kept = pathlib.Path("out/gallery", image.stem, "scene.json")
+    if not kept.exists():
+        raise SystemExit(f"{kept} is missing: run tools/gallery.sh without names")
+    scene = json.loads(kept.read_text(encoding="utf-8"))
+    page += [f"## {scene['name']}", "", f"{scene['description']}. [scenes/{image.stem}.json](../scenes/{image.stem}.json)",
+             "", f"![{scene['name']}](images/{image.name})", ""]
+pathlib.Path("docs/gallery.md").write_text("\n".join(page), encoding="utf-8")
+PAGE
