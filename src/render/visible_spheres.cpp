@@ -33,32 +33,46 @@ struct Disc {
   std::uint32_t sphere;
 };
 
+// Whether a sphere is beyond the left and right, or the lower and upper, side of the picture, whose rays rise by
+// `tangent` a metre of depth.
+bool beyond_side(float across, float depth, float radius, float tangent) {
+  return std::abs(across) - depth * tangent > radius * std::sqrt(1 + tangent * tangent);
+}
+
 // Where the sphere is outside of the picture or behind the eye, outer < 0.
 Disc project(const Sphere& sphere, std::uint32_t index, const Projection& view) {
+  constexpr float kRounding = 0.01f;  // pixels
   const Vec3f to{sphere.x - view.eye.x, sphere.y - view.eye.y, sphere.z - view.eye.z};
-  const float depth = -dot(to, view.back);
-  const float scale = view.parallel ? view.scale : view.scale / std::max(depth, view.nearest);
-  const float right = scale * dot(to, view.right), up = scale * dot(to, view.up);
-  Disc disc{0.5f * view.width + right,
-            0.5f * view.height + up,
-            scale * sphere.radius,
-            scale * sphere.radius,
-            depth,
-            sphere.radius,
-            index};
+  const float depth = -dot(to, view.back), right = dot(to, view.right), up = dot(to, view.up);
+  const float radius = sphere.radius;
+  Disc disc{0.5f * view.width, 0.5f * view.height, 0, -1, depth, radius, index};
+  if (!(depth + radius >= view.nearest)) return disc;
+  float scale = view.scale, stretch = 1;
   if (!view.parallel) {
     disc.distance = std::sqrt(dot(to, to));
-    // Away from the picture's middle the outline is an ellipse that sticks out of the circle.
-    const float tangent_square = (right * right + up * up) / (view.scale * view.scale);
-    const float size_square = disc.inner * disc.inner / (view.scale * view.scale);
-    disc.outer *= std::sqrt((1 + tangent_square) / std::max(1e-3f, 1 - size_square)) + size_square;
-    if (disc.inner > 0.1f * view.scale) disc.inner = 0;  // too near for a circle: hides nothing
+    // The outline is an ellipse, which reaches farthest away from the picture's middle, to where the angles of the
+    // centre and of the sphere add up.
+    const float sine = radius / disc.distance;
+    const float tangent = std::sqrt(right * right + up * up) / depth;
+    const float cosine = std::sqrt(std::max(0.0f, 1 - sine * sine)) - tangent * sine;  // of the sum, over the centre's
+    if (!(depth > view.nearest && cosine > 0.05f)) {  // it reaches beside the eye, or around it
+      const bool outside = beyond_side(right, depth, radius, 0.5f * view.width / view.scale) ||
+                           beyond_side(up, depth, radius, 0.5f * view.height / view.scale);
+      if (!outside) disc.outer = view.width + view.height;
+      return disc;
+    }
+    scale = view.scale / depth;
+    stretch = std::sqrt(1 + tangent * tangent) / cosine;
   }
-  const bool outside = depth + sphere.radius < view.nearest || disc.x + disc.outer < 0 || disc.y + disc.outer < 0 ||
-                       disc.x - disc.outer > view.width || disc.y - disc.outer > view.height;
-  // What the eye may be in fills the picture.
-  if (!view.parallel && depth < view.nearest + 1.5f * sphere.radius) disc.outer = view.width + view.height;
-  if (outside) disc.outer = -1;
+  disc.x += scale * right;
+  disc.y += scale * up;
+  const float outer = scale * radius * stretch + kRounding;
+  const bool outside = disc.x + outer < 0 || disc.y + outer < 0 || disc.x - outer > view.width ||
+                       disc.y - outer > view.height;
+  if (outside) return disc;
+  disc.outer = outer;
+  // What is cut off before the nearest depth hides nothing.
+  if (depth - radius >= view.nearest) disc.inner = scale * radius;
   return disc;
 }
 
@@ -249,6 +263,23 @@ std::vector<std::uint32_t> visible_spheres(std::span<const Sphere> spheres, cons
     }
   }
   return visible;
+}
+
+PixelRectangle bounds_on_picture(std::span<const Sphere> spheres, std::span<const std::uint32_t> chosen,
+                                 const Projection& view) {
+  float left = view.width, right = 0, low = view.height, high = 0;
+  for (const std::uint32_t i : chosen) {
+    const Disc disc = project(spheres[i], i, view);
+    left = std::min(left, disc.x - disc.outer);
+    right = std::max(right, disc.x + disc.outer);
+    low = std::min(low, disc.y - disc.outer);
+    high = std::max(high, disc.y + disc.outer);
+  }
+  const auto pixel = [](float x, float most) { return static_cast<int>(std::clamp(x, 0.0f, most)); };
+  PixelRectangle box{pixel(std::floor(left), view.width), pixel(std::floor(low), view.height), 0, 0};
+  box.width = std::max(0, pixel(std::ceil(right), view.width) - box.x);
+  box.height = std::max(0, pixel(std::ceil(high), view.height) - box.y);
+  return box;
 }
 
 }  // namespace hooke

@@ -27,4 +27,14 @@ Projection project(const Camera& camera, int width, int height);
 /// every sphere, most of them inside of a pile. Same result for any number of threads.
 std::vector<std::uint32_t> visible_spheres(std::span<const Sphere> spheres, const Projection& projection);
 
+/// A rectangle of a picture, pixels.
+struct PixelRectangle {
+  int x = 0, y = 0;  ///< of its lower left corner
+  int width = 0, height = 0;
+};
+
+/// The smallest rectangle of the picture that holds all of these spheres; empty where there are none.
+PixelRectangle bounds_on_picture(std::span<const Sphere> spheres, std::span<const std::uint32_t> chosen,
+                                 const Projection& projection);
+
 }  // namespace hooke

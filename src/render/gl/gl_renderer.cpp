@@ -127,10 +127,12 @@ class GlRenderer final : public Renderer {
     draw_sun_map(sun);
     upload(frame.spheres, seen);
     draw_spheres(view);
-    reduce();
     const Projection pixels = project(frame.camera, settings_.width, settings_.height);
+    begin_surface_passes(bounds_on_picture(frame.spheres, seen, pixels));
+    reduce();
     if (water) smooth_water(pixels, sphere_size);
     draw_ambient(pixels, sphere_size, frame);
+    glDisable(GL_SCISSOR_TEST);
     draw_backdrop(frame, pixels, sun, sphere_size);
     shade_balls(frame, view, sun, sphere_size);
     if (water) shade_water(frame, view, sun, sphere_size);
@@ -269,6 +271,23 @@ class GlRenderer final : public Renderer {
     water_.draw();
     glDisable(GL_STENCIL_TEST);
     glDisable(GL_DEPTH_TEST);
+  }
+
+  // The passes that look at surfaces need to run only where there are some: `box`, and as far as they look around.
+  void begin_surface_passes(const PixelRectangle& box) {
+    glClearColor(0, 0, 0, 0);
+    for (const Framebuffer& target : to_surface_) {
+      begin(target, settings_.width, settings_.height);
+      glClear(GL_COLOR_BUFFER_BIT);
+    }
+    glClearColor(1, 1, 1, 1);
+    begin(to_blurred_, settings_.width, settings_.height);
+    glClear(GL_COLOR_BUFFER_BIT);
+    begin(to_ambient_, settings_.width, settings_.height);
+    glClear(GL_COLOR_BUFFER_BIT);
+    constexpr int kAround = 4;  // pixels, that blur.frag looks around
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(box.x - kAround, box.y - kAround, box.width + 2 * kAround, box.height + 2 * kAround);
   }
 
   void reduce() {
