@@ -53,8 +53,8 @@ struct FilmThread::Impl {
 
     double seconds = 0;
     while (std::optional<Shot> shot = take()) {
-      auto image =
-          studio->picture(shot->late > 0 ? drawn_back(shot->particles, shot->late) : shot->particles, shot->time);
+      auto image = studio->picture(
+          shot->late > 0 ? drawn_back(simulation.scene(), shot->particles, shot->late) : shot->particles, shot->time);
       seconds += studio->figures().total_seconds;
       auto added = image ? film->add(*image) : Expected<void>(fail(std::move(image).error()));
       if (!added) return give_up(std::move(added).error());

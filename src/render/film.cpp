@@ -119,22 +119,28 @@ class Ffmpeg {
       int status = 0;
       while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {}
       process_ = -1;
-      good_ = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+      // Where the last bytes can't be written it complains, but ends with 0.
+      good_ = WIFEXITED(status) && WEXITSTATUS(status) == 0 && messages().empty();
     }
     return good_;
   }
 
   /// What it said last, on one line.
   std::string message() const {
+    const std::string text = messages();
+    return text.empty() ? "it said nothing" : text;
+  }
+
+ private:
+  std::string messages() const {
     std::string text(2000, '\0');
     std::rewind(messages_);
     text.resize(std::fread(text.data(), 1, text.size(), messages_));
     while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
     std::replace(text.begin(), text.end(), '\n', ';');
-    return text.empty() ? "it said nothing" : text;
+    return text;
   }
 
- private:
   pid_t process_ = -1;
   int input_ = -1;
   std::FILE* messages_ = nullptr;
@@ -158,6 +164,12 @@ struct FilmWriter::Impl {
   FilmSettings settings;
   Ffmpeg ffmpeg;
   std::int64_t frames = 0;
+
+  ~Impl() {
+    ffmpeg.wait();
+    std::error_code ignored;
+    if (frames == 0) std::filesystem::remove(file, ignored);
+  }
 
   tl::unexpected<Error> stopped() {
     ffmpeg.wait();
@@ -228,6 +240,7 @@ Expected<void> FilmWriter::add(const Image& image) {
 }
 
 Expected<void> FilmWriter::finish() {
+  if (impl_->frames == 0) return fail(Error::Kind::bad_input, impl_->file.string(), "would be a film of no frame");
   if (!impl_->ffmpeg.wait()) return impl_->stopped();
   const std::string extension = extension_of(impl_->file);
   if (extension != ".mp4" && extension != ".mov") return {};

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hooke/base/parallel.h"
+#include "hooke/physics/periodic.h"
 
 namespace hooke {
 
@@ -36,8 +37,7 @@ Vec3d wrapped(Vec3d position, const Domain& domain) {
   for (int axis = 0; axis < 3; ++axis) {
     if (domain.boundary[static_cast<std::size_t>(axis)] != Boundary::periodic) continue;
     double& along = component(position, axis);
-    const double low = component(domain.min, axis);
-    along -= domain.length(axis) * std::floor((along - low) / domain.length(axis));
+    along = wrap_coordinate(along, component(domain.min, axis), component(domain.max, axis));
   }
   return position;
 }
@@ -70,9 +70,11 @@ ParticleSet interpolate(const Scene& scene, const Moment& before, const Moment& 
   return now;
 }
 
-ParticleSet drawn_back(const ParticleSet& particles, double seconds) {
+ParticleSet drawn_back(const Scene& scene, const ParticleSet& particles, double seconds) {
   ParticleSet then = particles;
-  for (std::size_t i = 0; i < then.size(); ++i) then.position[i] -= seconds * then.velocity[i];
+  for (std::size_t i = 0; i < then.size(); ++i) {
+    then.position[i] = wrapped(then.position[i] - seconds * then.velocity[i], scene.domain);
+  }
   return then;
 }
 

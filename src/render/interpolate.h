@@ -19,7 +19,7 @@ struct Moment {
 /// scene is asked.
 ParticleSet interpolate(const Scene& scene, const Moment& before, const Moment& after, double time);
 
-/// The particles as they were `seconds` >= 0 ago, for an instant between two steps: x - v dt.
-ParticleSet drawn_back(const ParticleSet& particles, double seconds);
+/// The particles as they were `seconds` >= 0 ago, for an instant between two steps: x - v dt, inside of periodic faces.
+ParticleSet drawn_back(const Scene& scene, const ParticleSet& particles, double seconds);
 
 }  // namespace hooke

@@ -17,7 +17,7 @@ struct EglContext::Impl {
 
   ~Impl() {
     if (display == EGL_NO_DISPLAY) return;
-    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    if (eglGetCurrentContext() == context) eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
     // The display stays: another context of this process may use it, and EGL hands out one a platform.
   }
@@ -95,6 +95,9 @@ EglContext::~EglContext() = default;
 EglContext::EglContext(EglContext&&) noexcept = default;
 EglContext& EglContext::operator=(EglContext&&) noexcept = default;
 
+void EglContext::make_current() const {
+  eglMakeCurrent(impl_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, impl_->context);
+}
 const std::string& EglContext::device() const { return impl_->device; }
 
 }  // namespace hooke

@@ -9,8 +9,8 @@
 
 namespace hooke {
 
-/// An OpenGL 3.3 core context without a window, current on the thread that made it until it is destroyed there. Takes
-/// Mesa's surfaceless platform (a software driver will do), else the first device, else the default display.
+/// An OpenGL 3.3 core context without a window, for the thread that makes it. Takes the first of EGL's devices that
+/// works, else Mesa's surfaceless platform (a software driver will do), else the default display.
 class EglContext {
  public:
   /// bad_input with what is missing: no libEGL, no display, no OpenGL 3.3.
@@ -20,6 +20,8 @@ class EglContext {
   EglContext(EglContext&&) noexcept;
   EglContext& operator=(EglContext&&) noexcept;
 
+  /// What follows on this thread is of this context, which a thread may have several of. create() does it too.
+  void make_current() const;
   const std::string& device() const;  ///< GL_RENDERER
 
  private:

@@ -111,8 +111,12 @@ class GlRenderer final : public Renderer {
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
   }
 
+  // What this owns is then deleted from its own context.
+  ~GlRenderer() override { context_.make_current(); }
+
   Expected<Image> render(const Frame& frame) override {
     const Clock::time_point start = Clock::now();
+    context_.make_current();
     const Projection view = project(frame.camera, width_, height_);
     const Sun sun = make_sun(frame);
     const std::vector<std::uint32_t> seen = visible_spheres(frame.spheres, view);

@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/render/camera.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hooke {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+double norm(const Vec3d& v) { return std::sqrt(dot(v, v)); }
+Vec3d normalized(const Vec3d& v) { return (1 / norm(v)) * v; }
+
+double angle(const Vec3d& a, const Vec3d& b) { return std::acos(std::clamp(dot(a, b) / norm(a) / norm(b), -1.0, 1.0)); }
+
+void expect_near(const Vec3d& a, const Vec3d& b, double tolerance = 1e-9) { EXPECT_LE(norm(a - b), tolerance); }
+
+// Where a point falls onto the picture: -1 to 1 from rim to rim; depth > 0 before the eye.
+struct Place {
+  double x, y, depth;
+};
+Place place(const Camera& camera, double aspect, const Vec3d& point) {
+  const CameraAxes own = axes(camera);
+  const Vec3d to = point - camera.eye;
+  const double depth = -dot(to, own.back), half = depth * std::tan(0.5 * camera.field_of_view * kDegree);
+  return {dot(to, own.right) / (half * aspect), dot(to, own.up) / half, depth};
+}
+
+struct Extent {
+  double left = 2, right = -2, bottom = 2, top = -2;
+};
+Extent extent(const Camera& camera, double aspect, const Box& box) {
+  Extent all;
+  for (int i = 0; i < 8; ++i) {
+    const Place p = place(
+        camera, aspect, {i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z});
+    EXPECT_GT(p.depth, 0);
+    all = {std::min(all.left, p.x), std::max(all.right, p.x), std::min(all.bottom, p.y), std::max(all.top, p.y)};
+  }
+  return all;
+}
+
+TEST(DefaultCamera, ShowsAllOfABoxAndFillsThePictureWithIt) {
+  const Box boxes[] = {{{0, 0, 0}, {64, 24, 16}},
+                       {{-1, -1, -1}, {1, 1, 1}},
+                       {{5, 0, -9}, {6, 0.1, 40}},
+                       {{0, 0, 0}, {1, 50, 1}},
+                       {{1e6, 2e6, 0}, {1e6 + 3, 2e6 + 1, 2}},
+                       {{0, 0, 0}, {1e-4, 2e-4, 1e-4}}};
+  const Vec3d ups[] = {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {0, -1, 0}, normalized({1, 2, 3}), normalized({0.1, 1, 0})};
+  for (const Box& box : boxes) {
+    for (const Vec3d& up : ups) {
+      for (const double aspect : {16.0 / 9, 1.0, 0.4, 4.0}) {
+        for (const double field_of_view : {10.0, 35.0, 100.0}) {
+          SCOPED_TRACE(testing::Message()
+                       << "box to " << box.max.x << ' ' << box.max.y << ' ' << box.max.z << ", up " << up.x << ' '
+                       << up.y << ' ' << up.z << ", aspect " << aspect << ", " << field_of_view << " degrees");
+          const Extent e = extent(default_camera(box, up, field_of_view, aspect), aspect, box);
+          EXPECT_GE(std::min(e.left, e.bottom), -1);
+          EXPECT_LE(std::max(e.right, e.top), 1);
+          EXPECT_GE(std::max(e.right - e.left, e.top - e.bottom) / 2, 0.85);
+          if (field_of_view > 35) continue;
+          EXPECT_NEAR(e.left, -e.right, 0.3);  // about in the middle
+        }
+      }
+    }
+  }
+}
+
+TEST(DefaultCamera, LooksFromALittleAboveWithTheLongSideAcross) {
+  const Box box{{0, 0, 0}, {64, 24, 16}};
+  const Camera camera = default_camera(box, {0, 1, 0}, 35, 16.0 / 9);
+  EXPECT_GT(camera.eye.y, box.max.y);
+  EXPECT_GT(std::abs(axes(camera).right.x), 0.8);
+  EXPECT_EQ(camera.up, (Vec3d{0, 1, 0}));
+  // Up is up, whatever it is.
+  for (const Vec3d& up : {Vec3d{0, 0, 1}, Vec3d{0, -1, 0}, Vec3d{1, 0, 0}}) {
+    EXPECT_GT(dot(axes(default_camera(box, up, 35, 1)).up, up), 0.8);
+  }
+}
+
+TEST(Axes, AreUnitVectorsAndRightHanded) {
+  const CameraAxes own = axes({{3, 4, 5}, {-1, 2, 0}, normalized({0.3, 1, 0.1}), 35});
+  for (const Vec3d& axis : {own.right, own.up, own.back}) EXPECT_NEAR(norm(axis), 1, 1e-12);
+  EXPECT_NEAR(dot(own.right, own.up), 0, 1e-12);
+  EXPECT_NEAR(dot(own.right, own.back), 0, 1e-12);
+  expect_near({own.right.y * own.up.z - own.right.z * own.up.y, own.right.z * own.up.x - own.right.x * own.up.z,
+               own.right.x * own.up.y - own.right.y * own.up.x},
+              own.back, 1e-12);
+  expect_near(own.back, normalized({4, 2, 5}), 1e-12);
+}
+
+Scene tank() {
+  Scene scene;
+  scene.domain.max = {8, 6, 4};
+  scene.materials.resize(1);
+  scene.materials[0].radius = 0.5;
+  return scene;
+}
+
+TEST(CameraAt, IsTheScenesWhereThatSays) {
+  Scene scene = tank();
+  const Box box{scene.domain.min, scene.domain.max};
+  const Camera own = camera_at(scene, box, 1.5, 0);
+  expect_near(own.eye, default_camera(box, {0, 1, 0}, 35, 1.5).eye);
+
+  scene.camera.target = Vec3d{1, 2, 3};  // seen from the same side
+  Camera camera = camera_at(scene, box, 1.5, 0);
+  expect_near(camera.target, {1, 2, 3});
+  expect_near(camera.eye - camera.target, own.eye - own.target);
+
+  scene.camera.eye = Vec3d{-20, 9, 30};
+  camera = camera_at(scene, box, 1.5, 7);  // no orbit: the same at any time
+  expect_near(camera.eye, {-20, 9, 30});
+  expect_near(camera.target, {1, 2, 3});
+
+  scene.camera.target.reset();
+  scene.camera.field_of_view = 80;
+  camera = camera_at(scene, box, 1.5, 0);
+  expect_near(camera.eye, {-20, 9, 30});
+  EXPECT_EQ(camera.field_of_view, 80);
+}
+
+TEST(CameraAt, OrbitTurnsAroundWhatPointsUp) {
+  for (const Vec3d& gravity : {Vec3d{0, -9.8, 0}, Vec3d{0, 0, -9.8}, Vec3d{-1, -2, -3}}) {
+    Scene scene = tank();
+    scene.gravity = gravity;
+    scene.camera.orbit = 12;
+    const Box box{scene.domain.min, scene.domain.max};
+    const Vec3d up = up_of(scene);
+    const Camera first = camera_at(scene, box, 1.5, 0), later = camera_at(scene, box, 1.5, 2.5),
+                 whole = camera_at(scene, box, 1.5, 30);
+    expect_near(later.target, first.target);
+    EXPECT_NEAR(norm(later.eye - later.target), norm(first.eye - first.target), 1e-9);
+    EXPECT_NEAR(dot(later.eye - first.eye, up), 0, 1e-9);  // at the same height
+    const auto level = [&](const Vec3d& v) { return v - dot(v, up) * up; };
+    EXPECT_NEAR(angle(level(first.eye - first.target), level(later.eye - later.target)), 30 * kDegree, 1e-9);
+    expect_near(whole.eye, first.eye, 1e-8);
+  }
+}
+
+TEST(CameraAt, LooksStraightDownToo) {
+  for (const double height : {50.0, -50.0}) {
+    Scene scene = tank();
+    scene.camera.target = Vec3d{4, 0, 2};
+    scene.camera.eye = Vec3d{4, height, 2};
+    const Camera camera = camera_at(scene, {scene.domain.min, scene.domain.max}, 1.5, 0);
+    const CameraAxes own = axes(camera);
+    EXPECT_NEAR(norm(own.right), 1, 1e-9);
+    EXPECT_NEAR(norm(own.up), 1, 1e-9);
+    EXPECT_NEAR(own.up.y, 0, 1e-9);
+    const Place middle = place(camera, 1.5, {4, 3, 2});
+    EXPECT_NEAR(middle.x, 0, 1e-9);
+    EXPECT_NEAR(middle.y, 0, 1e-9);
+  }
+}
+
+TEST(UpOf, IsAgainstGravity) {
+  Scene scene;
+  scene.gravity = {0, 0, -2};
+  expect_near(up_of(scene), {0, 0, 1});
+  scene.gravity = {3, -4, 0};
+  expect_near(up_of(scene), {-0.6, 0.8, 0});
+  scene.gravity = {0, 0, 0};
+  expect_near(up_of(scene), {0, 1, 0});
+}
+
+ParticleSet at(const std::vector<Vec3d>& positions) {
+  ParticleSet particles;
+  particles.resize(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    particles.id[i] = i + 1;
+    particles.position[i] = positions[i];
+  }
+  return particles;
+}
+
+TEST(ActionBox, IsAsHighAsTheParticlesReachAndABit) {
+  Scene scene = tank();
+  scene.domain.max.y = 100;
+  Box box = action_box(scene, at({{1, 1, 1}, {2, 3.5, 1}}));
+  expect_near(box.min, {0, 0, 0});
+  expect_near(box.max, {8, 1.15 * 4, 4});
+  // Gravity the other way: from the ceiling down.
+  scene.gravity = {0, 9.8, 0};
+  box = action_box(scene, at({{1, 97, 1}}));
+  expect_near(box.min, {0, 100 - 1.15 * 3.5, 0});
+  expect_near(box.max, {8, 100, 4});
+}
+
+TEST(ActionBox, IsTheDomainWhereThatIsAllThereIs) {
+  Scene scene = tank();
+  expect_near(action_box(scene, {}).max, {8, 6, 4});
+  expect_near(action_box(scene, at({{1, 5.9, 1}})).max, {8, 6, 4});
+}
+
+TEST(DirectionToSun, IsHighAndOnTheSideOfTheDefaultCamera) {
+  for (const Vec3d& up : {Vec3d{0, 1, 0}, Vec3d{0, 0, 1}, normalized({1, 2, 3})}) {
+    const Box box{{0, 0, 0}, {8, 6, 4}};
+    const Vec3d sun = direction_to_sun(box, up);
+    EXPECT_NEAR(norm(sun), 1, 1e-12);
+    EXPECT_GT(dot(sun, up), 0.5);
+    const CameraAxes own = axes(default_camera(box, up, 35, 1.5));
+    EXPECT_GT(dot(sun, own.back), 0);
+    EXPECT_GT(dot(sun, own.right), 0);
+  }
+}
+
+}  // namespace
+}  // namespace hooke

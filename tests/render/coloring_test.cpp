@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/render/coloring.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <set>
+
+namespace hooke {
+namespace {
+
+// Two that touch, on the floor of a tank, and one that falls.
+struct Sample {
+  Scene scene;
+  ParticleSet particles;
+
+  Sample() {
+    scene.gravity = {0, 0, -10};
+    scene.domain = {{1, 2, 3}, {5, 8, 13}};
+    scene.materials = {{"sand", 0.5, 2, {1000, 0, 0}, 0, ""}};
+    particles.resize(3);
+    particles.id = {3, 8, 12};
+    particles.position = {{2, 4, 3.6}, {2.9, 4, 3.6}, {3, 6, 5}};
+    particles.velocity = {{0, 0, 0}, {0, 0, 0}, {2, -3, -6}};
+  }
+};
+
+TEST(ColorValues, AreTheQuantities) {
+  const Sample s;
+  const Box action = action_box(s.scene, s.particles);
+  const auto values = [&](ColorBy by) { return color_values(s.scene, s.particles, action, by); };
+  EXPECT_TRUE(values(ColorBy::material).empty());
+  EXPECT_EQ(values(ColorBy::speed), (std::vector<double>{0, 0, 7}));
+  EXPECT_EQ(values(ColorBy::id), (std::vector<double>{3, 8, 12}));
+  EXPECT_EQ(values(ColorBy::contacts), (std::vector<double>{1, 1, 0}));
+  const auto height = values(ColorBy::height);
+  ASSERT_EQ(height.size(), 3u);
+  EXPECT_NEAR(height[0], 0.6, 1e-12);  // above the floor, which is at z = 3
+  EXPECT_NEAR(height[2], 2, 1e-12);
+  const auto pressure = values(ColorBy::pressure);
+  ASSERT_EQ(pressure.size(), 3u);
+  EXPECT_GT(pressure[0], 0);
+  EXPECT_NEAR(pressure[0], pressure[1], 1e-9 * pressure[0]);
+  EXPECT_EQ(pressure[2], 0);
+}
+
+TEST(ColorValues, HeightIsAgainstGravity) {
+  Sample s;
+  s.scene.gravity = {0, 0, 10};
+  const auto height = color_values(s.scene, s.particles, action_box(s.scene, s.particles), ColorBy::height);
+  ASSERT_EQ(height.size(), 3u);
+  EXPECT_NEAR(height[0], 13 - 3.6, 1e-12);
+}
+
+TEST(DefaultScale, SuitsTheRun) {
+  const Sample s;
+  const double reach = 1.15 * 2.5;  // up to the highest, and a bit
+  const auto high = [&](ColorBy by) {
+    const ColorScale scale = default_scale(s.scene, s.particles, by);
+    EXPECT_EQ(scale.by, by);
+    EXPECT_EQ(scale.low, 0);
+    return scale.high;
+  };
+  EXPECT_NEAR(high(ColorBy::speed), std::sqrt(2 * 10 * reach), 1e-12);
+  EXPECT_NEAR(high(ColorBy::height), reach, 1e-12);
+  EXPECT_NEAR(high(ColorBy::pressure), 2 * 3 * 2 * 10.0 / (4 * 6), 1e-12);  // 2 n m g / area
+  EXPECT_EQ(high(ColorBy::contacts), 12);
+  EXPECT_EQ(high(ColorBy::id), 12);
+}
+
+TEST(DefaultScale, TheFastestParticleIsOnTheSpeedScale) {
+  Sample s;
+  s.particles.velocity[1] = {0, 30, 40};
+  EXPECT_EQ(default_scale(s.scene, s.particles, ColorBy::speed).high, 50);
+}
+
+TEST(DefaultScale, HasTwoEndsWhateverTheScene) {
+  Sample s;
+  s.scene.gravity = {0, 0, 0};
+  for (const ParticleSet& particles : {ParticleSet{}, s.particles}) {
+    for (const ColorByName& name : kColorByNames) {
+      const ColorScale scale = default_scale(s.scene, particles, name.by);
+      EXPECT_GT(scale.high, scale.low) << name.name;
+      EXPECT_TRUE(std::isfinite(scale.high)) << name.name;
+    }
+  }
+}
+
+TEST(ColorByNames, AreAllDifferentAndAllButMaterialHaveATitle) {
+  std::set<std::string> names;
+  for (const ColorByName& name : kColorByNames) {
+    names.insert(name.name);
+    EXPECT_EQ(std::strlen(title(name.by)) == 0, name.by == ColorBy::material) << name.name;
+  }
+  EXPECT_EQ(names.size(), std::size(kColorByNames));
+}
+
+}  // namespace
+}  // namespace hooke

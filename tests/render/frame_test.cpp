@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/render/frame.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace hooke {
+namespace {
+
+Scene tank(const Vec3d& corner = {0, 0, 0}) {
+  Scene scene;
+  scene.domain = {corner, corner + Vec3d{8, 6, 4}, {Boundary::spring, Boundary::open, Boundary::periodic}};
+  scene.materials = {{"a", 0.25, 1, {}, 0, "#c02040"},
+                     {"b", 0.5, 1, {}, 0, ""},
+                     {"c", 0.125, 1, {}, 0, ""},
+                     {"water", 0.2, 1, {}, 0, "#2f7fd6", MaterialLook::water}};
+  return scene;
+}
+
+ParticleSet one_of_each(const Vec3d& corner = {0, 0, 0}) {
+  ParticleSet particles;
+  particles.resize(4);
+  particles.id = {1, 2, 3, 4};
+  particles.material = {0, 1, 2, 3};
+  particles.position = {corner + Vec3d{1, 1, 1}, corner + Vec3d{2, 1.5, 1}, corner + Vec3d{3.25, 1, 1.75},
+                        corner + Vec3d{4, 2, 2}};
+  return particles;
+}
+
+TEST(MakeFrame, SpheresArePlacedColouredAndSizedByTheirParticles) {
+  const Scene scene = tank();
+  const ParticleSet particles = one_of_each();
+  const Frame frame = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
+  ASSERT_EQ(frame.spheres.size(), 4u);
+  EXPECT_FALSE(frame.scale);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Sphere& s = frame.spheres[i];
+    const Vec3d expected = particles.position[i] - frame.origin;
+    EXPECT_NEAR(s.x, expected.x, 1e-6);
+    EXPECT_NEAR(s.y, expected.y, 1e-6);
+    EXPECT_NEAR(s.z, expected.z, 1e-6);
+  }
+  EXPECT_EQ(frame.spheres[0].color, (Color{0xc0, 0x20, 0x40}));
+  EXPECT_NE(frame.spheres[1].color, frame.spheres[2].color);  // without one of their own, not the same
+  EXPECT_EQ(frame.spheres[0].radius, 0.25f);
+  EXPECT_EQ(frame.spheres[1].radius, 0.5f);
+}
+
+TEST(MakeFrame, OnlyWaterFoams) {
+  const Scene scene = tank();
+  ParticleSet particles = one_of_each();
+  const Look look = make_look(scene, particles, ColorBy::material);
+  for (Vec3d& velocity : particles.velocity) velocity = {100, 0, 0};
+  Frame frame = make_frame(scene, particles, 0, look, 1.5);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(frame.spheres[i].foam, 0) << i;
+  EXPECT_EQ(frame.spheres[3].foam, 255);
+
+  // Rises with the speed; at rest it is water all the same.
+  int before = 0;
+  for (const double speed : {0.0, 0.5, 0.7, 0.9, 2.0}) {
+    particles.velocity[3] = {0, -speed * look.foam_speed, 0};
+    const int foam = make_frame(scene, particles, 0, look, 1.5).spheres[3].foam;
+    EXPECT_GT(foam, before == 255 ? 254 : before) << speed;
+    before = foam;
+  }
+  EXPECT_EQ(before, 255);
+
+  // Coloured by a quantity it is balls like all else.
+  frame = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::speed), 1.5);
+  EXPECT_EQ(frame.spheres[3].foam, 0);
+  EXPECT_EQ(frame.spheres[3].radius, 0.2f);
+}
+
+TEST(MakeFrame, WaterAtRestIsClearInsideAndADropIsNot) {
+  const Scene scene = tank();
+  ParticleSet particles;
+  for (std::size_t k = 0; k < 1001; ++k) {
+    const auto at = [](std::size_t n) { return 0.3 + 0.38 * static_cast<double>(n); };
+    particles.id.push_back(k + 1);
+    particles.position.push_back(k < 1000 ? Vec3d{at(k % 10), at(k / 100), at(k / 10 % 10)} : Vec3d{6.5, 4, 2});
+  }
+  particles.material.assign(1001, 3);
+  particles.velocity.assign(1001, {0, 0, 0});
+  const Frame frame = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
+  EXPECT_LT(frame.spheres[555].foam, 40);
+  EXPECT_GT(frame.spheres[555].foam, 0);
+  EXPECT_GT(frame.spheres[1000].foam, 150);
+}
+
+TEST(MakeFrame, ColoursFollowTheScale) {
+  const Scene scene = tank();
+  ParticleSet particles = one_of_each();
+  particles.velocity = {{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {0, 0, 9}};
+  const Look look = make_look(scene, particles, ColorBy::speed, std::array{1.0, 3.0});
+  const Frame frame = make_frame(scene, particles, 0, look, 1.5);
+  ASSERT_TRUE(frame.scale);
+  EXPECT_EQ(frame.scale->low, 1);
+  EXPECT_EQ(frame.scale->high, 3);
+  EXPECT_EQ(frame.spheres[0].color, map_color(0));
+  EXPECT_EQ(frame.spheres[1].color, map_color(0.5));
+  EXPECT_EQ(frame.spheres[2].color, map_color(1));
+  EXPECT_EQ(frame.spheres[3].color, map_color(1));
+}
+
+TEST(MakeFrame, FarFromTheOriginNothingIsLost) {
+  const Vec3d far{1e6, -2e6, 3e6};
+  const Scene scene = tank(far), near_scene = tank();
+  const ParticleSet particles = one_of_each(far), near_particles = one_of_each();
+  const Frame frame = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
+  const Frame near =
+      make_frame(near_scene, near_particles, 0, make_look(near_scene, near_particles, ColorBy::material), 1.5);
+  for (std::size_t i = 0; i < frame.spheres.size(); ++i) {
+    EXPECT_NEAR(frame.spheres[i].x, near.spheres[i].x, 1e-6);
+    EXPECT_NEAR(frame.spheres[i].y, near.spheres[i].y, 1e-6);
+    EXPECT_NEAR(frame.spheres[i].z, near.spheres[i].z, 1e-6);
+  }
+  EXPECT_NEAR(frame.camera.eye.x, near.camera.eye.x, 1e-6);
+  EXPECT_NEAR(frame.camera.target.z, near.camera.target.z, 1e-6);
+  EXPECT_NEAR(frame.tank.max.x - frame.tank.min.x, 8, 1e-9);
+  ASSERT_TRUE(frame.ground && near.ground);
+  EXPECT_NEAR(*frame.ground, *near.ground, 1e-6);
+}
+
+TEST(MakeFrame, TheGroundIsTheFloorAndWallsAreThoseThatPushBack) {
+  Scene scene = tank({1, 2, 3});
+  const ParticleSet particles = one_of_each({1, 2, 3});
+  Frame frame = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
+  EXPECT_EQ(frame.tank.walls, (std::array{true, false, false}));
+  ASSERT_TRUE(frame.ground);
+  EXPECT_NEAR(*frame.ground + frame.origin.y, 2, 1e-12);
+  EXPECT_EQ(frame.up, (Vec3d{0, 1, 0}));
+  scene.gravity = {0, 0, 0};  // no weight, no ground
+  frame = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
+  EXPECT_FALSE(frame.ground);
+}
+
+TEST(MakeFrame, NoParticlesIsAPictureToo) {
+  const Scene scene = tank();
+  for (const ColorByName& name : kColorByNames) {
+    const Frame frame = make_frame(scene, {}, 0, make_look(scene, {}, name.by), 1.5);
+    EXPECT_TRUE(frame.spheres.empty());
+    EXPECT_TRUE(std::isfinite(frame.camera.eye.x)) << name.name;
+  }
+}
+
+}  // namespace
+}  // namespace hooke

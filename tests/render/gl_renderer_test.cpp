@@ -1,0 +1,293 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+// Pictures drawn by Mesa's software driver, so that they are the same on any machine but for its version.
+//
+// Where HOOKE_UPDATE_IMAGES is set, the stored pictures are written instead of compared (target update_test_images).
+
+#include "hooke/render/gl/gl_renderer.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+#include "hooke/render/frame.h"
+#include "hooke/render/legend.h"
+#include "hooke/render/visible_spheres.h"
+#include "picture_scenes.h"
+#include "support/environment.h"
+#include "support/similarity.h"
+
+namespace hooke::test {
+namespace {
+
+constexpr int kWidth = 320, kHeight = 180;
+constexpr double kAspect = static_cast<double>(kWidth) / kHeight;
+constexpr double kMostDifferent = 0.97;
+
+class GlRenderer : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { use_software_gl(); }
+
+  static Renderer& renderer() {
+    static const std::unique_ptr<Renderer> shared = make({kWidth, kHeight, 2});
+    return *shared;
+  }
+
+  // Throws, with why, where there is no OpenGL: the machine is not set up (tools/setup.sh).
+  static std::unique_ptr<Renderer> make(const RenderSettings& settings) {
+    auto made = make_gl_renderer(settings);
+    if (!made) throw std::runtime_error(made.error().text());
+    return std::move(*made);
+  }
+
+  static Image draw(const Frame& frame) {
+    auto image = renderer().render(frame);
+    if (!image) throw std::runtime_error(image.error().text());
+    return std::move(*image);
+  }
+};
+
+Frame frame_of(const PictureScene& p) {
+  return make_frame(p.scene, p.particles, p.time, make_look(p.scene, p.particles, p.by), kAspect);
+}
+
+// Red balls, radius 0.5, in a tank of 8 x 4 x 6 m.
+Frame red_balls(const std::vector<Vec3d>& at, const char* color = "#e01010") {
+  PictureScene p{"", ball_tank({8, 4, 6}, 0.5, color), {}};
+  ParticleSet high;  // the same camera whatever is shown
+  add(high, {4, 3.5, 3});
+  for (const Vec3d& position : at) add(p.particles, position);
+  return make_frame(p.scene, p.particles, 0, make_look(p.scene, high, ColorBy::material), kAspect);
+}
+
+// The pixel that the centre of a sphere falls on.
+std::array<int, 2> pixel_of(const Frame& frame, std::size_t index) {
+  const Projection view = project(frame.camera, kWidth, kHeight);
+  const Sphere& s = frame.spheres.at(index);
+  const Vec3f to{s.x - view.eye.x, s.y - view.eye.y, s.z - view.eye.z};
+  const float scale = view.scale / -dot(to, view.back);
+  return {static_cast<int>(0.5f * kWidth + scale * dot(to, view.right)),
+          static_cast<int>(0.5f * kHeight - scale * dot(to, view.up))};
+}
+
+using Pixel = std::array<int, 3>;
+Pixel at(const Image& image, int x, int y) {
+  const std::uint8_t* p = image.at(x, y);
+  return {p[0], p[1], p[2]};
+}
+
+bool is_red(const Pixel& p) { return p[0] > 2 * p[1] && p[0] > 2 * p[2] && p[0] > 25; }
+bool is_green(const Pixel& p) { return p[1] > 2 * p[0] && p[1] > 2 * p[2] && p[1] > 25; }
+
+template <class Is>
+int count(const Image& image, const Is& is) {
+  int n = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) n += is(at(image, x, y)) ? 1 : 0;
+  }
+  return n;
+}
+
+TEST_F(GlRenderer, DrawsWithTheSoftwareDriver) { EXPECT_THAT(renderer().device(), testing::HasSubstr("llvmpipe")); }
+
+TEST_F(GlRenderer, ABallIsWhereItIsAndNowhereElse) {
+  const Frame frame = red_balls({{2, 0.5, 3}, {6, 3, 2}});
+  const Image image = draw(frame), empty = draw(red_balls({}));
+  EXPECT_EQ(count(empty, is_red), 0);
+  double area = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto [x, y] = pixel_of(frame, i);
+    EXPECT_TRUE(is_red(at(image, x, y))) << testing::PrintToString(at(image, x, y));
+    const Projection view = project(frame.camera, kWidth, kHeight);
+    const Sphere& s = frame.spheres[i];
+    const float depth = -dot(Vec3f{s.x, s.y, s.z} - view.eye, view.back);
+    const double radius = static_cast<double>(view.scale * s.radius / depth);
+    area += std::numbers::pi * radius * radius;
+    // Just inside of its rim and outside of it, above, where there is light.
+    EXPECT_TRUE(is_red(at(image, x, y - static_cast<int>(0.85 * radius))));
+    EXPECT_FALSE(is_red(at(image, x, y - static_cast<int>(1.2 * radius))));
+  }
+  EXPECT_NEAR(count(image, is_red), area, 0.12 * area);
+  // Far from the balls and their shadows the picture is that without them.
+  EXPECT_EQ(at(image, 1, 1), at(empty, 1, 1));
+  EXPECT_EQ(at(image, kWidth - 2, kHeight / 8), at(empty, kWidth - 2, kHeight / 8));
+}
+
+TEST_F(GlRenderer, WithoutParticlesNothingIsDrawn) {
+  const Image image = draw(red_balls({}));
+  EXPECT_EQ(renderer().figures().spheres_drawn, 0u);
+  EXPECT_EQ(count(image, [](const Pixel& p) { return is_red(p) || is_green(p); }), 0);
+  EXPECT_GT(count(image, [](const Pixel& p) { return p[0] + p[1] + p[2] > 30; }), kWidth * kHeight / 2);
+}
+
+TEST_F(GlRenderer, WhatIsHiddenDoesNotShow) {
+  Frame frame = red_balls({{4, 2, 3}, {4, 2, 3}});
+  // The second, green and smaller, right behind the first.
+  const Vec3d back = axes(frame.camera).back;
+  Sphere& hidden = frame.spheres[1];
+  const auto put = [&](double distance) {
+    const Vec3f place = vec_cast<float>(distance * back);
+    hidden = {frame.spheres[0].x + place.x,
+              frame.spheres[0].y + place.y,
+              frame.spheres[0].z + place.z,
+              0.2f,
+              {16, 224, 16},
+              0};
+  };
+  put(-0.8);
+  EXPECT_EQ(count(draw(frame), is_green), 0);
+  put(-0.2);  // inside
+  EXPECT_EQ(count(draw(frame), is_green), 0);
+  put(0.8);  // before it
+  EXPECT_GT(count(draw(frame), is_green), 20);
+  put(0.4);  // sticks out of it
+  EXPECT_GT(count(draw(frame), is_green), 5);
+}
+
+TEST_F(GlRenderer, ABallCastsAShadowOnTheGround) {
+  const Image with = draw(red_balls({{4, 2.5, 3}})), without = draw(red_balls({}));
+  int darker = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      if (is_red(at(with, x, y))) continue;
+      darker += with.at(x, y)[1] + 8 < without.at(x, y)[1] ? 1 : 0;
+    }
+  }
+  EXPECT_GT(darker, 50);
+}
+
+TEST_F(GlRenderer, FromInsideOfABallItIsNotSeen) {
+  Frame frame = red_balls({{4, 2, 3}});
+  frame.camera.eye = {frame.spheres[0].x + 0.1, frame.spheres[0].y, frame.spheres[0].z};
+  EXPECT_EQ(count(draw(frame), is_red), 0);
+}
+
+TEST_F(GlRenderer, FastWaterIsWhite) {
+  PictureScene p{"", ball_tank({4, 2, 3}, 0.1, "#2f7fd6"), {}};
+  p.scene.materials[0].look = MaterialLook::water;
+  for (int k = 0; k < 40 * 20 * 30; ++k) {
+    add(p.particles, {0.1 * (k % 40) + 0.05, 0.1 * (k / 1200) + 0.05, 0.1 * (k / 40 % 30) + 0.05});
+  }
+  const auto middle = [&] {
+    const Frame frame = frame_of(p);
+    const Image image = draw(frame);
+    return at(image, kWidth / 2, kHeight / 2);
+  };
+  const Pixel still = middle();
+  EXPECT_GT(still[2], still[0] + 20) << testing::PrintToString(still);
+  const Look look = make_look(p.scene, p.particles, ColorBy::material);
+  for (Vec3d& velocity : p.particles.velocity) velocity = {look.foam_speed, 0, 0};
+  const Frame fast = make_frame(p.scene, p.particles, 0, look, kAspect);
+  const Pixel white = at(draw(fast), kWidth / 2, kHeight / 2);
+  EXPECT_GT(white[0], still[0] + 40) << testing::PrintToString(white);
+  EXPECT_LT(white[2] - white[0], 60) << testing::PrintToString(white);
+}
+
+TEST_F(GlRenderer, APictureDoesNotDependOnThoseBefore) {
+  const auto scenes = picture_scenes();
+  const Image first = draw(frame_of(scenes[0]));
+  for (const PictureScene& other : scenes) draw(frame_of(other));
+  draw(red_balls({}));
+  EXPECT_EQ(draw(frame_of(scenes[0])).pixels, first.pixels);
+  EXPECT_EQ((*make({kWidth, kHeight, 2})->render(frame_of(scenes[0]))).pixels, first.pixels);
+}
+
+TEST_F(GlRenderer, LeavesOutWhatCanNotBeSeenAndNothingElse) {
+  for (const PictureScene& p : picture_scenes()) {
+    const Image image = draw(frame_of(p));
+    const RenderFigures figures = renderer().figures();
+    EXPECT_LE(figures.spheres_drawn, p.particles.size()) << p.name;
+    EXPECT_GT(figures.spheres_drawn, p.particles.size() / 20) << p.name;
+    EXPECT_GT(figures.total_seconds, figures.cull_seconds);
+  }
+}
+
+TEST_F(GlRenderer, OddSizesAndAllSamples) {
+  PictureScene p = picture_scenes()[1];
+  for (const auto& [width, height] : {std::pair{1, 1}, {2, 3}, {101, 7}, {16384, 1}, {1, 4096}}) {
+    const auto renderer = make({width, height, 1});
+    const auto image = renderer->render(
+        make_frame(p.scene, p.particles, 0, make_look(p.scene, p.particles, p.by), 1.0 * width / height));
+    ASSERT_TRUE(image) << image.error().text();
+    EXPECT_EQ(image->width, width);
+    EXPECT_EQ(image->height, height);
+    EXPECT_EQ(image->pixels.size(), 4u * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  }
+  const Image expected = draw(frame_of(p));
+  for (int samples = 1; samples <= 4; ++samples) {
+    const auto image = make({kWidth, kHeight, samples})->render(frame_of(p));
+    ASSERT_TRUE(image);
+    EXPECT_GT(similarity(*image, expected), 0.85) << samples;  // smoother or rougher, but the same
+  }
+}
+
+TEST_F(GlRenderer, RefusesSizesThatCanNotBe) {
+  for (const RenderSettings& settings :
+       {RenderSettings{0, 10, 1}, {10, 0, 1}, {10, 10, 0}, {10, 10, 5}, {1 << 20, 10, 1}, {16384, 10, 4}}) {
+    const auto made = make_gl_renderer(settings);
+    ASSERT_FALSE(made) << settings.width;
+    EXPECT_EQ(made.error().kind, Error::Kind::bad_input);
+    EXPECT_THAT(made.error().text(), testing::HasSubstr("size"));
+  }
+}
+
+// Compared with the stored picture; what was drawn is kept where they differ.
+class StoredPicture : public GlRenderer, public testing::WithParamInterface<PictureScene> {};
+
+Image read_png(const std::filesystem::path& file) {
+  std::ostringstream bytes;
+  bytes << std::ifstream(file, std::ios::binary).rdbuf();
+  auto image = decode_png(bytes.str());
+  return image ? std::move(*image) : Image();
+}
+
+void write_png(const std::filesystem::path& file, const Image& image) {
+  const auto bytes = encode_png(image);
+  std::ofstream(file, std::ios::binary) << *bytes;
+}
+
+TEST_P(StoredPicture, LooksTheSame) {
+  const PictureScene& p = GetParam();
+  const Frame frame = frame_of(p);
+  Image image = draw(frame);
+  if (frame.scale) draw_legend(image, *frame.scale);
+  draw_caption(image, p.name);
+  const auto stored = std::filesystem::path(HOOKE_SOURCE_DIR) / "tests/render/images" / (p.name + ".png");
+  if (std::getenv("HOOKE_UPDATE_IMAGES") != nullptr) return write_png(stored, image);
+  const double alike = similarity(image, read_png(stored));
+  RecordProperty("similarity", std::to_string(alike));
+  if (alike >= kMostDifferent) return;
+  const std::filesystem::path folder = HOOKE_TEST_OUTPUT;
+  std::filesystem::create_directories(folder);
+  const auto drawn = folder / (p.name + ".png");
+  write_png(drawn, image);
+  ADD_FAILURE() << "similarity " << alike << " is below " << kMostDifferent << ": compare " << drawn << " with "
+                << stored << "; where the new one is right, build the target update_test_images";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, StoredPicture, testing::ValuesIn(picture_scenes()), [](const auto& test) {
+  std::string name = test.param.name;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+// The stored pictures are of different scenes: one file in place of another would not do.
+TEST(StoredPictures, AreAllDifferent) {
+  std::vector<Image> images;
+  for (const PictureScene& p : picture_scenes()) {
+    images.push_back(read_png(std::filesystem::path(HOOKE_SOURCE_DIR) / "tests/render/images" / (p.name + ".png")));
+    EXPECT_EQ(images.back().width, kWidth) << p.name;
+  }
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) EXPECT_LT(similarity(images[i], images[j]), 0.9) << i << ' ' << j;
+  }
+}
+
+}  // namespace
+}  // namespace hooke::test
