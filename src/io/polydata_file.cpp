@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <strings.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "hooke/io/output_file.h"
@@ -49,6 +50,20 @@ std::string xml_text(const std::string& text) {
   return escaped;
 }
 
+void append_base64(std::string& text, const std::string& bytes) {
+  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  text.reserve(text.size() + (bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;  // three bytes, four digits
+    for (std::size_t k = i; k < i + 3; ++k) {
+      group = group << 8U | (k < bytes.size() ? static_cast<unsigned char>(bytes[k]) : 0U);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += k <= std::min<std::size_t>(bytes.size() - i, 3) ? kDigits[group >> (18 - 6 * k) & 63U] : '=';
+    }
+  }
+}
+
 std::string number(double value) {
   std::string text;
   append_number(text, value);
@@ -63,29 +78,28 @@ PolyDataFile::PolyDataFile(Cells cells, std::size_t point_count, double time)
       time_(time) {}
 
 template <class T>
-std::string PolyDataFile::declare(const char* name, const std::vector<T>& values, int components) {
-  const std::string element =
-      fmt::format(R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>)"
-                  "\n",
-                  kTypeName<T>, name, components, bytes_.size());
+std::string PolyDataFile::array(const char* name, const std::vector<T>& values, int components) {
+  std::string element = fmt::format(R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="binary">)",
+                                    kTypeName<T>, name, components);
   const std::uint64_t size = values.size() * sizeof(T);
-  bytes_.append(reinterpret_cast<const char*>(&size), sizeof size);
-  bytes_.append(reinterpret_cast<const char*>(values.data()), size);
-  return element;
+  std::string bytes(reinterpret_cast<const char*>(&size), sizeof size);
+  bytes.append(reinterpret_cast<const char*>(values.data()), size);
+  append_base64(element, bytes);
+  return element + "</DataArray>\n";
 }
 
-template std::string PolyDataFile::declare(const char*, const std::vector<float>&, int);
-template std::string PolyDataFile::declare(const char*, const std::vector<double>&, int);
-template std::string PolyDataFile::declare(const char*, const std::vector<std::int64_t>&, int);
-template std::string PolyDataFile::declare(const char*, const std::vector<std::uint16_t>&, int);
-template std::string PolyDataFile::declare(const char*, const std::vector<std::uint8_t>&, int);
+template std::string PolyDataFile::array(const char*, const std::vector<float>&, int);
+template std::string PolyDataFile::array(const char*, const std::vector<double>&, int);
+template std::string PolyDataFile::array(const char*, const std::vector<std::int64_t>&, int);
+template std::string PolyDataFile::array(const char*, const std::vector<std::uint16_t>&, int);
+template std::string PolyDataFile::array(const char*, const std::vector<std::uint8_t>&, int);
 
 void PolyDataFile::write(const fs::path& file) {
   const std::size_t corners = cells_ == Cells::lines ? 2 : 1;
   std::vector<std::int64_t> connectivity(point_count_), ends(point_count_ / corners);
   std::iota(connectivity.begin(), connectivity.end(), 0);
   for (std::size_t c = 0; c < ends.size(); ++c) ends[c] = static_cast<std::int64_t>((c + 1) * corners);
-  const std::string topology = declare("connectivity", connectivity, 1) + declare("offsets", ends, 1);
+  const std::string topology = array("connectivity", connectivity, 1) + array("offsets", ends, 1);
   const char* const cells = cells_ == Cells::lines ? "Lines" : "Verts";
 
   OutputFile out(file);
@@ -97,13 +111,17 @@ void PolyDataFile::write(const fs::path& file) {
       "</DataArray>\n</FieldData>\n"
       "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
       "NumberOfPolys=\"0\">\n"
-      "<PointData{}>\n{}</PointData>\n<CellData>\n{}</CellData>\n<Points>\n{}</Points>\n<{}>\n{}</{}>\n"
-      "</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_",
+      "<PointData{}>\n",
       number(time_), point_count_, cells_ == Cells::vertices ? ends.size() : 0,
-      cells_ == Cells::lines ? ends.size() : 0, vectors_.empty() ? "" : fmt::format(" Vectors=\"{}\"", vectors_),
-      point_data_, cell_data_, points_, cells, topology, cells));
-  out.write(bytes_);
-  out.write("\n</AppendedData>\n</VTKFile>\n");
+      cells_ == Cells::lines ? ends.size() : 0, vectors_.empty() ? "" : fmt::format(" Vectors=\"{}\"", vectors_)));
+  out.write(point_data_);
+  out.write("</PointData>\n<CellData>\n");
+  out.write(cell_data_);
+  out.write("</CellData>\n<Points>\n");
+  out.write(points_);
+  out.write(fmt::format("</Points>\n<{}>\n", cells));
+  out.write(topology);
+  out.write(fmt::format("</{}>\n</Piece>\n</PolyData>\n</VTKFile>\n", cells));
   out.finish();
 }
 

@@ -13,8 +13,8 @@
 
 namespace hooke {
 
-/// A .vtp file of VTK: points with data, and cells with data that are all vertices or all lines. Arrays are binary,
-/// appended behind the XML.
+/// A .vtp file of VTK: points with data, and cells with data that are all vertices or all lines. Arrays are base64
+/// within the XML: with a recent Expat, ParaView up to 5.12.0 (VTK 9.3.0) can't read data appended behind it.
 class PolyDataFile {
  public:
   enum class Cells { vertices, lines };
@@ -26,31 +26,30 @@ class PolyDataFile {
   /// float, double, std::int64_t, std::uint16_t, std::uint8_t.
   template <class T>
   void add_point_data(const char* name, const std::vector<T>& values, int components = 1) {
-    point_data_ += declare(name, values, components);
+    point_data_ += array(name, values, components);
     if (components == 3) vectors_ = name;
   }
   template <class T>
   void add_cell_data(const char* name, const std::vector<T>& values, int components = 1) {
-    cell_data_ += declare(name, values, components);
+    cell_data_ += array(name, values, components);
   }
   /// Three numbers a point, m. Float or double.
   template <class T>
   void set_points(const std::vector<T>& values) {
-    points_ = declare("Points", values, 3);
+    points_ = array("Points", values, 3);
   }
 
   void write(const std::filesystem::path& file);
 
  private:
   template <class T>
-  std::string declare(const char* name, const std::vector<T>& values, int components);
+  static std::string array(const char* name, const std::vector<T>& values, int components);
 
   Cells cells_;
   std::size_t point_count_;
   double time_;
   std::string point_data_, cell_data_, points_;  // XML
   std::string vectors_;  // name of the points' vectors
-  std::string bytes_;  // of all arrays
 };
 
 /// The components of vectors, one after the other.
