@@ -39,9 +39,10 @@ build: setup  ## release build: build/hooke
 	@cmake --preset release >/dev/null
 	@cmake --build --preset release -j $(JOBS)
 
-bench: build  ## speed of the dam break, and of the engine's parts
+bench: build  ## speed of the dam break, of the engine's parts and of pictures
 	build/hooke bench scenes/water.json $(BENCH_ARGS)
 	build/bench/hooke_bench
+	build/bench/hooke_render_bench
 
 format: setup-lint  ## format all sources
 	tools/lint.sh format

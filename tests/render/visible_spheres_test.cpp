@@ -20,7 +20,7 @@
 namespace hooke {
 namespace {
 
-constexpr int kWidth = 128, kHeight = 72;
+constexpr int kWidth = 93, kHeight = 53;
 
 std::vector<Sphere> random_spheres(std::size_t count, const Vec3d& half_size, double smallest, double largest,
                                    std::uint64_t seed) {
