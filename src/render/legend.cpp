@@ -98,7 +98,10 @@ void draw_legend(Image& image, const ColorScale& scale) {
   canvas.text(title(scale.by), left, top - 0.55 * unit, Canvas::Align::left);
   const double step = round_step(scale.high - scale.low);
   const double first = std::ceil(scale.low / step - 1e-9);
-  for (double k = first; k * step <= scale.high + 1e-9 * step; ++k) {
+  constexpr int kMostTicks = 11;
+  for (int tick = 0; tick < kMostTicks; ++tick) {
+    const double k = first + tick;
+    if (!(k * step <= scale.high + 1e-9 * step)) break;
     const double x = left + width * (k * step - scale.low) / (scale.high - scale.low);
     cairo_set_source_rgba(c, 0.95, 0.96, 0.97, 0.8);
     cairo_move_to(c, x, top + height);
