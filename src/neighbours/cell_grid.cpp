@@ -27,37 +27,48 @@ void CellGrid::lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic
   stride_z_ = stride_y_ * (axes_[1].count + 2);
 }
 
-std::size_t CellGrid::neighbour_ranges(std::uint64_t key, KeyRange (&out)[18]) const {
+std::size_t CellGrid::neighbour_ranges(std::uint64_t key, KeyRange (&out)[18], int more) const {
   const auto k = static_cast<std::int64_t>(key);
-  const std::int64_t at[3] = {k % stride_y_, k / stride_y_ % (axes_[1].count + 2), k / stride_z_};
+  const std::int64_t rows_y = axes_[1].count + 2;
+  const std::int64_t row = k / stride_y_;
+  const std::int64_t at[3] = {k - row * stride_y_, row % rows_y, row / rows_y};
 
-  // The up to three indices next to at[i]; on a periodic axis of one or two cells each only once.
-  const auto around = [&](int i, std::int64_t(&index)[3]) {
-    const std::int64_t n = axes_[i].count;
-    if (!axes_[i].periodic) {
-      for (int d = 0; d < 3; ++d) index[d] = at[i] + d - 1;
-      return 3;
+  // Along x: one stretch, or two where it reaches around a periodic axis.
+  const std::int64_t n = axes_[0].count;
+  KeyRange stretch[2] = {{static_cast<std::uint64_t>(at[0] - 1), static_cast<std::uint64_t>(at[0] + more + 1)}, {}};
+  std::size_t stretches = 1;
+  if (axes_[0].periodic) {
+    if (more + 3 >= n) {
+      stretch[0] = {1, static_cast<std::uint64_t>(n)};
+    } else if (at[0] == 1) {
+      stretch[0].first = 1;
+      stretch[stretches++] = {static_cast<std::uint64_t>(n), static_cast<std::uint64_t>(n)};
+    } else if (at[0] + more == n) {
+      stretch[0].last = static_cast<std::uint64_t>(n);
+      stretch[stretches++] = {1, 1};
     }
-    const int distinct = static_cast<int>(std::min<std::int64_t>(n, 3));
-    for (int d = 0; d < distinct; ++d) index[d] = (at[i] - 1 + n - (distinct == 3 ? 1 : 0) + d) % n + 1;
+  }
+
+  // Along y and z: the up to three indices next to at[i]; on a periodic axis of one or two cells each only once.
+  const auto around = [&](int i, std::int64_t(&index)[3]) {
+    const std::int64_t cells = axes_[i].count;
+    const int distinct = axes_[i].periodic ? static_cast<int>(std::min<std::int64_t>(cells, 3)) : 3;
+    for (int d = 0; d < distinct; ++d) {
+      index[d] = at[i] + d - (distinct == 3 ? 1 : 0);
+      if (!axes_[i].periodic) continue;
+      if (index[d] < 1) index[d] += cells;
+      if (index[d] > cells) index[d] -= cells;
+    }
     return distinct;
   };
-  std::int64_t xs[3], ys[3], zs[3];
-  const int nx = around(0, xs), ny = around(1, ys), nz = around(2, zs);
-  for (int d = 1; d < nx; ++d) {
-    for (int e = d; e > 0 && xs[e] < xs[e - 1]; --e) std::swap(xs[e], xs[e - 1]);
-  }
+  std::int64_t ys[3], zs[3];
+  const int ny = around(1, ys), nz = around(2, zs);
 
   std::size_t ranges = 0;
   for (int z = 0; z < nz; ++z) {
     for (int y = 0; y < ny; ++y) {
-      const std::int64_t row = ys[y] * stride_y_ + zs[z] * stride_z_;
-      for (int first = 0; first < nx;) {
-        int last = first;
-        while (last + 1 < nx && xs[last + 1] == xs[last] + 1) ++last;
-        out[ranges++] = {static_cast<std::uint64_t>(row + xs[first]), static_cast<std::uint64_t>(row + xs[last])};
-        first = last + 1;
-      }
+      const auto start = static_cast<std::uint64_t>(ys[y] * stride_y_ + zs[z] * stride_z_);
+      for (std::size_t s = 0; s < stretches; ++s) out[ranges++] = {start + stretch[s].first, start + stretch[s].last};
     }
   }
   return ranges;

@@ -44,9 +44,15 @@ class CellGrid {
   struct KeyRange {
     std::uint64_t first, last;
   };
-  /// The cells around `key`, itself included, as disjoint ranges of numbers; each cell in one of them, once.
-  /// At most 18: nine rows, each cut in two where x is periodic.
-  std::size_t neighbour_ranges(std::uint64_t key, KeyRange (&out)[18]) const;
+  /// The cells around `key` and up to `more` cells after it in its row, themselves included, as disjoint ranges of
+  /// numbers; each cell in one of them, once. At most 18: nine rows, each cut in two where x is periodic.
+  std::size_t neighbour_ranges(std::uint64_t key, KeyRange (&out)[18], int more = 0) const;
+
+  /// Key of the last cell of the row that `key` is in.
+  std::uint64_t row_end(std::uint64_t key) const {
+    const auto stride = static_cast<std::uint64_t>(stride_y_);
+    return key - key % stride + stride - 2;
+  }
 
   const Axis& axis(int i) const { return axes_[i]; }
 

@@ -9,12 +9,12 @@
 #include <cstdint>
 #include <limits>
 #include <mutex>
-#include <span>
 #include <vector>
 
 #include "hooke/base/parallel.h"
 #include "hooke/base/vec3.h"
 #include "hooke/neighbours/cell_grid.h"
+#include "hooke/neighbours/group_search.h"
 
 namespace hooke {
 
@@ -36,9 +36,9 @@ class MotionBounds {
     Vec3d min{}, max{};  ///< m, box around the points; of a periodic axis its whole period
   };
 
-  /// Takes the places of the points when the list was built, in cell order.
-  void lay_out(std::span<const Vec3<Real>> listed_at, const Limits& limits) {
-    const auto most_blocks = static_cast<std::uint64_t>(std::max<std::size_t>(4096, listed_at.size() / 16));
+  /// Takes the places of the points when the list was built, m, in cell order.
+  void lay_out(const Columns<Real>& listed_at, std::size_t count, const Limits& limits) {
+    const auto most_blocks = static_cast<std::uint64_t>(std::max<std::size_t>(4096, count / 16));
     double width = 4 * limits.diameter;
     double allowed = limits.skin;
     for (Level& level : levels_) {
@@ -54,14 +54,15 @@ class MotionBounds {
     allowed_anywhere_ = allowed;
 
     runs_.clear();
-    for (std::size_t i = 0; i < listed_at.size(); ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3d at = vec_cast<double>(Vec3<Real>{listed_at.x[i], listed_at.y[i], listed_at.z[i]});
       Run run{static_cast<std::uint32_t>(i), {}};
       for (std::size_t l = 0; l < kLevels; ++l) {
-        run.block[l] = static_cast<std::uint32_t>(levels_[l].grid.key_of(vec_cast<double>(listed_at[i])));
+        run.block[l] = static_cast<std::uint32_t>(levels_[l].grid.key_of(at));
       }
       if (runs_.empty() || runs_.back().block != run.block) runs_.push_back(run);
     }
-    count_ = listed_at.size();
+    count_ = count;
   }
 
   /// True where an unlisted pair may touch. `displacement(i, u)` puts point i's displacement since lay_out() (m) into u

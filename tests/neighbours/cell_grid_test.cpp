@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 #include <set>
@@ -64,6 +65,28 @@ class Grids : public testing::TestWithParam<Box> {
 
   CellGrid grid_;
 };
+
+TEST_P(Grids, FindTheCellsAroundSeveralOfARowOnceEach) {
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    const std::uint64_t key = grid_.key_of(point(i));
+    const std::uint64_t last = grid_.row_end(key);
+    ASSERT_GE(last, key);
+    for (int more = 0; more <= 4 && key + static_cast<std::uint64_t>(more) <= last; ++more) {
+      std::multiset<std::uint64_t> several;
+      std::set<std::uint64_t> one_by_one;
+      CellGrid::KeyRange ranges[18];
+      for (std::size_t r = grid_.neighbour_ranges(key, ranges, more); r-- > 0;) {
+        for (std::uint64_t k = ranges[r].first; k <= ranges[r].last; ++k) several.insert(k);
+      }
+      for (int d = 0; d <= more; ++d) {
+        for (std::size_t r = grid_.neighbour_ranges(key + static_cast<std::uint64_t>(d), ranges); r-- > 0;) {
+          for (std::uint64_t k = ranges[r].first; k <= ranges[r].last; ++k) one_by_one.insert(k);
+        }
+      }
+      ASSERT_TRUE(std::equal(several.begin(), several.end(), one_by_one.begin(), one_by_one.end())) << more;
+    }
+  }
+}
 
 TEST_P(Grids, HaveCellsNoSmallerThanTheReach) {
   for (int axis = 0; axis < 3; ++axis) {

@@ -27,12 +27,17 @@ Vec3d noise(std::uint64_t i, double size) {
 class Bounded {
  public:
   Bounded(std::size_t count, const Vec3d& size, bool periodic) : size_(size), periodic_(periodic) {
+    std::vector<double> columns[3];
     for (std::size_t i = 0; i < count; ++i) {
       const auto u = uniform4(30, i, 0);
       x_.push_back({u[0] * size.x, u[1] * size.y, u[2] * size.z});
+      columns[0].push_back(x_.back().x);
+      columns[1].push_back(x_.back().y);
+      columns[2].push_back(x_.back().z);
     }
     // Any order will do; points of one block next to each other save memory and time.
-    bounds_.lay_out(x_, {kDiameter, kSkin, {periodic, periodic, periodic}, {0, 0, 0}, size});
+    bounds_.lay_out({columns[0].data(), columns[1].data(), columns[2].data()}, count,
+                    {kDiameter, kSkin, {periodic, periodic, periodic}, {0, 0, 0}, size});
   }
 
   bool may_touch(const Field& field) {

@@ -37,15 +37,34 @@ constexpr std::size_t kSegment = NeighbourList::kSegment;
 // Positions beyond this are lost; records at kNowhere must stay further away from everything.
 constexpr double kFurthest = kNowhere / 16;
 
+// Vectors, a column a component.
+template <class Real>
+class ColumnStore {
+ public:
+  void resize(std::size_t count) {
+    for (auto* column : {&x_, &y_, &z_}) column->resize(count);
+  }
+  void put(std::size_t i, const Vec3<Real>& value) {
+    x_[i] = value.x;
+    y_[i] = value.y;
+    z_[i] = value.z;
+  }
+  Vec3<Real> operator[](std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
+  Columns<Real> columns() const { return {x_.data(), y_.data(), z_.data()}; }
+
+ private:
+  std::vector<Real> x_, y_, z_;
+};
+
 // The state in one precision. Particles lie in cell order as of the last build; ranks lead back to ids.
 template <class Real>
 class CpuBackend final : public Backend {
   using Record = ParticleRecord<Real>;
 
  public:
-  CpuBackend(const Isa& isa, ForcePassFunction<Real> force_pass, int threads)
+  CpuBackend(const Isa& isa, const Loops<Real>& loops, int threads)
       : isa_name_(isa.name),
-        force_pass_(force_pass),
+        loops_(loops),
         threads_(threads) {}
 
   BackendInfo info() const override {
@@ -230,23 +249,10 @@ class CpuBackend final : public Backend {
     pass_.in = records_.data();
     pass_.out = next_.data();
     pass_.acceleration = acceleration;
-    pass_.listed_at = listed_at_.data();
+    pass_.listed_at = listed_at_.columns();
   }
 
   // Neighbours -------------------------------------------------------------------------------------------------------
-
-  // What positions() and the like ask of the records.
-  struct Points {
-    const std::vector<Record>& records;
-    const std::vector<MaterialRow<Real>>& materials;
-
-    Vec3<Real> position(std::size_t i) const { return records[i].x; }
-    Real radius(std::size_t i) const {
-      const bool one = materials.size() == 1;
-      return materials[one ? 0 : static_cast<std::size_t>(records[i].material)].radius;
-    }
-    std::uint32_t rank(std::size_t i) const { return rank_of(records[i].rank); }
-  };
 
   // The box around all particles, or the particle that is at no place.
   Condition bounding_box(Vec3d& min, Vec3d& max) const {
@@ -310,22 +316,30 @@ class CpuBackend final : public Backend {
   }
 
   void list_neighbours() {
-    NeighbourSearch<Real> search;
-    search.count = count_;
-    search.keys = keys_;
-    search.grid = &grid_;
-    search.skin = static_cast<Real>(rules_.skin);
-    std::copy(std::begin(pass_.periodic), std::end(pass_.periodic), search.periodic);
-    search.length = pass_.length;
-    search.list_self = pass_.periodic_kind == PeriodicKind::images;
-    search.dummy = record_offset<Real>(static_cast<std::uint32_t>(records_.size() - 1));
-    build_neighbour_list(
-        search, Points{records_, rules_.materials}, [](std::uint32_t i) { return record_offset<Real>(i); }, list_);
-
-    listed_at_.resize(padded(count_));
-    parallel_ranges(listed_at_.size(), kSegment, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) listed_at_[i] = records_[i].x;
+    // A pack more than there are particles, for searches to read.
+    listed_at_.resize(padded(count_) + kLanes);
+    ranks_.resize(padded(count_) + kLanes);
+    radii_.resize(rules_.largest_radius > rules_.smallest_radius ? padded(count_) + kLanes : 0);
+    parallel_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        listed_at_.put(i, records_[i].x);
+        ranks_[i] = static_cast<std::int32_t>(rank_of(records_[i].rank));
+        if (!radii_.empty()) radii_[i] = rules_.materials[static_cast<std::size_t>(records_[i].material)].radius;
+      }
     });
+
+    NeighbourRule<Real> rule;
+    rule.at = listed_at_.columns();
+    rule.radius = radii_.empty() ? nullptr : radii_.data();
+    rule.rank = ranks_.data();
+    rule.reach = static_cast<Real>(rules_.skin + (radii_.empty() ? 2 * rules_.largest_radius : 0.0));
+    std::copy(std::begin(pass_.periodic), std::end(pass_.periodic), rule.periodic);
+    rule.length = pass_.length;
+    rule.list_self = pass_.periodic_kind == PeriodicKind::images;
+    rule.stride = record_offset<Real>(1);
+    rule.dummy = record_offset<Real>(static_cast<std::uint32_t>(records_.size() - 1));
+    build_neighbour_list({keys_, &grid_}, rule, loops_.search_group, list_);
+
     listed_ = true;
     motion_laid_out_ = false;
     ++rebuilds_;
@@ -333,10 +347,11 @@ class CpuBackend final : public Backend {
 
   // How far a record has moved since its neighbours were listed, m.
   Vec3<Real> displacement(const Record& p, std::size_t i) const {
-    Vec3<Real> moved = p.x - listed_at_[i];
+    const Vec3<Real> from = listed_at_[i];
+    Vec3<Real> moved = p.x - from;
     for (int axis = 0; axis < 3; ++axis) {
       if (!pass_.periodic[axis]) continue;
-      const Real now = component(p.x, axis), then = component(listed_at_[i], axis);
+      const Real now = component(p.x, axis), then = component(from, axis);
       const Real length = component(pass_.length, axis);
       component(moved, axis) = image_displacement(now, then, nearest_image(now, then, length), length);
     }
@@ -355,7 +370,7 @@ class CpuBackend final : public Backend {
     bool may_touch = false;
     threads_.run([&] {
       if (!motion_laid_out_) {
-        motion_.lay_out({listed_at_.data(), count_}, motion_limits_);
+        motion_.lay_out(listed_at_.columns(), count_, motion_limits_);
         motion_laid_out_ = true;
       }
       may_touch = motion_.unlisted_pair_may_touch([&](std::size_t i, Vec3<Real>& u) {
@@ -381,7 +396,7 @@ class CpuBackend final : public Backend {
     work.wall_power = report.wall_power.data();
     for (std::size_t axis = 0; axis < 3; ++axis) work.wall_force[axis] = report.wall_force[axis].data();
     report.notes.fill(0);
-    force_pass_(pass_, work);
+    loops_.force_pass(pass_, work);
   }
 
   void add_up(std::size_t s, const SegmentReport& report, StepSums& sums) const {
@@ -530,7 +545,7 @@ class CpuBackend final : public Backend {
   }
 
   std::string isa_name_;
-  ForcePassFunction<Real> force_pass_;
+  Loops<Real> loops_;
   mutable Threads threads_;
   mutable std::mutex mutex_;  // around the totals of a pass
 
@@ -550,7 +565,9 @@ class CpuBackend final : public Backend {
   std::vector<std::uint64_t> keys_;
   std::vector<std::uint32_t> order_;
   NeighbourList list_;
-  std::vector<Vec3<Real>> listed_at_;  // m
+  std::vector<std::int32_t> ranks_;  // in the order of the list
+  std::vector<Real> radii_;  // m, likewise; empty where all are the same
+  ColumnStore<Real> listed_at_;  // positions, m
   bool listed_ = false;
   MotionBounds<Real> motion_;  // since the list was built
   typename MotionBounds<Real>::Limits motion_limits_;
@@ -570,9 +587,9 @@ Expected<std::unique_ptr<Backend>> make_cpu_backend(const CpuOptions& options) {
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int threads = options.threads > 0 ? options.threads : cores;
   if (options.precision == Precision::single_precision) {
-    return std::make_unique<CpuBackend<float>>(*isa, isa->single_pass, threads);
+    return std::make_unique<CpuBackend<float>>(*isa, isa->single_loops, threads);
   }
-  return std::make_unique<CpuBackend<double>>(*isa, isa->double_pass, threads);
+  return std::make_unique<CpuBackend<double>>(*isa, isa->double_loops, threads);
 }
 
 }  // namespace hooke

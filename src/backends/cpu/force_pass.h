@@ -7,6 +7,7 @@
 
 #include "hooke/backends/cpu/particle_record.h"
 #include "hooke/base/vec3.h"
+#include "hooke/neighbours/group_search.h"
 
 namespace hooke {
 
@@ -42,7 +43,7 @@ struct ForcePass {
   const ParticleRecord<Real>* in = nullptr;   // state before
   ParticleRecord<Real>* out = nullptr;        // state after
   Vec3<Real>* acceleration = nullptr;         // velocity Verlet: where a goes; null under symplectic Euler
-  const Vec3<Real>* listed_at = nullptr;      // positions when the list was built, m
+  Columns<Real> listed_at;                    // positions when the list was built, m
   const PairRow<Real>* pairs = nullptr;       // material_count squared
   const MaterialRow<Real>* materials = nullptr;
   std::size_t material_count = 1;

@@ -188,12 +188,7 @@ HOOKE_HD Mask<Real> left_domain(const ForcePass<Real>& pass, const Vec3<Pack<Rea
 template <class Real, PeriodicKind kPeriodic>
 HOOKE_HD Mask<Real> moved_far(const ForcePass<Real>& pass, const Vec3<Pack<Real>>& x, std::size_t first) {
   using P = Pack<Real>;
-  const auto load_axis = [&](Real Vec3<Real>::* c) {
-    P a(Real(0));
-    for (std::size_t lane = 0; lane < P::kLanes; ++lane) a.v[lane] = pass.listed_at[first + lane].*c;
-    return a;
-  };
-  const Vec3<P> from{load_axis(&Vec3<Real>::x), load_axis(&Vec3<Real>::y), load_axis(&Vec3<Real>::z)};
+  const Vec3<P> from{load(pass.listed_at.x + first), load(pass.listed_at.y + first), load(pass.listed_at.z + first)};
   Vec3<P> moved = x - from;
   if constexpr (kPeriodic != PeriodicKind::none) {
     const auto displacement = [&](const P& now, const P& then, bool periodic, Real length) {

@@ -7,15 +7,27 @@
 
 namespace hooke {
 
+#define HOOKE_DECLARE_GROUP_SEARCH(isa)                                                          \
+  namespace isa {                                                                                \
+  std::size_t search_group(const NeighbourRule<float>& rule, const GroupSearch<float>& group);   \
+  std::size_t search_group(const NeighbourRule<double>& rule, const GroupSearch<double>& group); \
+  }
+HOOKE_DECLARE_GROUP_SEARCH(portable)
+HOOKE_DECLARE_GROUP_SEARCH(avx2)
+HOOKE_DECLARE_GROUP_SEARCH(avx512)
+#undef HOOKE_DECLARE_GROUP_SEARCH
+
 std::vector<Isa> available_isas() {
   std::vector<Isa> isas;
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) {
-    isas.push_back({"avx512", avx512::force_pass, avx512::force_pass});
+    isas.push_back({"avx512", {avx512::force_pass, avx512::search_group}, {avx512::force_pass, avx512::search_group}});
   }
-  if (__builtin_cpu_supports("avx2")) isas.push_back({"avx2", avx2::force_pass, avx2::force_pass});
+  if (__builtin_cpu_supports("avx2"))
+    isas.push_back({"avx2", {avx2::force_pass, avx2::search_group}, {avx2::force_pass, avx2::search_group}});
 #endif
-  isas.push_back({"portable", portable::force_pass, portable::force_pass});
+  isas.push_back(
+      {"portable", {portable::force_pass, portable::search_group}, {portable::force_pass, portable::search_group}});
   return isas;
 }
 

@@ -7,14 +7,22 @@
 
 #include "hooke/backends/cpu/force_pass.h"
 #include "hooke/base/expected.h"
+#include "hooke/neighbours/group_search.h"
 
 namespace hooke {
 
-/// One build of the force pass.
+/// The inner loops in one precision.
+template <class Real>
+struct Loops {
+  ForcePassFunction<Real> force_pass;
+  GroupSearchFunction<Real> search_group;
+};
+
+/// One build of the inner loops.
 struct Isa {
   const char* name;  ///< "portable", "avx2", "avx512"
-  ForcePassFunction<float> single_pass;
-  ForcePassFunction<double> double_pass;
+  Loops<float> single_loops;
+  Loops<double> double_loops;
 };
 
 /// The instruction sets that this processor has, the widest first.

@@ -238,8 +238,95 @@ HOOKE_HD void store_quads(const Quad<double>& q, const At& at) {
 
 /// Consecutive numbers, one a lane, at any address.
 template <class Real>
+HOOKE_HD Pack<Real> load(const Real* from) {
+  Pack<Real> a;
+  __builtin_memcpy(&a.v, from, sizeof(a.v));
+  return a;
+}
+template <class Real>
 HOOKE_HD void store(Real* to, const Pack<Real>& a) {
   __builtin_memcpy(to, &a.v, sizeof(a.v));
+}
+
+// append(to, from, m): copies those of the numbers from[lane] whose lane is set in m behind each other and returns how
+// many. May write as many numbers as a register holds.
+
+#if defined(__AVX512F__)
+
+HOOKE_HD std::size_t append(std::int32_t* to, const std::int32_t* from, const Mask<float>& m) {
+  const __mmask16 set = _mm512_test_epi32_mask((__m512i)m.v, (__m512i)m.v);
+  _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(set, _mm512_loadu_si512(from)));
+  return static_cast<std::size_t>(__builtin_popcount(set));
+}
+HOOKE_HD std::size_t append(std::int32_t* to, const std::int32_t* from, const Mask<double>& m) {
+  const __mmask8 set = _mm512_test_epi64_mask((__m512i)m.v, (__m512i)m.v);
+  const __m512i low = _mm512_castsi256_si512(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
+  _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(set, low));
+  return static_cast<std::size_t>(__builtin_popcount(set));
+}
+
+#elif defined(__AVX2__)
+
+// For each set of eight lanes: which lanes are in it, as bytes.
+struct LaneTable {
+  std::uint64_t lanes[256];
+};
+constexpr LaneTable make_lane_table() {
+  LaneTable table{};
+  for (unsigned set = 0; set < 256; ++set) {
+    for (unsigned lane = 0, at = 0; lane < 8; ++lane) {
+      if ((set >> lane & 1U) != 0) table.lanes[set] |= std::uint64_t{lane} << 8 * at++;
+    }
+  }
+  return table;
+}
+static constexpr LaneTable kLaneTable = make_lane_table();
+
+HOOKE_HD std::size_t append(std::int32_t* to, __m256i from, unsigned set) {
+  const __m256i lanes = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(kLaneTable.lanes[set])));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(from, lanes));
+  return static_cast<std::size_t>(__builtin_popcount(set));
+}
+HOOKE_HD std::size_t append(std::int32_t* to, const std::int32_t* from, const Mask<float>& m) {
+  const auto set = static_cast<unsigned>(_mm256_movemask_ps((__m256)m.v));
+  return append(to, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)), set);
+}
+HOOKE_HD std::size_t append(std::int32_t* to, const std::int32_t* from, const Mask<double>& m) {
+  const auto set = static_cast<unsigned>(_mm256_movemask_pd((__m256d)m.v));
+  return append(to, _mm256_castsi128_si256(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from))), set);
+}
+
+#else
+
+// Each is written, the next one over it if its lane is not set.
+template <class Real>
+HOOKE_HD std::size_t append(std::int32_t* to, const std::int32_t* from, const Mask<Real>& m) {
+  std::size_t count = 0;
+  for (std::size_t lane = 0; lane < Pack<Real>::kLanes; ++lane) {
+    to[count] = from[lane];
+    count += static_cast<std::size_t>(m.v[lane] & 1);
+  }
+  return count;
+}
+
+#endif
+
+inline constexpr std::size_t kInt32Lanes = kPackBytes / sizeof(std::int32_t);
+
+/// Exchanges a and b, keys and values, in the lanes where b's key is the smaller one. kInt32Lanes lanes.
+HOOKE_HD void sort_lanes(std::int32_t* key_a, std::int32_t* key_b, std::uint32_t* value_a, std::uint32_t* value_b) {
+  Int32Vector ka, kb, va, vb;
+  __builtin_memcpy(&ka, key_a, sizeof(ka));
+  __builtin_memcpy(&kb, key_b, sizeof(kb));
+  __builtin_memcpy(&va, value_a, sizeof(va));
+  __builtin_memcpy(&vb, value_b, sizeof(vb));
+  const Int32Vector wrong = kb < ka;
+  const Int32Vector key_low = wrong ? kb : ka, key_high = wrong ? ka : kb;
+  const Int32Vector value_low = wrong ? vb : va, value_high = wrong ? va : vb;
+  __builtin_memcpy(key_a, &key_low, sizeof(ka));
+  __builtin_memcpy(key_b, &key_high, sizeof(kb));
+  __builtin_memcpy(value_a, &value_low, sizeof(va));
+  __builtin_memcpy(value_b, &value_high, sizeof(vb));
 }
 
 }  // namespace hooke::HOOKE_ISA

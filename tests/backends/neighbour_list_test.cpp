@@ -5,27 +5,15 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <ostream>
 
+#include "hooke/backends/cpu/isa.h"
 #include "hooke/base/random.h"
 
 namespace hooke {
 namespace {
 
 constexpr std::uint32_t kDummy = 0xfffffff0U;
-
-// Points for the list: positions in the order of their cells, ranks in another.
-template <class Real>
-struct Cloud {
-  std::vector<Vec3<Real>> x;
-  std::vector<Real> r;
-  std::vector<std::uint32_t> ranks;
-
-  Vec3<Real> position(std::size_t i) const { return x[i]; }
-  Real radius(std::size_t i) const { return r[i]; }
-  std::uint32_t rank(std::size_t i) const { return ranks[i]; }
-};
 
 struct Setting {
   const char* name;
@@ -60,6 +48,11 @@ const Setting kSettings[] = {
     {"periodic_z", 1000, {0, 0, 0}, {8, 20, 2.5}, {false, false, true}, {1, 1, 1}, 0.5, 1},
 };
 
+constexpr double kSkin = 0.5;  // of the smallest radius
+
+GroupSearchFunction<float> search_of(const Isa& isa, float) { return isa.single_loops.search_group; }
+GroupSearchFunction<double> search_of(const Isa& isa, double) { return isa.double_loops.search_group; }
+
 template <class Real>
 class Lists {
  public:
@@ -76,49 +69,58 @@ class Lists {
     for (const auto& p : x) keys_.push_back(grid_.key_of(vec_cast<double>(p)));
     std::vector<std::uint32_t> order;
     sort_by_key(keys_, order);
+    constexpr std::size_t kReadable = 16;
+    for (auto* column : {&x_, &y_, &z_, &radii_}) column->resize(setting.count + kReadable);
+    ranks_.resize(setting.count + kReadable);
     for (std::size_t i = 0; i < setting.count; ++i) {
-      cloud_.x.push_back(x[order[i]]);
-      cloud_.ranks.push_back(order[i]);
+      x_[i] = x[order[i]].x;
+      y_[i] = x[order[i]].y;
+      z_[i] = x[order[i]].z;
+      ranks_[i] = static_cast<std::int32_t>(order[i]);
       const double part = uniform4(12, order[i], 0)[0];
-      cloud_.r.push_back(static_cast<Real>(setting.radius * (1 + (setting.ratio - 1) * part)));
+      radii_[i] = static_cast<Real>(setting.radius * (1 + (setting.ratio - 1) * part));
     }
-    search_.count = setting.count;
-    search_.keys = keys_;
-    search_.grid = &grid_;
-    search_.skin = static_cast<Real>(kSkin * setting.radius);
-    std::copy(std::begin(setting.periodic), std::end(setting.periodic), search_.periodic);
-    search_.length = vec_cast<Real>(size);
-    search_.dummy = kDummy;
+    rule_.at = {x_.data(), y_.data(), z_.data()};
+    rule_.radius = setting.ratio == 1 ? nullptr : radii_.data();
+    rule_.rank = ranks_.data();
+    rule_.reach = static_cast<Real>((kSkin + (setting.ratio == 1 ? 2 : 0)) * setting.radius);
+    std::copy(std::begin(setting.periodic), std::end(setting.periodic), rule_.periodic);
+    rule_.length = vec_cast<Real>(size);
+    rule_.stride = kStride;
+    rule_.dummy = kDummy;
   }
 
-  void build(bool list_self, NeighbourList& list) {
-    search_.list_self = list_self;
-    build_neighbour_list(search_, cloud_, [](std::uint32_t i) { return i; }, list);
+  void build(const Isa& isa, bool list_self, NeighbourList& list) {
+    rule_.list_self = list_self;
+    build_neighbour_list<Real>({keys_, &grid_}, rule_, search_of(isa, Real{}), list);
   }
 
-  // Every pair looked at: the points nearer to i than their radii and the skin, by rank.
+  // Every pair looked at: the points nearer to i than the reach, by rank.
   std::vector<std::uint32_t> expected(std::size_t i, bool list_self) const {
     std::vector<std::uint32_t> near;
-    for (std::size_t p = 0; p < cloud_.x.size(); ++p) {
+    for (std::size_t p = 0; p < setting_.count; ++p) {
       if (p == i && !list_self) continue;
       Real sum = 0;
-      for (int axis = 0; axis < 3; ++axis) {
-        Real d = component(cloud_.x[i], axis) - component(cloud_.x[p], axis);
-        const Real length = component(search_.length, axis);
-        if (search_.periodic[axis] && d > length / 2) d -= length;
-        if (search_.periodic[axis] && d < -length / 2) d += length;
+      int axis = 0;
+      for (const auto* column : {&x_, &y_, &z_}) {
+        Real d = (*column)[i] - (*column)[p];
+        const Real length = component(rule_.length, axis);
+        if (rule_.periodic[axis] && d > length / 2) d -= length;
+        if (rule_.periodic[axis] && d < -length / 2) d += length;
         sum += d * d;
+        ++axis;
       }
-      const Real reach = cloud_.r[i] + (cloud_.r[p] + search_.skin);
+      const Real reach = rule_.radius == nullptr ? rule_.reach : rule_.reach + radii_[i] + radii_[p];
       if (sum < reach * reach) near.push_back(static_cast<std::uint32_t>(p));
     }
-    std::sort(near.begin(), near.end(), [&](auto a, auto b) { return cloud_.ranks[a] < cloud_.ranks[b]; });
+    std::sort(near.begin(), near.end(), [&](auto a, auto b) { return ranks_[a] < ranks_[b]; });
+    for (std::uint32_t& p : near) p *= kStride;
     return near;
   }
 
   // Into a list that may have held others before.
-  void check(bool list_self, NeighbourList& list) {
-    build(list_self, list);
+  void check(const Isa& isa, bool list_self, NeighbourList& list) {
+    build(isa, list_self, list);
     ASSERT_EQ(list.segments.size(), (setting_.count + NeighbourList::kSegment - 1) / NeighbourList::kSegment);
     for (std::size_t i = 0; i < setting_.count; ++i) {
       const NeighbourList::Segment& segment = list.segments[i / NeighbourList::kSegment];
@@ -128,31 +130,37 @@ class Lists {
         lane.push_back(segment.entries[row * NeighbourList::kLanes + i % NeighbourList::kLanes]);
       }
       while (!lane.empty() && lane.back() == kDummy) lane.pop_back();
-      ASSERT_EQ(lane, expected(i, list_self)) << "point " << i;
+      ASSERT_EQ(lane, expected(i, list_self)) << isa.name << ", point " << i;
     }
   }
 
  private:
-  static constexpr double kSkin = 0.5;  // of the smallest radius
+  static constexpr std::uint32_t kStride = 4;
 
   Setting setting_;
   CellGrid grid_;
   std::vector<std::uint64_t> keys_;
-  Cloud<Real> cloud_;
-  NeighbourSearch<Real> search_;
+  std::vector<Real> x_, y_, z_, radii_;
+  std::vector<std::int32_t> ranks_;
+  NeighbourRule<Real> rule_;
 };
 
 class NeighbourLists : public testing::TestWithParam<Setting> {};
 
 TEST_P(NeighbourLists, HoldTheNearAndNoOthersByRank) {
   NeighbourList list;
-  Lists<double>(GetParam()).check(false, list);
-  Lists<float>(GetParam()).check(false, list);
+  for (const Isa& isa : available_isas()) {
+    Lists<double>(GetParam()).check(isa, false, list);
+    Lists<float>(GetParam()).check(isa, false, list);
+  }
 }
 
 TEST_P(NeighbourLists, HoldThePointItselfWhereAsked) {
   NeighbourList list;
-  Lists<double>(GetParam()).check(true, list);
+  for (const Isa& isa : available_isas()) {
+    Lists<double>(GetParam()).check(isa, true, list);
+    Lists<float>(GetParam()).check(isa, true, list);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Settings, NeighbourLists, testing::ValuesIn(kSettings),
@@ -162,16 +170,16 @@ INSTANTIATE_TEST_SUITE_P(Settings, NeighbourLists, testing::ValuesIn(kSettings),
 TEST(NeighbourList, CanBeBuiltAgainAndAgain) {
   NeighbourList list;
   for (int round = 0; round < 2; ++round) {
-    for (const Setting& setting : kSettings) Lists<double>(setting).check(false, list);
+    for (const Setting& setting : kSettings) Lists<double>(setting).check(available_isas().front(), false, list);
   }
 }
 
 TEST(NeighbourList, CountsItsEntriesWithTheirPadding) {
   NeighbourList list;
   EXPECT_EQ(list.entry_count(), 0U);
-  Lists<double>(kSettings[2]).check(false, list);  // two points that are neighbours: one row
+  Lists<double>(kSettings[2]).check(available_isas().front(), false, list);  // two points that are neighbours: one row
   EXPECT_EQ(list.entry_count(), NeighbourList::kLanes);
-  Lists<double>(kSettings[0]).check(false, list);
+  Lists<double>(kSettings[0]).check(available_isas().front(), false, list);
   EXPECT_EQ(list.entry_count(), 0U);
 }
 
