@@ -5,8 +5,10 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <functional>
 #include <map>
@@ -69,6 +71,11 @@ std::string parse_size(const std::string& text, PictureArguments& picture) {
   return {};
 }
 
+// CLI::Range lets it pass.
+std::string not_nan(const std::string& text) {
+  return std::isnan(std::strtod(text.c_str(), nullptr)) ? text + " is no number" : "";
+}
+
 void add_picture_options(CLI::App& command, PictureArguments& picture) {
   command
       .add_option_function<std::string>(
@@ -77,7 +84,7 @@ void add_picture_options(CLI::App& command, PictureArguments& picture) {
       ->check([&picture](const std::string& text) { return parse_size(text, picture); });
   command.add_option("--fps", picture.frames_per_second, "frames of a film for each simulated second (default: 30)")
       ->option_text("F")
-      ->check(CLI::Range(1e-3, 1000.0));
+      ->check(CLI::Range(1e-3, 1000.0) & CLI::Validator(not_nan, ""));
   std::map<std::string, ColorBy> names;
   for (const ColorByName& name : kColorByNames) names[name.name] = name.by;
   command
@@ -87,7 +94,13 @@ void add_picture_options(CLI::App& command, PictureArguments& picture) {
       ->transform(CLI::CheckedTransformer(names));
   command
       .add_option_function<std::vector<double>>(
-          "--color-range", [&picture](const std::vector<double>& ends) { picture.range = {ends[0], ends[1]}; },
+          "--color-range",
+          [&picture](const std::vector<double>& ends) {
+            if (!(ends[0] < ends[1]) || !std::isfinite(ends[1] - ends[0])) {
+              throw CLI::ValidationError("--color-range", "LOW must be below HIGH");
+            }
+            picture.range = {ends[0], ends[1]};
+          },
           "values at the two ends of the colours (default: from the scene)")
       ->option_text("LOW HIGH")
       ->expected(2);

@@ -63,11 +63,11 @@ bool is_picture(const std::filesystem::path& file) { return file.extension() == 
 
 // "frames/%04d.png": where the numbers go, and how many digits they have at least.
 std::optional<std::string> numbered_name(const std::filesystem::path& pattern, std::size_t number) {
-  static const std::regex kNumber("%0?([0-9]*)d");
+  static const std::regex kNumber("%0?([0-9]{0,2})d");
   std::smatch match;
   const std::string name = pattern.filename().string();
   if (!std::regex_search(name, match, kNumber)) return {};
-  const int digits = match[1].length() > 0 ? std::min(std::stoi(match[1].str()), 20) : 1;
+  const int digits = match[1].length() > 0 ? std::stoi(match[1].str()) : 1;
   return match.prefix().str() + fmt::format("{:0{}}", number, digits) + match.suffix().str();
 }
 

@@ -43,6 +43,7 @@ Program::Program(const std::filesystem::path& folder, const std::vector<std::str
   argv.push_back(nullptr);
 
   pid_ = fork();
+  setpgid(pid_, pid_);  // by both: it is done before either goes on
   if (pid_ != 0) return;
   if (chdir(folder.c_str()) != 0) _exit(127);
   redirect(out_, STDOUT_FILENO);
@@ -61,7 +62,7 @@ Outcome Program::wait() {
   return {WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status), slurp(out_), slurp(err_)};
 }
 
-void Program::send(int signal) const { kill(pid_, signal); }
+void Program::send(int signal) const { kill(-pid_, signal); }
 
 ProgramTest::ProgramTest() {
   std::string pattern = (std::filesystem::temp_directory_path() / "hooke_cli_XXXXXX").string();

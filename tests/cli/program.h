@@ -27,6 +27,7 @@ class Program {
   Program(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
           std::uint64_t file_size_limit = 0);
   Outcome wait();
+  /// To its process group, as a terminal does.
   void send(int signal) const;
 
  private:
