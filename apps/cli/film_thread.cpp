@@ -46,22 +46,28 @@ struct FilmThread::Impl {
   void draw(const Simulation& simulation, std::promise<Expected<void>> started) {
     auto studio = Studio::open(picture);
     if (!studio) return started.set_value(fail(std::move(studio).error()));
-    auto film = FilmWriter::create(file, {picture.width, picture.height, picture.frames_per_second});
-    if (!film) return started.set_value(fail(std::move(film).error()));
     studio->set_scene(simulation.scene(), simulation.particles());
     started.set_value({});
 
+    // The file is opened by the first frame: a run that does not come about leaves an older film alone.
+    std::optional<FilmWriter> film;
     double seconds = 0;
     while (std::optional<Shot> shot = take()) {
+      if (!film) {
+        auto opened = FilmWriter::create(file, {picture.width, picture.height, picture.frames_per_second});
+        if (!opened) return give_up(std::move(opened).error());
+        film = std::move(*opened);
+      }
       auto image = studio->picture(
           shot->late > 0 ? drawn_back(simulation.scene(), shot->particles, shot->late) : shot->particles, shot->time);
       seconds += studio->figures().total_seconds;
       auto added = image ? film->add(*image) : Expected<void>(fail(std::move(image).error()));
       if (!added) return give_up(std::move(added).error());
     }
+    if (!film) return;
     if (auto finished = film->finish(); !finished) return give_up(std::move(finished).error());
     const std::lock_guard lock(mutex);
-    summary = {film->frames(), film->frames() > 0 ? seconds / static_cast<double>(film->frames()) : 0};
+    summary = {film->frames(), seconds / static_cast<double>(film->frames())};
   }
 
   // The next shot; none where the film is to end.

@@ -20,8 +20,8 @@ class FilmThread {
     double seconds_a_frame = 0;  ///< that drawing one took, on the average
   };
 
-  /// bad_input where pictures can't be drawn or the film not be written. Camera and colours follow from the state of
-  /// `simulation`, which must live on as long.
+  /// bad_input where pictures can't be drawn; what check_film() and check_output_file() say has been asked before.
+  /// Camera and colours follow from the state of `simulation`, which must live on as long.
   static Expected<std::unique_ptr<FilmThread>> start(const std::filesystem::path& file, const PictureArguments& picture,
                                                      const Simulation& simulation);
 
