@@ -138,6 +138,7 @@ class GlRenderer final : public Renderer {
     draw_ambient(pixels, sphere_size, frame);
     glDisable(GL_SCISSOR_TEST);
     draw_backdrop(frame, pixels, sun, sphere_size);
+    clear_shaded();
     shade_balls(frame, view, sun, sphere_size);
     if (water) shade_water(frame, view, sun, sphere_size);
     resolve();
@@ -371,6 +372,12 @@ class GlRenderer final : public Renderer {
     cover();
   }
 
+  void clear_shaded() {
+    begin(to_shaded_, width_, height_);
+    glClearColor(0, 0, 0, 0);
+    glClear(GL_COLOR_BUFFER_BIT);
+  }
+
   void begin_shading(const Program& program, Stencil kind) {
     program.read("depths", 1, depth_);
     program.read("colors", 2, color_);
@@ -407,7 +414,6 @@ class GlRenderer final : public Renderer {
   void resolve() {
     begin(to_result_, settings_.width, settings_.height);
     resolve_program_.use();
-    resolve_program_.read("depths", 0, depth_);
     resolve_program_.read("shaded", 1, shaded_);
     resolve_program_.read("backdrop", 2, backdrop_);
     resolve_program_.set("samples", settings_.samples);

@@ -1,8 +1,7 @@
 #version 330 core
 // The mean of each pixel's samples, as screens take it (sRGB), with a noise of one step against bands.
-uniform sampler2D depths;
-uniform sampler2D shaded;
-uniform sampler2D backdrop;   // where a sample shows nothing
+uniform sampler2D shaded;     // alpha 0 where a sample shows nothing
+uniform sampler2D backdrop;   // what is seen there
 uniform int samples;
 
 out vec4 image;
@@ -15,8 +14,8 @@ void main() {
   vec3 sum = vec3(0.0);
   for (int y = 0; y < samples; ++y) {
     for (int x = 0; x < samples; ++x) {
-      ivec2 at = first + ivec2(x, y);
-      vec3 root = texelFetch(depths, at, 0).x == 0.0 ? behind : texelFetch(shaded, at, 0).rgb;
+      vec4 own = texelFetch(shaded, first + ivec2(x, y), 0);
+      vec3 root = own.a == 0.0 ? behind : own.rgb;
       sum += root * root;
     }
   }
