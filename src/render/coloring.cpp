@@ -42,22 +42,22 @@ double or_one(double value) { return value > 0 && std::isfinite(value) ? value :
 
 }  // namespace
 
-const char* title(ColorBy by) {
+ColorTitle title(ColorBy by) {
   switch (by) {
     case ColorBy::material:
-      return "";
+      return {"", ""};
     case ColorBy::speed:
-      return "speed (m/s)";
+      return {"speed", "m/s"};
     case ColorBy::height:
-      return "height (m)";
+      return {"height", "m"};
     case ColorBy::pressure:
-      return "pressure (Pa)";
+      return {"pressure", "Pa"};
     case ColorBy::contacts:
-      return "contacts";
+      return {"contacts", ""};
     case ColorBy::id:
-      return "id";
+      return {"id", ""};
   }
-  return "";
+  return {"", ""};
 }
 
 ColorScale default_scale(const Scene& scene, const ParticleSet& first, ColorBy by) {

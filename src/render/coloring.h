@@ -39,8 +39,12 @@ struct ColorScale {
   double high = 1;  ///< > low
 };
 
-/// What the legend says: "speed (m/s)"; empty for materials.
-const char* title(ColorBy by);
+/// What the legend says: "speed", "m/s"; both empty for materials, no unit for what is counted.
+struct ColorTitle {
+  const char* quantity;
+  const char* unit;
+};
+ColorTitle title(ColorBy by);
 
 /// A scale that suits a whole run, from its scene and its `first` snapshot: speeds up to that of a fall through the
 /// scene's action, the pressure below all particles spread over the floor twice, 12 contacts, every id.

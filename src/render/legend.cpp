@@ -5,8 +5,9 @@
 #include <cairo.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <memory>
+#include <string>
 
 #include "hooke/render/color_map.h"
 
@@ -39,12 +40,16 @@ class Canvas {
   /// A length that grows with the picture, about the height of a line of text, pixels.
   double unit() const { return std::max(9.0, image_.height / 45.0); }
 
-  enum class Align { left, center, right };
-  /// White, with a dark rim to be read before anything; `x`, `y`: on the base line.
-  void text(const std::string& words, double x, double y, Align align) const {
+  double width(const std::string& words) const {
     cairo_text_extents_t size;
     cairo_text_extents(context_, words.c_str(), &size);
-    const double shift = align == Align::left ? 0 : align == Align::center ? 0.5 * size.x_advance : size.x_advance;
+    return size.x_advance;
+  }
+
+  enum class Align { left, center };
+  /// White, with a dark rim to be read before anything; `x`, `y`: on the base line.
+  void text(const std::string& words, double x, double y, Align align) const {
+    const double shift = align == Align::left ? 0 : 0.5 * width(words);
     cairo_move_to(context_, x - shift, y);
     cairo_text_path(context_, words.c_str());
     cairo_set_source_rgba(context_, 0.04, 0.06, 0.09, 0.75);
@@ -76,6 +81,26 @@ double round_step(double range) {
   return power;
 }
 
+// The power of a thousand that makes numbers up to `most` short; 0 where they are as they are.
+int thousands(double most) {
+  if (!(most >= 1e4 || (most > 0 && most < 1e-2))) return 0;
+  return 3 * static_cast<int>(std::floor(std::log10(most) / 3));
+}
+
+// "height (10\u2076 m)"
+std::string title_text(ColorBy by, int power) {
+  static const char* const kDigits[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
+                                        "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+  const auto [quantity, unit] = title(by);
+  std::string in_brackets = unit;
+  if (power != 0) {
+    std::string exponent = power < 0 ? "\u207b" : "";
+    for (const char digit : std::to_string(std::abs(power))) exponent += kDigits[digit - '0'];
+    in_brackets = "10" + exponent + (*unit ? " " : "") + unit;
+  }
+  return in_brackets.empty() ? quantity : fmt::format("{} ({})", quantity, in_brackets);
+}
+
 }  // namespace
 
 void draw_legend(Image& image, const ColorScale& scale) {
@@ -95,10 +120,19 @@ void draw_legend(Image& image, const ColorScale& scale) {
   cairo_set_line_width(c, std::max(1.0, unit / 14));
   cairo_rectangle(c, left, top, width, height);
   cairo_stroke(c);
-  canvas.text(title(scale.by), left, top - 0.55 * unit, Canvas::Align::left);
+  const int power = thousands(std::max(std::abs(scale.low), std::abs(scale.high)));
+  canvas.text(title_text(scale.by, power), left, top - 0.55 * unit, Canvas::Align::left);
   const double step = round_step(scale.high - scale.low);
   const double first = std::ceil(scale.low / step - 1e-9);
   constexpr int kMostTicks = 11;
+  const auto number = [&](double k) {
+    return fmt::format("{:.4g}", k * step == 0 ? 0 : k * step * std::pow(10.0, -power));
+  };
+  // Where numbers would run into each other, every second tick has one, or every third.
+  double widest = 0;
+  for (int tick = 0; tick < kMostTicks; ++tick) widest = std::max(widest, canvas.width(number(first + tick)));
+  const double apart = width * step / (scale.high - scale.low);
+  const double every = std::clamp(std::ceil((widest + 0.4 * unit) / apart), 1.0, 1.0 * kMostTicks);
   for (int tick = 0; tick < kMostTicks; ++tick) {
     const double k = first + tick;
     if (!(k * step <= scale.high + 1e-9 * step)) break;
@@ -107,8 +141,7 @@ void draw_legend(Image& image, const ColorScale& scale) {
     cairo_move_to(c, x, top + height);
     cairo_line_to(c, x, top + height + 0.3 * unit);
     cairo_stroke(c);
-    canvas.text(fmt::format("{:.4g}", k * step == 0 ? 0 : k * step), x, top + height + 1.5 * unit,
-                Canvas::Align::center);
+    if (std::fmod(k, every) == 0) canvas.text(number(k), x, top + height + 1.5 * unit, Canvas::Align::center);
   }
 }
 

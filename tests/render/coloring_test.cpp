@@ -93,7 +93,7 @@ TEST(ColorByNames, AreAllDifferentAndAllButMaterialHaveATitle) {
   std::set<std::string> names;
   for (const ColorByName& name : kColorByNames) {
     names.insert(name.name);
-    EXPECT_EQ(std::strlen(title(name.by)) == 0, name.by == ColorBy::material) << name.name;
+    EXPECT_EQ(std::strlen(title(name.by).quantity) == 0, name.by == ColorBy::material) << name.name;
   }
   EXPECT_EQ(names.size(), std::size(kColorByNames));
 }
