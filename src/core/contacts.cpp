@@ -83,7 +83,7 @@ class ContactSearch {
     void move_to(std::uint64_t key) {
       if (key == key_) return;
       key_ = key;
-      CellGrid::KeyRange cells[18];
+      CellGrid::KeyRange cells[CellGrid::kMostRanges];
       count_ = search_.grid_.neighbour_ranges(key, cells);
       const std::vector<std::uint64_t>& keys = search_.keys_;
       for (std::size_t r = 0; r < count_; ++r) {

@@ -27,48 +27,49 @@ void CellGrid::lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic
   stride_z_ = stride_y_ * (axes_[1].count + 2);
 }
 
-std::size_t CellGrid::neighbour_ranges(std::uint64_t key, KeyRange (&out)[18], int more) const {
+std::size_t CellGrid::neighbour_ranges(std::uint64_t key, KeyRange (&out)[kMostRanges], int more, int around) const {
   const auto k = static_cast<std::int64_t>(key);
   const std::int64_t rows_y = axes_[1].count + 2;
   const std::int64_t row = k / stride_y_;
   const std::int64_t at[3] = {k - row * stride_y_, row % rows_y, row / rows_y};
 
-  // Along x: one stretch, or two where it reaches around a periodic axis.
-  const std::int64_t n = axes_[0].count;
-  KeyRange stretch[2] = {{static_cast<std::uint64_t>(at[0] - 1), static_cast<std::uint64_t>(at[0] + more + 1)}, {}};
-  std::size_t stretches = 1;
-  if (axes_[0].periodic) {
-    if (more + 3 >= n) {
-      stretch[0] = {1, static_cast<std::uint64_t>(n)};
-    } else if (at[0] == 1) {
-      stretch[0].first = 1;
-      stretch[stretches++] = {static_cast<std::uint64_t>(n), static_cast<std::uint64_t>(n)};
-    } else if (at[0] + more == n) {
-      stretch[0].last = static_cast<std::uint64_t>(n);
-      stretch[stretches++] = {1, 1};
-    }
-  }
-
-  // Along y and z: the up to three indices next to at[i]; on a periodic axis of one or two cells each only once.
-  const auto around = [&](int i, std::int64_t(&index)[3]) {
-    const std::int64_t cells = axes_[i].count;
-    const int distinct = axes_[i].periodic ? static_cast<int>(std::min<std::int64_t>(cells, 3)) : 3;
-    for (int d = 0; d < distinct; ++d) {
-      index[d] = at[i] + d - (distinct == 3 ? 1 : 0);
-      if (!axes_[i].periodic) continue;
-      if (index[d] < 1) index[d] += cells;
-      if (index[d] > cells) index[d] -= cells;
-    }
-    return distinct;
+  // Indices first to last of an axis as one stretch, or as two where they reach around a periodic axis.
+  struct Stretch {
+    std::int64_t first, last;
   };
-  std::int64_t ys[3], zs[3];
-  const int ny = around(1, ys), nz = around(2, zs);
+  const auto stretches = [&](int i, std::int64_t first, std::int64_t last, Stretch(&to)[2]) {
+    const std::int64_t n = axes_[i].count;
+    if (!axes_[i].periodic || last - first + 1 >= n) {
+      to[0] = axes_[i].periodic ? Stretch{1, n} : Stretch{std::max<std::int64_t>(first, 1), std::min(last, n)};
+      return 1;
+    }
+    to[0] = {std::max<std::int64_t>(first, 1), std::min(last, n)};
+    if (first < 1) {
+      to[1] = {first + n, n};
+    } else if (last > n) {
+      to[1] = {1, last - n};
+    } else {
+      return 1;
+    }
+    return 2;
+  };
+  Stretch xs[2], ys[2], zs[2];
+  const int nx = stretches(0, at[0] - around, at[0] + more + around, xs);
+  const int ny = stretches(1, at[1] - around, at[1] + around, ys);
+  const int nz = stretches(2, at[2] - around, at[2] + around, zs);
 
   std::size_t ranges = 0;
-  for (int z = 0; z < nz; ++z) {
-    for (int y = 0; y < ny; ++y) {
-      const auto start = static_cast<std::uint64_t>(ys[y] * stride_y_ + zs[z] * stride_z_);
-      for (std::size_t s = 0; s < stretches; ++s) out[ranges++] = {start + stretch[s].first, start + stretch[s].last};
+  for (int sz = 0; sz < nz; ++sz) {
+    for (std::int64_t z = zs[sz].first; z <= zs[sz].last; ++z) {
+      for (int sy = 0; sy < ny; ++sy) {
+        for (std::int64_t y = ys[sy].first; y <= ys[sy].last; ++y) {
+          const std::int64_t start = y * stride_y_ + z * stride_z_;
+          for (int sx = 0; sx < nx; ++sx) {
+            out[ranges++] = {static_cast<std::uint64_t>(start + xs[sx].first),
+                             static_cast<std::uint64_t>(start + xs[sx].last)};
+          }
+        }
+      }
     }
   }
   return ranges;

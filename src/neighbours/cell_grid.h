@@ -44,9 +44,11 @@ class CellGrid {
   struct KeyRange {
     std::uint64_t first, last;
   };
-  /// The cells around `key` and up to `more` cells after it in its row, themselves included, as disjoint ranges of
-  /// numbers; each cell in one of them, once. At most 18: nine rows, each cut in two where x is periodic.
-  std::size_t neighbour_ranges(std::uint64_t key, KeyRange (&out)[18], int more = 0) const;
+  /// The cells up to `around` (1 or 2) indices away from `key` and up to `more` cells after it in its row, themselves
+  /// included, as disjoint ranges of numbers; each cell in one of them, once. At most nine rows for 1, 25 for 2, each
+  /// cut in two where x is periodic.
+  static constexpr std::size_t kMostRanges = 50;
+  std::size_t neighbour_ranges(std::uint64_t key, KeyRange (&out)[kMostRanges], int more = 0, int around = 1) const;
 
   /// Key of the last cell of the row that `key` is in.
   std::uint64_t row_end(std::uint64_t key) const {

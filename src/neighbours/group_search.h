@@ -24,9 +24,10 @@ struct Columns {
 /// Who is whose neighbour. Columns are in cell order, and 16 numbers after their last one can be read.
 template <class Real>
 struct NeighbourRule {
-  Columns<Real> at;  // positions, m
+  Columns<Real> at;  // positions, m; where x is null, they are in records
+  const Real* records = nullptr;  // eight numbers a point, the first three its position, m; aligned like a pack
   const Real* radius = nullptr;  // m; null where all are the same
-  const std::int32_t* rank = nullptr;  // unique, below the largest int32: the order of a row
+  const std::uint32_t* rank = nullptr;  // unique, below 2^31 - 1: the order of a row
   Real reach{};  // m; p is listed when nearer to i than this, and r_i + r_p where radii differ
   bool periodic[3]{};  // then the nearest image counts
   Vec3<Real> length{};  // m, of periodic axes
@@ -37,7 +38,7 @@ struct NeighbourRule {
 
 /// Some points of a group that lie close together, and where those lie that may be near them.
 struct SearchBlock {
-  static constexpr std::size_t kMostRanges = 18;
+  static constexpr std::size_t kMostRanges = 50;
   std::uint32_t last;  // one past its last point; the first one follows the block before
   std::uint32_t range_count;
   std::uint32_t from[kMostRanges], to[kMostRanges];  // points from[r] to to[r] - 1; disjoint

@@ -35,6 +35,13 @@ class NeighbourList {
   };
   std::vector<Segment> segments;
 
+  /// The rows of group g of segment s.
+  std::span<const std::uint32_t> rows(std::size_t s, std::size_t g) const {
+    const Segment& segment = segments[s];
+    const std::uint32_t first = segment.first_row[g];
+    return {segment.entries + std::size_t{first} * kLanes, (segment.first_row[g + 1] - first) * kLanes};
+  }
+
   /// Entries in use, padding included.
   std::size_t entry_count() const {
     std::size_t n = 0;
@@ -85,7 +92,7 @@ namespace detail {
 // Cuts groups into blocks: points in up to three adjacent cells of a row share the search for who may be near them.
 class BlockFinder {
  public:
-  explicit BlockFinder(const SortedCells& cells) : keys_(cells.keys), grid_(*cells.grid) {}
+  BlockFinder(const SortedCells& cells, int around) : keys_(cells.keys), grid_(*cells.grid), around_(around) {}
 
   // The block of the points from `first` on, `end` at most. Returns the number of points that its ranges hold.
   std::size_t find(std::size_t first, std::size_t end, SearchBlock& block) {
@@ -96,8 +103,10 @@ class BlockFinder {
     while (last < end && keys_[last] <= key_end) ++last;
     block.last = static_cast<std::uint32_t>(last);
 
-    CellGrid::KeyRange ranges[SearchBlock::kMostRanges];
-    const std::size_t range_count = grid_.neighbour_ranges(key, ranges, static_cast<int>(keys_[last - 1] - key));
+    static_assert(SearchBlock::kMostRanges == CellGrid::kMostRanges);
+    CellGrid::KeyRange ranges[CellGrid::kMostRanges];
+    const std::size_t range_count =
+        grid_.neighbour_ranges(key, ranges, static_cast<int>(keys_[last - 1] - key), around_);
     block.range_count = static_cast<std::uint32_t>(range_count);
     std::size_t points = 0;
     for (std::size_t r = 0; r < range_count; ++r) {
@@ -111,29 +120,69 @@ class BlockFinder {
  private:
   std::span<const std::uint64_t> keys_;
   const CellGrid& grid_;
+  int around_;
   std::array<KeyCursor, SearchBlock::kMostRanges> from_, to_;
 };
 
-// What one thread searches with. Room grows and is kept.
-template <class Real>
-struct SearchRoom {
-  std::vector<std::uint32_t> entries;  // of a segment
-  std::vector<std::int32_t> ranks, index, found;
-  std::vector<Real> x, y, z, radius;
-
-  // For a group whose blocks' ranges hold `most` points, after `used` entries.
-  void make(std::size_t used, std::size_t most) {
-    const std::size_t rows = (most + 1) * NeighbourList::kLanes;
-    if (used + rows > entries.size()) entries.resize(2 * (used + rows));
-    if (most + 32 <= x.size()) return;
-    const std::size_t columns = 2 * (most + 32);
-    ranks.resize(columns * NeighbourList::kLanes);
-    for (auto* column : {&index, &found}) column->resize(columns);
-    for (auto* column : {&x, &y, &z, &radius}) column->resize(columns);
-  }
-};
-
 }  // namespace detail
+
+/// What one thread searches with. Room grows and is kept.
+template <class Real>
+class GroupSearcher {
+ public:
+  /// Looks in the cells up to `around` away.
+  GroupSearcher(const SortedCells& cells, const NeighbourRule<Real>& rule, GroupSearchFunction<Real> search, int around)
+      : rule_(rule),
+        search_(search),
+        finder_(cells, around) {}
+
+  /// Adds the rows of the points first to end - 1, at most 16, to the entries; returns their number.
+  std::size_t add(std::size_t first, std::size_t end) {
+    std::size_t most = 0, block_count = 0;
+    for (std::size_t i = first; i < end; i = blocks_[block_count++].last) {
+      most = std::max(most, finder_.find(i, end, blocks_[block_count]));
+    }
+    make_room(most);
+    const GroupSearch<Real> group{static_cast<std::uint32_t>(first),
+                                  blocks_.data(),
+                                  block_count,
+                                  entries_.data() + used_,
+                                  ranks_.data(),
+                                  x_.data(),
+                                  y_.data(),
+                                  z_.data(),
+                                  radius_.data(),
+                                  index_.data(),
+                                  found_.data()};
+    const std::size_t rows = search_(rule_, group);
+    used_ += rows * NeighbourList::kLanes;
+    return rows;
+  }
+
+  std::span<const std::uint32_t> entries() const { return {entries_.data(), used_}; }
+  void clear() { used_ = 0; }
+
+ private:
+  // For a group whose blocks' ranges hold `most` points.
+  void make_room(std::size_t most) {
+    const std::size_t rows = (most + 1) * NeighbourList::kLanes;
+    if (used_ + rows > entries_.size()) entries_.resize(2 * (used_ + rows));
+    if (most + 32 <= x_.size()) return;
+    const std::size_t room = 2 * (most + 32);
+    ranks_.resize(room * NeighbourList::kLanes);
+    for (auto* column : {&index_, &found_}) column->resize(room);
+    for (auto* column : {&x_, &y_, &z_, &radius_}) column->resize(room);
+  }
+
+  const NeighbourRule<Real>& rule_;
+  GroupSearchFunction<Real> search_;
+  detail::BlockFinder finder_;
+  std::array<SearchBlock, NeighbourList::kLanes> blocks_;
+  std::vector<std::uint32_t> entries_;
+  std::size_t used_ = 0;
+  std::vector<std::int32_t> ranks_, index_, found_;
+  std::vector<Real> x_, y_, z_, radius_;
+};
 
 /// Builds `list` anew, over the points that `rule` has columns of.
 template <class Real>
@@ -144,36 +193,16 @@ void build_neighbour_list(const SortedCells& cells, const NeighbourRule<Real>& r
   list.clear((count + NeighbourList::kSegment - 1) / NeighbourList::kSegment);
 
   parallel_ranges(list.segments.size(), 1, [&](std::size_t first_segment, std::size_t last_segment) {
-    detail::BlockFinder finder(cells);
-    detail::SearchRoom<Real> room;
-    std::array<SearchBlock, kLanes> blocks;
+    GroupSearcher<Real> searcher(cells, rule, search_group, 1);
     for (std::size_t s = first_segment; s < last_segment; ++s) {
       NeighbourList::Segment& segment = list.segments[s];
-      std::size_t used = 0;
+      searcher.clear();
       for (std::size_t g = 0; g < NeighbourList::kGroups; ++g) {
         const std::size_t first = std::min(s * NeighbourList::kSegment + g * kLanes, count);
-        const std::size_t end = std::min(first + kLanes, count);
-        std::size_t most = 0, block_count = 0;
-        for (std::size_t i = first; i < end; i = blocks[block_count++].last) {
-          most = std::max(most, finder.find(i, end, blocks[block_count]));
-        }
-        room.make(used, most);
-        const GroupSearch<Real> group{static_cast<std::uint32_t>(first),
-                                      blocks.data(),
-                                      block_count,
-                                      room.entries.data() + used,
-                                      room.ranks.data(),
-                                      room.x.data(),
-                                      room.y.data(),
-                                      room.z.data(),
-                                      room.radius.data(),
-                                      room.index.data(),
-                                      room.found.data()};
-        const std::size_t rows = search_group(rule, group);
-        used += rows * kLanes;
+        const std::size_t rows = searcher.add(first, std::min(first + kLanes, count));
         segment.first_row[g + 1] = segment.first_row[g] + static_cast<std::uint32_t>(rows);
       }
-      segment.entries = list.keep({room.entries.data(), used});
+      segment.entries = list.keep(searcher.entries());
     }
   });
 }

@@ -76,7 +76,7 @@ class Lists {
       x_[i] = x[order[i]].x;
       y_[i] = x[order[i]].y;
       z_[i] = x[order[i]].z;
-      ranks_[i] = static_cast<std::int32_t>(order[i]);
+      ranks_[i] = order[i];
       const double part = uniform4(12, order[i], 0)[0];
       radii_[i] = static_cast<Real>(setting.radius * (1 + (setting.ratio - 1) * part));
     }
@@ -141,7 +141,7 @@ class Lists {
   CellGrid grid_;
   std::vector<std::uint64_t> keys_;
   std::vector<Real> x_, y_, z_, radii_;
-  std::vector<std::int32_t> ranks_;
+  std::vector<std::uint32_t> ranks_;
   NeighbourRule<Real> rule_;
 };
 

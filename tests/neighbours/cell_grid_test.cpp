@@ -51,7 +51,7 @@ class Grids : public testing::TestWithParam<Box> {
 
   // Whether the cells around `key` hold `other`; each cell may be named once only.
   bool is_around(std::uint64_t key, std::uint64_t other) const {
-    CellGrid::KeyRange ranges[18];
+    CellGrid::KeyRange ranges[CellGrid::kMostRanges];
     const std::size_t count = grid_.neighbour_ranges(key, ranges);
     EXPECT_LE(count, 18U);
     int found = 0;
@@ -74,7 +74,7 @@ TEST_P(Grids, FindTheCellsAroundSeveralOfARowOnceEach) {
     for (int more = 0; more <= 4 && key + static_cast<std::uint64_t>(more) <= last; ++more) {
       std::multiset<std::uint64_t> several;
       std::set<std::uint64_t> one_by_one;
-      CellGrid::KeyRange ranges[18];
+      CellGrid::KeyRange ranges[CellGrid::kMostRanges];
       for (std::size_t r = grid_.neighbour_ranges(key, ranges, more); r-- > 0;) {
         for (std::uint64_t k = ranges[r].first; k <= ranges[r].last; ++k) several.insert(k);
       }
@@ -133,7 +133,7 @@ TEST(CellGrid, CellsOfARowAreConsecutive) {
   CellGrid grid;
   grid.lay_out({0, 0, 0}, {10, 10, 10}, {false, false, false}, 1);
   EXPECT_EQ(grid.key_of({1.5, 2.5, 3.5}) + 1, grid.key_of({2.5, 2.5, 3.5}));
-  CellGrid::KeyRange ranges[18];
+  CellGrid::KeyRange ranges[CellGrid::kMostRanges];
   EXPECT_EQ(grid.neighbour_ranges(grid.key_of({5, 5, 5}), ranges), 9U) << "one range a row";
 }
 

@@ -5,8 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <span>
+#include <utility>
 
 #include "hooke/base/random.h"
 
@@ -15,6 +18,8 @@ namespace {
 
 constexpr double kDiameter = 1;
 constexpr double kSkin = 0.25;
+constexpr double kFound = 1.5;
+constexpr std::size_t kGroup = 4;
 
 using Field = std::function<Vec3d(const Vec3d& x, std::uint64_t i)>;
 
@@ -37,28 +42,38 @@ class Bounded {
     }
     // Any order will do; points of one block next to each other save memory and time.
     bounds_.lay_out({columns[0].data(), columns[1].data(), columns[2].data()}, count,
-                    {kDiameter, kSkin, {periodic, periodic, periodic}, {0, 0, 0}, size});
+                    {kDiameter, kSkin, kFound, {periodic, periodic, periodic}, {0, 0, 0}, size});
   }
 
-  bool may_touch(const Field& field) {
-    return bounds_.unlisted_pair_may_touch([&](std::size_t i, Vec3d& u) {
-      u = field(x_[i], i);
-      return true;
-    });
+  Trust judge(const Field& field) {
+    return bounds_.judge(
+        [&](std::size_t i, Vec3d& u) {
+          u = field(x_[i], i);
+          return true;
+        },
+        kGroup, restless_);
   }
 
-  // Whether a pair that was not listed touches now, by looking at every one.
-  bool touches(const Field& field) const {
+  // Every pair that was not listed and touches now.
+  std::vector<std::pair<std::size_t, std::size_t>> touching(const Field& field) const {
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
     for (std::size_t i = 0; i < x_.size(); ++i) {
       for (std::size_t p = 0; p < i; ++p) {
         if (distance(x_[i] - x_[p]) < kDiameter + kSkin) continue;
-        if (distance(x_[i] + field(x_[i], i) - (x_[p] + field(x_[p], p))) < kDiameter) return true;
+        if (distance(x_[i] + field(x_[i], i) - (x_[p] + field(x_[p], p))) < kDiameter) pairs.emplace_back(i, p);
       }
     }
-    return false;
+    return pairs;
+  }
+
+  // Whether a new search finds the pair: both are restless and were no further apart than it looks.
+  bool is_found(const std::pair<std::size_t, std::size_t>& pair) const {
+    return restless_[pair.first / kGroup] != 0 && restless_[pair.second / kGroup] != 0 &&
+           distance(x_[pair.first] - x_[pair.second]) < kDiameter + kFound;
   }
 
   MotionBounds<double>& bounds() { return bounds_; }
+  const std::vector<unsigned char>& restless() const { return restless_; }
 
  private:
   double distance(Vec3d d) const {
@@ -73,6 +88,7 @@ class Bounded {
   bool periodic_;
   std::vector<Vec3d> x_;
   MotionBounds<double> bounds_;
+  std::vector<unsigned char> restless_;
 };
 
 struct Setting {
@@ -92,55 +108,94 @@ TEST(MotionBounds, NeverTrustAListThatMissesATouch) {
       [](const Vec3d& x, std::uint64_t) { return Vec3d{0.05 * x.z, 0, -0.05 * x.x}; },
       [](const Vec3d& x, std::uint64_t) { return x.x < 4 ? Vec3d{0.6, 0, 0} : Vec3d{-0.6, 0, 0}; },
   };
-  int touched = 0;
+  int lost = 0, found = 0;
   for (const Setting& setting : kSettings) {
     for (const bool periodic : {false, true}) {
       Bounded bounded(setting.count, setting.size, periodic);
       for (const Field& field : fields) {
-        if (!bounded.touches(field)) continue;
-        ++touched;
-        EXPECT_TRUE(bounded.may_touch(field)) << setting.count << " points, periodic " << periodic;
+        const auto touching = bounded.touching(field);
+        if (touching.empty()) continue;
+        const Trust trust = bounded.judge(field);
+        ASSERT_NE(trust, Trust::all) << setting.count << " points, periodic " << periodic;
+        lost += trust == Trust::none ? 1 : 0;
+        if (trust == Trust::none) continue;
+        ++found;
+        for (const auto& pair : touching) ASSERT_TRUE(bounded.is_found(pair)) << pair.first << ", " << pair.second;
       }
     }
   }
-  EXPECT_GT(touched, 8) << "the question was put";
+  EXPECT_GT(lost, 4) << "the question was put";
+  EXPECT_GT(found, 4) << "the question was put";
+}
+
+// One fast grain takes the trust in those around it, and no more.
+TEST(MotionBounds, DistrustOnlyWhatAFastGrainCanReach) {
+  Bounded bounded(2000, {60, 3, 20}, false);
+  const std::size_t fast = 1234;
+  EXPECT_EQ(bounded.judge([](const Vec3d&, std::uint64_t i) { return Vec3d{i == fast ? 0.4 : 0.0, 0, 0}; }),
+            Trust::some);
+  EXPECT_EQ(bounded.restless()[fast / kGroup], 1);
+  const auto restless = std::count(bounded.restless().begin(), bounded.restless().end(), 1);
+  EXPECT_LT(restless, 100) << "of 500 groups, whose points are scattered here";
+  EXPECT_EQ(bounded.judge([](const Vec3d&, std::uint64_t i) { return Vec3d{i == fast ? 1.6 : 0.0, 0, 0}; }),
+            Trust::none);
 }
 
 TEST(MotionBounds, TrustWhatMovesTogether) {
   for (const Setting& setting : kSettings) {
     Bounded bounded(setting.count, setting.size, false);
-    EXPECT_FALSE(bounded.may_touch([](const Vec3d&, std::uint64_t) { return Vec3d{0, 0, 0}; }));
-    EXPECT_FALSE(bounded.may_touch([](const Vec3d&, std::uint64_t) { return Vec3d{100, -20, 3}; }));
-    EXPECT_FALSE(bounded.may_touch([](const Vec3d&, std::uint64_t i) { return Vec3d{5, 0, 0} + noise(i, 0.05); }));
+    EXPECT_EQ(bounded.judge([](const Vec3d&, std::uint64_t) { return Vec3d{0, 0, 0}; }), Trust::all);
+    EXPECT_EQ(bounded.judge([](const Vec3d&, std::uint64_t) { return Vec3d{100, -20, 3}; }), Trust::all);
+    EXPECT_EQ(bounded.judge([](const Vec3d&, std::uint64_t i) { return Vec3d{5, 0, 0} + noise(i, 0.05); }), Trust::all);
   }
 }
 
 TEST(MotionBounds, TrustASmallShearOfALargePool) {
   Bounded bounded(2000, {60, 3, 20}, false);
   // Ends of the pool move apart by three diameters, neighbours by a hundredth.
-  EXPECT_FALSE(bounded.may_touch([](const Vec3d& x, std::uint64_t) { return Vec3d{0.01 * x.x, 0, 0}; }));
+  EXPECT_EQ(bounded.judge([](const Vec3d& x, std::uint64_t) { return Vec3d{0.01 * x.x, 0, 0}; }), Trust::all);
 }
 
 TEST(MotionBounds, DistrustWhatIsNotFinite) {
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
     Bounded bounded(300, {9, 9, 9}, false);
-    EXPECT_TRUE(bounded.may_touch(
-        [bad](const Vec3d&, std::uint64_t i) { return i == 123 ? Vec3d{0, bad, 0} : Vec3d{0, 0, 0}; }));
-    EXPECT_TRUE(bounded.may_touch([bad](const Vec3d&, std::uint64_t) { return Vec3d{bad, bad, bad}; }));
+    EXPECT_EQ(
+        bounded.judge([bad](const Vec3d&, std::uint64_t i) { return i == 123 ? Vec3d{0, bad, 0} : Vec3d{0, 0, 0}; }),
+        Trust::none);
+    EXPECT_EQ(bounded.judge([bad](const Vec3d&, std::uint64_t) { return Vec3d{bad, bad, bad}; }), Trust::none);
   }
 }
 
 TEST(MotionBounds, IgnoreTheDeparted) {
   Bounded bounded(300, {9, 9, 9}, false);
-  EXPECT_FALSE(bounded.bounds().unlisted_pair_may_touch([](std::size_t i, Vec3d& u) {
+  std::vector<unsigned char> restless;
+  const auto displacement = [](std::size_t i, Vec3d& u) {
     u = {0, i == 5 ? 1e9 : 0.0, 0};
     return i != 5;
-  }));
+  };
+  EXPECT_EQ(bounded.bounds().judge(displacement, kGroup, restless), Trust::all);
+}
+
+// Scratch memory may hold anything, and may be too small.
+TEST(MotionBounds, JudgeTheSameInScratchMemory) {
+  Bounded bounded(400, {9, 9, 9}, true);
+  const auto displacement = [](std::size_t i, Vec3d& u) {
+    u = noise(i, i == 7 ? 0.5 : 0.05);
+    return true;
+  };
+  std::vector<unsigned char> restless, in_scratch;
+  ASSERT_EQ(bounded.bounds().judge(displacement, kGroup, restless), Trust::some);
+  for (const std::size_t size : {0, 1, 1000, 1000000}) {
+    std::vector<double> scratch(size, 1e9);
+    EXPECT_EQ(bounded.bounds().judge(displacement, kGroup, in_scratch, std::as_writable_bytes(std::span(scratch))),
+              Trust::some);
+    EXPECT_EQ(in_scratch, restless);
+  }
 }
 
 TEST(MotionBounds, OfNothingTrustEverything) {
   Bounded bounded(0, {9, 9, 9}, false);
-  EXPECT_FALSE(bounded.may_touch([](const Vec3d&, std::uint64_t) { return Vec3d{0, 0, 0}; }));
+  EXPECT_EQ(bounded.judge([](const Vec3d&, std::uint64_t) { return Vec3d{0, 0, 0}; }), Trust::all);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <span>
 
 #include "hooke/backends/cpu/force_pass.h"
 #include "hooke/neighbours/neighbour_list.h"
@@ -17,19 +18,15 @@ namespace hooke {
 template <class Real>
 class ContactScan {
  public:
-  ContactScan(const ForcePass<Real>& pass, const ParticleRecord<Real>* records, const NeighbourList& list)
-      : pass_(pass),
-        records_(records),
-        list_(list) {}
+  ContactScan(const ForcePass<Real>& pass, const ParticleRecord<Real>* records) : pass_(pass), records_(records) {}
 
-  /// visit(p, normal, overlap) for every touching neighbour p of particle i, by id and image.
+  /// visit(p, normal, overlap) for every touching neighbour p of particle i, by id and image. `rows` are those of its
+  /// group in the neighbour list.
   template <class Visit>
-  void for_each_contact(std::size_t i, const Visit& visit) const {
+  void for_each_contact(std::size_t i, std::span<const std::uint32_t> rows, const Visit& visit) const {
     constexpr std::size_t kLanes = NeighbourList::kLanes;
-    const NeighbourList::Segment& segment = list_.segments[i / NeighbourList::kSegment];
-    const std::size_t group = i % NeighbourList::kSegment / kLanes;
-    for (std::size_t row = segment.first_row[group]; row < segment.first_row[group + 1]; ++row) {
-      const std::size_t p = segment.entries[row * kLanes + i % kLanes] / record_offset<Real>(1);
+    for (std::size_t at = i % kLanes; at < rows.size(); at += kLanes) {
+      const std::size_t p = rows[at] / record_offset<Real>(1);
       if (!is_nowhere(records_[p])) visit_images(i, p, visit);
     }
   }
@@ -92,7 +89,6 @@ class ContactScan {
 
   const ForcePass<Real>& pass_;
   const ParticleRecord<Real>* records_;
-  const NeighbourList& list_;
 };
 
 }  // namespace hooke

@@ -60,6 +60,7 @@ class ColumnStore {
 template <class Real>
 class CpuBackend final : public Backend {
   using Record = ParticleRecord<Real>;
+  using Searcher = GroupSearcher<Real>;
 
  public:
   CpuBackend(const Isa& isa, const Loops<Real>& loops, int threads)
@@ -78,6 +79,7 @@ class CpuBackend final : public Backend {
     pass_ = rules_.pass;
     motion_limits_.diameter = 2 * rules_.largest_radius;
     motion_limits_.skin = rules_.trusted_skin;
+    motion_limits_.found = rules_.found_distance;
     std::copy(std::begin(pass_.periodic), std::end(pass_.periodic), motion_limits_.periodic);
     listed_ = false;
   }
@@ -86,7 +88,7 @@ class CpuBackend final : public Backend {
     ledger_ = ledger;
     ids_ = IdTable(particles.id);
     count_ = ids_.size();
-    records_.resize(padded(count_) + 1);
+    records_.resize(padded(count_) + kLanes);  // a pack more, for searches to read; the last one is the dummy
     next_.resize(records_.size());
     acceleration_.assign(verlet() ? records_.size() : 0, {Real(0), Real(0), Real(0)});
     for (std::size_t i = 0; i < count_; ++i) {
@@ -141,7 +143,7 @@ class CpuBackend final : public Backend {
       if (far) moved_far = true;
       collect(removed, left);
     });
-    if (moved_far) listed_ = listed_ && !unlisted_pair_may_touch();
+    if (moved_far && listed_) judge_list();
     book(removed);
   }
 
@@ -162,18 +164,22 @@ class CpuBackend final : public Backend {
     Condition condition;
     std::atomic<bool> moved_far{false};
     aim_pass(verlet() ? acceleration_.data() : nullptr);
+    const NeighbourRule<Real> touching = touching_rule();
     for_ranges(list_.segments.size(), 1, [&](std::size_t first, std::size_t last) {
+      Searcher searcher(sorted_cells(), touching, loops_.search_group, 2);
       SegmentReport report;
       StepSums part;
       RemovalSums left;
       Condition found;
       bool far = false;
       for (std::size_t s = first; s < last; ++s) {
-        run_segment(s, report);
+        run_segment(s, searcher, report);
         add_up(s, report, part);
         for (std::size_t g = 0; g < kGroups; ++g) {
           if (report.notes[g] == 0) continue;
-          if ((report.notes[g] & kApproachTooFast) != 0) found = Condition::first(found, look_closely(s, g));
+          if ((report.notes[g] & kApproachTooFast) != 0) {
+            found = Condition::first(found, look_closely(s, g, searcher));
+          }
           if ((report.notes[g] & kLeftDomain) != 0) apply_boundaries_to_group(s, g, left);
           far = far || (report.notes[g] & kMovedFar) != 0;
         }
@@ -186,7 +192,7 @@ class CpuBackend final : public Backend {
     });
     book_step(ledger_, sums.rates(scene_.gravity, total_mass_), scene_.time_step, scene_.integrator);
     records_.swap(next_);
-    if (moved_far) listed_ = !unlisted_pair_may_touch();
+    if (moved_far) judge_list();
     book(removed);
     return condition;
   }
@@ -208,7 +214,7 @@ class CpuBackend final : public Backend {
   }
 
   Expected<Measurements> measure() override {
-    if (!listed_) {
+    if (!listed_ || !restless_.empty()) {
       if (const Condition found = build_neighbours(); !found.good()) {
         return fail(Error::Kind::run_failed, fmt::format("particle {}", found.particle), "is at no finite position");
       }
@@ -318,31 +324,59 @@ class CpuBackend final : public Backend {
   void list_neighbours() {
     // A pack more than there are particles, for searches to read.
     listed_at_.resize(padded(count_) + kLanes);
-    ranks_.resize(padded(count_) + kLanes);
+    std::vector<std::uint32_t>& ranks = order_;  // of no use any more as the order of the sort
+    ranks.resize(padded(count_) + kLanes);
     radii_.resize(rules_.largest_radius > rules_.smallest_radius ? padded(count_) + kLanes : 0);
     parallel_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
         listed_at_.put(i, records_[i].x);
-        ranks_[i] = static_cast<std::int32_t>(rank_of(records_[i].rank));
+        ranks[i] = rank_of(records_[i].rank);
         if (!radii_.empty()) radii_[i] = rules_.materials[static_cast<std::size_t>(records_[i].material)].radius;
       }
     });
 
-    NeighbourRule<Real> rule;
+    NeighbourRule<Real> rule = touching_rule();
     rule.at = listed_at_.columns();
+    rule.reach += static_cast<Real>(rules_.skin);
+    build_neighbour_list(sorted_cells(), rule, loops_.search_group, list_);
+
+    listed_ = true;
+    restless_.clear();
+    motion_laid_out_ = false;
+    ++rebuilds_;
+  }
+
+  SortedCells sorted_cells() const { return {keys_, &grid_}; }
+
+  // Finds who touches where the records are now.
+  NeighbourRule<Real> touching_rule() const {
+    constexpr double kRounding = 1e-3;
+    NeighbourRule<Real> rule;
+    rule.records = &records_.data()->x.x;
     rule.radius = radii_.empty() ? nullptr : radii_.data();
-    rule.rank = ranks_.data();
-    rule.reach = static_cast<Real>(rules_.skin + (radii_.empty() ? 2 * rules_.largest_radius : 0.0));
+    rule.rank = order_.data();
+    rule.reach =
+        static_cast<Real>(kRounding * rules_.smallest_radius + (radii_.empty() ? 2 * rules_.largest_radius : 0));
     std::copy(std::begin(pass_.periodic), std::end(pass_.periodic), rule.periodic);
     rule.length = pass_.length;
     rule.list_self = pass_.periodic_kind == PeriodicKind::images;
     rule.stride = record_offset<Real>(1);
     rule.dummy = record_offset<Real>(static_cast<std::uint32_t>(records_.size() - 1));
-    build_neighbour_list({keys_, &grid_}, rule, loops_.search_group, list_);
+    return rule;
+  }
 
-    listed_ = true;
-    motion_laid_out_ = false;
-    ++rebuilds_;
+  bool is_restless(std::size_t s, std::size_t g) const {
+    const std::size_t group = s * kGroups + g;
+    return group < restless_.size() && restless_[group] != 0;
+  }
+
+  // The rows of group g of segment s: the list's, or where that may miss a contact those of whoever touches now.
+  std::span<const std::uint32_t> rows_of(std::size_t s, std::size_t g, Searcher& searcher) const {
+    if (!is_restless(s, g)) return list_.rows(s, g);
+    const std::size_t first = s * kSegment + g * kLanes;
+    searcher.clear();
+    searcher.add(first, std::min(first + kLanes, count_));
+    return searcher.entries();
   }
 
   // How far a record has moved since its neighbours were listed, m.
@@ -364,38 +398,59 @@ class CpuBackend final : public Backend {
     return !(dot(moved, moved) <= pass_.stale_distance2);
   }
 
-  // Whether the list may miss a contact, now that some particle has moved by more than half a skin: not where its
+  // How much of the list can be trusted, now that some particle has moved by more than half a skin: all of it where its
   // surroundings have moved along.
-  bool unlisted_pair_may_touch() {
-    bool may_touch = false;
+  void judge_list() {
     threads_.run([&] {
       if (!motion_laid_out_) {
         motion_.lay_out(listed_at_.columns(), count_, motion_limits_);
         motion_laid_out_ = true;
       }
-      may_touch = motion_.unlisted_pair_may_touch([&](std::size_t i, Vec3<Real>& u) {
-        if (is_nowhere(records_[i])) return false;
-        u = displacement(records_[i], i);
-        return true;
-      });
+      const Trust trust = motion_.judge(
+          [&](std::size_t i, Vec3<Real>& u) {
+            if (is_nowhere(records_[i])) return false;
+            u = displacement(records_[i], i);
+            return true;
+          },
+          kLanes, restless_, std::as_writable_bytes(std::span(next_).first(count_)));
+      if (trust != Trust::some) restless_.clear();
+      // A search of its own takes a group some three times as long as its share of a new list.
+      constexpr std::size_t kFewOf = 8;
+      const auto restless = static_cast<std::size_t>(std::count(restless_.begin(), restless_.end(), 1));
+      listed_ = trust != Trust::none && restless * kFewOf < padded(count_) / kLanes;
     });
-    return may_touch;
   }
 
   // The force pass and what it reports -------------------------------------------------------------------------------
 
-  void run_segment(std::size_t s, SegmentReport& report) const {
-    const NeighbourList::Segment& segment = list_.segments[s];
-    SegmentWork<Real> work;
-    work.first = s * kSegment;
-    work.group_count = std::min(kGroups, (count_ - work.first + kLanes - 1) / kLanes);
-    work.rows = segment.entries;
-    work.first_row = segment.first_row.data();
-    work.notes = report.notes.data();
-    work.dissipated = report.dissipated.data();
-    work.wall_power = report.wall_power.data();
-    for (std::size_t axis = 0; axis < 3; ++axis) work.wall_force[axis] = report.wall_force[axis].data();
+  void run_segment(std::size_t s, Searcher& searcher, SegmentReport& report) const {
+    const std::size_t groups = std::min(kGroups, (count_ - s * kSegment + kLanes - 1) / kLanes);
     report.notes.fill(0);
+    for (std::size_t g = 0; g < groups;) {
+      std::size_t end = g + 1;
+      if (is_restless(s, g)) {
+        const auto rows = rows_of(s, g, searcher);
+        const std::uint32_t first_row[2] = {0, static_cast<std::uint32_t>(rows.size() / kLanes)};
+        run_groups(s, g, end, rows.data(), first_row, report);
+      } else {
+        while (end < groups && !is_restless(s, end)) ++end;
+        run_groups(s, g, end, list_.segments[s].entries, list_.segments[s].first_row.data() + g, report);
+      }
+      g = end;
+    }
+  }
+
+  void run_groups(std::size_t s, std::size_t g, std::size_t end, const std::uint32_t* rows,
+                  const std::uint32_t* first_row, SegmentReport& report) const {
+    SegmentWork<Real> work;
+    work.first = s * kSegment + g * kLanes;
+    work.group_count = end - g;
+    work.rows = rows;
+    work.first_row = first_row;
+    work.notes = report.notes.data() + g;
+    work.dissipated = report.dissipated.data() + g * kLanes;
+    work.wall_power = report.wall_power.data() + g * kLanes;
+    for (std::size_t axis = 0; axis < 3; ++axis) work.wall_force[axis] = report.wall_force[axis].data() + g * kLanes;
     loops_.force_pass(pass_, work);
   }
 
@@ -417,8 +472,9 @@ class CpuBackend final : public Backend {
   }
 
   // The approach that was too fast, if one was: in double precision, each pair by its own limit.
-  Condition look_closely(std::size_t s, std::size_t g) const {
-    const ContactScan<Real> scan(pass_, records_.data(), list_);
+  Condition look_closely(std::size_t s, std::size_t g, Searcher& searcher) const {
+    const ContactScan<Real> scan(pass_, records_.data());
+    const auto rows = rows_of(s, g, searcher);
     Condition found;
     const std::size_t first = s * kSegment + g * kLanes;
     for (std::size_t i = first; i < std::min(first + kLanes, count_); ++i) {
@@ -426,7 +482,7 @@ class CpuBackend final : public Backend {
       const Vec3d v = vec_cast<double>(records_[i].v);
       const double radius = material_of(records_[i]).radius;
       const std::uint64_t id = ids_[rank_of(records_[i].rank)];
-      scan.for_each_contact(i, [&](std::size_t p, const Vec3d& normal, double) {
+      scan.for_each_contact(i, rows, [&](std::size_t p, const Vec3d& normal, double) {
         const double approach = dot(vec_cast<double>(records_[p].v) - v, normal);
         if (approach > std::min(radius, material_of(records_[p]).radius) / scene_.time_step) {
           found = Condition::first(found,
@@ -446,10 +502,11 @@ class CpuBackend final : public Backend {
   void measure_particle(std::size_t i, MeasurementSums& sums) const {
     const Record& p = records_[i];
     if (is_nowhere(p)) return;
-    const ContactScan<Real> scan(pass_, records_.data(), list_);
+    const ContactScan<Real> scan(pass_, records_.data());
+    const auto rows = list_.rows(i / kSegment, i % kSegment / kLanes);
     const Vec3d v = vec_cast<double>(p.v);
     sums.add_particle(material_of(p).mass, vec_cast<double>(p.x), v, scene_.gravity);
-    scan.for_each_contact(i, [&](std::size_t q, const Vec3d&, double overlap) {
+    scan.for_each_contact(i, rows, [&](std::size_t q, const Vec3d&, double overlap) {
       sums.add_contact_side(scan.pair(i, q).stiffness, overlap, scan.pair(i, q).reach);
     });
     scan.for_each_wall(i, [&](const Vec3d& normal, double overlap) {
@@ -465,11 +522,13 @@ class CpuBackend final : public Backend {
     std::vector<Vec3<Real>> evaluated(acceleration_.size());
     StepSums sums;
     aim_pass(evaluated.data());
+    const NeighbourRule<Real> touching = touching_rule();
     for_ranges(list_.segments.size(), 1, [&](std::size_t first, std::size_t last) {
+      Searcher searcher(sorted_cells(), touching, loops_.search_group, 2);
       SegmentReport report;
       StepSums part;
       for (std::size_t s = first; s < last; ++s) {
-        run_segment(s, report);
+        run_segment(s, searcher, report);
         add_up(s, report, part);
       }
       const std::lock_guard lock(mutex_);
@@ -563,12 +622,12 @@ class CpuBackend final : public Backend {
 
   CellGrid grid_;
   std::vector<std::uint64_t> keys_;
-  std::vector<std::uint32_t> order_;
+  std::vector<std::uint32_t> order_;  // while sorting: where each was before; then: ranks
   NeighbourList list_;
-  std::vector<std::int32_t> ranks_;  // in the order of the list
   std::vector<Real> radii_;  // m, likewise; empty where all are the same
   ColumnStore<Real> listed_at_;  // positions, m
   bool listed_ = false;
+  std::vector<unsigned char> restless_;  // by group: 1 where the list may miss a contact; empty where it misses none
   MotionBounds<Real> motion_;  // since the list was built
   typename MotionBounds<Real>::Limits motion_limits_;
   bool motion_laid_out_ = false;

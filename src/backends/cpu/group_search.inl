@@ -39,9 +39,10 @@ class Search {
     for (std::uint32_t r = 0; r < block.range_count; ++r) {
       for (std::size_t p = block.from[r]; p < block.to[r]; p += P::kLanes) {
         const std::size_t at = to + p - block.from[r];
-        store(group_.x + at, load(rule_.at.x + p));
-        store(group_.y + at, load(rule_.at.y + p));
-        store(group_.z + at, load(rule_.at.z + p));
+        const Vec3<P> x = positions(p);
+        store(group_.x + at, x.x);
+        store(group_.y + at, x.y);
+        store(group_.z + at, x.z);
         if constexpr (!kOneRadius) store(group_.radius + at, load(rule_.radius + p));
         for (std::size_t lane = 0; lane < P::kLanes; ++lane) {
           group_.index[at + lane] = static_cast<std::int32_t>(p + lane);
@@ -49,14 +50,26 @@ class Search {
       }
       to += block.to[r] - block.from[r];
     }
-    constexpr Real kFar = Real(1e18);
+    constexpr Real kFar = Real(-1e18);  // not where removed particles are, which would find it
     store(group_.x + to, P(kFar));  // fills the last pack
     return to;
   }
 
+  HOOKE_HD Vec3<P> positions(std::size_t first) const {
+    if (rule_.at.x != nullptr) return {load(rule_.at.x + first), load(rule_.at.y + first), load(rule_.at.z + first)};
+    const Quad<Real> q = load_quads(
+        Real{}, [=, this](int lane) { return rule_.records + 8 * (first + static_cast<std::size_t>(lane)); });
+    return {q.a, q.b, q.c};
+  }
+  HOOKE_HD Vec3<P> position(std::uint32_t i) const {
+    if (rule_.at.x != nullptr) return {P(rule_.at.x[i]), P(rule_.at.y[i]), P(rule_.at.z[i])};
+    const Real* record = rule_.records + 8 * std::size_t{i};
+    return {P(record[0]), P(record[1]), P(record[2])};
+  }
+
   // The number of those near point i, itself perhaps included; their indices go to group_.found.
   HOOKE_HD std::size_t find_near(std::uint32_t i, std::size_t count) const {
-    const Vec3<P> own{P(rule_.at.x[i]), P(rule_.at.y[i]), P(rule_.at.z[i])};
+    const Vec3<P> own = position(i);
     P reach(rule_.reach);
     if constexpr (!kOneRadius) reach = reach + P(rule_.radius[i]);
     const P reach2 = reach * reach;
@@ -94,7 +107,7 @@ class Search {
     std::size_t row = 0;
     for (std::size_t k = 0; k < found; ++k) {  // the point itself is written, and the next one over it
       const std::int32_t index = group_.found[k];
-      group_.ranks[row * kRowLanes + lane] = rule_.rank[index];
+      group_.ranks[row * kRowLanes + lane] = static_cast<std::int32_t>(rule_.rank[index]);
       group_.entries[row * kRowLanes + lane] = static_cast<std::uint32_t>(index) * rule_.stride;
       row += index != self ? 1 : 0;
     }

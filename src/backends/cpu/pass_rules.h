@@ -21,6 +21,8 @@ struct PassRules {
   double largest_radius = 0, smallest_radius = 1;  ///< m
   double skin = 0;          ///< m, of the neighbour list
   double trusted_skin = 0;  ///< m, less what the rounding of distances may take
+  double found_distance =
+      0;  ///< m: a search in the cells up to two away finds whoever moved by less towards each other
   bool has_drag = false;
   ForcePass<Real> pass;  ///< all but the buffers
 
@@ -35,7 +37,7 @@ struct PassRules {
 
  private:
   // Skin as a part of the smallest diameter. Larger: fewer rebuilds, longer rows.
-  static constexpr double kSkin = 0.25;
+  static constexpr double kSkin = 0.35;
 
   static Real real(double value) { return static_cast<Real>(value); }
 
@@ -94,6 +96,7 @@ struct PassRules {
     // A pair may just meet once its two have moved a skin towards each other; a thousandth covers rounding.
     skin = kSkin * 2 * smallest_radius;
     trusted_skin = std::max(0.0, 0.999 * skin - 2 * rounding);
+    found_distance = std::max(0.0, 0.999 * (2 * largest_radius + 2 * skin) - 2 * rounding);
     pass.stale_distance2 = real(trusted_skin * trusted_skin / 4);
   }
 };
