@@ -79,21 +79,25 @@ class KeyCursor {
  public:
   /// Index into the ascending `keys`, keys.size() where all are less.
   std::size_t seek(std::span<const std::uint64_t> keys, std::uint64_t key) {
-    constexpr int kFewSteps = 32;
-    for (int i = 0; i < kFewSteps; ++i) {
-      if (at_ < keys.size() && keys[at_] < key) {
-        ++at_;
-      } else if (at_ > 0 && keys[at_ - 1] >= key) {
-        --at_;
-      } else {
-        return at_;
-      }
+    constexpr std::size_t kFew = 16;
+    if (at_ > 0 && keys[at_ - 1] >= key) {
+      at_ = static_cast<std::size_t>(std::lower_bound(keys.begin(), keys.begin() + at(), key) - keys.begin());
+      return at_;
     }
-    at_ = static_cast<std::size_t>(std::lower_bound(keys.begin(), keys.end(), key) - keys.begin());
+    // Counted, not searched: how far it is can't be predicted, and a wrong guess costs more than a dozen comparisons.
+    for (int tries = 0; tries < 3 && at_ + kFew <= keys.size(); ++tries) {
+      std::size_t less = 0;
+      for (std::size_t k = 0; k < kFew; ++k) less += keys[at_ + k] < key ? 1 : 0;
+      at_ += less;
+      if (less < kFew) return at_;
+    }
+    at_ = static_cast<std::size_t>(std::lower_bound(keys.begin() + at(), keys.end(), key) - keys.begin());
     return at_;
   }
 
  private:
+  std::ptrdiff_t at() const { return static_cast<std::ptrdiff_t>(at_); }
+
   std::size_t at_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -71,12 +72,18 @@ class MotionBounds {
     apart_anywhere_ = apart;
     for (std::size_t l = 1; l < kLevels; ++l) map_blocks(levels_[l - 1], levels_[l]);
 
+    constexpr std::size_t kChunk = 4096;  // points
+    std::vector<std::vector<Run>> chunks((count + kChunk - 1) / kChunk);
+    parallel_ranges(count, kChunk, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        std::vector<Run>& runs = chunks[i / kChunk];
+        const Vec3d at = vec_cast<double>(Vec3<Real>{listed_at.x[i], listed_at.y[i], listed_at.z[i]});
+        const auto block = static_cast<std::uint32_t>(levels_[0].grid.key_of(at));
+        if (runs.empty() || runs.back().block != block) runs.push_back({static_cast<std::uint32_t>(i), block});
+      }
+    });
     runs_.clear();
-    for (std::size_t i = 0; i < count; ++i) {
-      const Vec3d at = vec_cast<double>(Vec3<Real>{listed_at.x[i], listed_at.y[i], listed_at.z[i]});
-      const auto block = static_cast<std::uint32_t>(levels_[0].grid.key_of(at));
-      if (runs_.empty() || runs_.back().block != block) runs_.push_back({static_cast<std::uint32_t>(i), block});
-    }
+    for (const std::vector<Run>& runs : chunks) runs_.insert(runs_.end(), runs.begin(), runs.end());
     count_ = count;
   }
 
@@ -210,15 +217,14 @@ class MotionBounds {
   template <class Displacement>
   Box bound_run(std::size_t r, const Displacement& displacement) const {
     Box box;
+    Real finite = 0;  // stays 0 while everything is
     for (std::size_t i = runs_[r].first; i < end_of(r); ++i) {
       Vec3<Real> u;
       if (!displacement(i, u)) continue;
-      if (!std::isfinite(u.x) || !std::isfinite(u.y) || !std::isfinite(u.z)) {
-        box = {{Box::kInfinite, Box::kInfinite, Box::kInfinite, Box::kInfinite, Box::kInfinite, Box::kInfinite}};
-      } else {
-        box.add(u);
-      }
+      finite += Real(0) * (u.x + u.y + u.z);
+      box.add(u);
     }
+    if (finite != 0) std::fill(std::begin(box.edge), std::end(box.edge), Box::kInfinite);
     return box;
   }
 

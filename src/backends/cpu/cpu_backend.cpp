@@ -265,19 +265,29 @@ class CpuBackend final : public Backend {
     min = {INFINITY, INFINITY, INFINITY};
     max = {-INFINITY, -INFINITY, -INFINITY};
     Condition condition;
-    for (std::size_t i = 0; i < count_; ++i) {
-      const Record& p = records_[i];
-      if (is_nowhere(p)) continue;
-      for (int axis = 0; axis < 3; ++axis) {
-        const double x = component(p.x, axis);
-        if (!(std::abs(x) < kFurthest)) {
-          const auto kind = std::isfinite(x) ? Condition::Kind::grid_overflow : Condition::Kind::not_finite;
-          condition = Condition::first(condition, {kind, ids_[rank_of(p.rank)], 0, 0});
+    parallel_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
+      Vec3<Real> low = vec_cast<Real>(Vec3d{INFINITY, INFINITY, INFINITY}), high = -low;
+      Condition found;
+      for (std::size_t i = first; i < last; ++i) {
+        const Record& p = records_[i];
+        if (is_nowhere(p)) continue;
+        for (int axis = 0; axis < 3; ++axis) {
+          const Real x = component(p.x, axis);
+          if (!(std::abs(x) < static_cast<Real>(kFurthest))) {
+            const auto kind = std::isfinite(x) ? Condition::Kind::grid_overflow : Condition::Kind::not_finite;
+            found = Condition::first(found, {kind, ids_[rank_of(p.rank)], 0, 0});
+          }
+          component(low, axis) = std::min(component(low, axis), x);
+          component(high, axis) = std::max(component(high, axis), x);
         }
-        component(min, axis) = std::min(component(min, axis), x);
-        component(max, axis) = std::max(component(max, axis), x);
       }
-    }
+      const std::lock_guard lock(mutex_);
+      condition = Condition::first(condition, found);
+      for (int axis = 0; axis < 3; ++axis) {
+        component(min, axis) = std::min<double>(component(min, axis), component(low, axis));
+        component(max, axis) = std::max<double>(component(max, axis), component(high, axis));
+      }
+    });
     return condition;
   }
 
@@ -383,6 +393,7 @@ class CpuBackend final : public Backend {
   Vec3<Real> displacement(const Record& p, std::size_t i) const {
     const Vec3<Real> from = listed_at_[i];
     Vec3<Real> moved = p.x - from;
+    if (pass_.periodic_kind == PeriodicKind::none) return moved;
     for (int axis = 0; axis < 3; ++axis) {
       if (!pass_.periodic[axis]) continue;
       const Real now = component(p.x, axis), then = component(from, axis);

@@ -77,12 +77,12 @@ class Search {
     for (std::size_t c = 0; c < count; c += P::kLanes) {
       const Vec3<P> d{displacement(own.x, load(group_.x + c), 0), displacement(own.y, load(group_.y + c), 1),
                       displacement(own.z, load(group_.z + c), 2)};
-      if constexpr (kOneRadius) {
-        found += append(group_.found + found, group_.index + c, dot(d, d) < reach2);
-      } else {
+      P limit2 = reach2;
+      if constexpr (!kOneRadius) {
         const P sum = reach + load(group_.radius + c);
-        found += append(group_.found + found, group_.index + c, dot(d, d) < sum * sum);
+        limit2 = sum * sum;
       }
+      found += append_where_less(group_.found + found, group_.index + c, dot(d, d), limit2);
     }
     return found;
   }
@@ -141,8 +141,9 @@ class Search {
     }
   }
 
-  const NeighbourRule<Real>& rule_;
-  const GroupSearch<Real>& group_;
+  // Copies: the compiler need not read them again after every store.
+  const NeighbourRule<Real> rule_;
+  const GroupSearch<Real> group_;
   std::size_t cleared_ = 0;  // rows
   std::size_t rows_ = 0;
 };

@@ -248,18 +248,20 @@ HOOKE_HD void store(Real* to, const Pack<Real>& a) {
   __builtin_memcpy(to, &a.v, sizeof(a.v));
 }
 
-// append(to, from, m): copies those of the numbers from[lane] whose lane is set in m behind each other and returns how
-// many. May write as many numbers as a register holds.
+// append_where_less(to, from, a, b): copies those of the numbers from[lane] where a < b in that lane behind each other
+// and returns how many. May write as many numbers as a register holds.
 
 #if defined(__AVX512F__)
 
-HOOKE_HD std::size_t append(std::int32_t* to, const std::int32_t* from, const Mask<float>& m) {
-  const __mmask16 set = _mm512_test_epi32_mask((__m512i)m.v, (__m512i)m.v);
+HOOKE_HD std::size_t append_where_less(std::int32_t* to, const std::int32_t* from, const Pack<float>& a,
+                                       const Pack<float>& b) {
+  const __mmask16 set = _mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ);
   _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(set, _mm512_loadu_si512(from)));
   return static_cast<std::size_t>(__builtin_popcount(set));
 }
-HOOKE_HD std::size_t append(std::int32_t* to, const std::int32_t* from, const Mask<double>& m) {
-  const __mmask8 set = _mm512_test_epi64_mask((__m512i)m.v, (__m512i)m.v);
+HOOKE_HD std::size_t append_where_less(std::int32_t* to, const std::int32_t* from, const Pack<double>& a,
+                                       const Pack<double>& b) {
+  const __mmask8 set = _mm512_cmp_pd_mask(a.v, b.v, _CMP_LT_OQ);
   const __m512i low = _mm512_castsi256_si512(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
   _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(set, low));
   return static_cast<std::size_t>(__builtin_popcount(set));
@@ -287,12 +289,14 @@ HOOKE_HD std::size_t append(std::int32_t* to, __m256i from, unsigned set) {
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(from, lanes));
   return static_cast<std::size_t>(__builtin_popcount(set));
 }
-HOOKE_HD std::size_t append(std::int32_t* to, const std::int32_t* from, const Mask<float>& m) {
-  const auto set = static_cast<unsigned>(_mm256_movemask_ps((__m256)m.v));
+HOOKE_HD std::size_t append_where_less(std::int32_t* to, const std::int32_t* from, const Pack<float>& a,
+                                       const Pack<float>& b) {
+  const auto set = static_cast<unsigned>(_mm256_movemask_ps((__m256)(a < b).v));
   return append(to, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)), set);
 }
-HOOKE_HD std::size_t append(std::int32_t* to, const std::int32_t* from, const Mask<double>& m) {
-  const auto set = static_cast<unsigned>(_mm256_movemask_pd((__m256d)m.v));
+HOOKE_HD std::size_t append_where_less(std::int32_t* to, const std::int32_t* from, const Pack<double>& a,
+                                       const Pack<double>& b) {
+  const auto set = static_cast<unsigned>(_mm256_movemask_pd((__m256d)(a < b).v));
   return append(to, _mm256_castsi128_si256(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from))), set);
 }
 
@@ -300,11 +304,13 @@ HOOKE_HD std::size_t append(std::int32_t* to, const std::int32_t* from, const Ma
 
 // Each is written, the next one over it if its lane is not set.
 template <class Real>
-HOOKE_HD std::size_t append(std::int32_t* to, const std::int32_t* from, const Mask<Real>& m) {
+HOOKE_HD std::size_t append_where_less(std::int32_t* to, const std::int32_t* from, const Pack<Real>& a,
+                                       const Pack<Real>& b) {
+  const Mask<Real> less = a < b;
   std::size_t count = 0;
   for (std::size_t lane = 0; lane < Pack<Real>::kLanes; ++lane) {
     to[count] = from[lane];
-    count += static_cast<std::size_t>(m.v[lane] & 1);
+    count += static_cast<std::size_t>(less.v[lane] & 1);
   }
   return count;
 }
