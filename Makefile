@@ -17,6 +17,7 @@ help:  ## this list
 
 run: build  ## build, run the dam break of 512,000 particles into out/water, and film it
 	@echo "Running scenes/water.json: a dam break of 512,000 particles, and filming it (Ctrl-C stops it cleanly)."
+	@mkdir -p out
 	build/hooke run scenes/water.json -o out/water --overwrite --film out/water.mp4 $(RUN_ARGS)
 	@build/hooke info out/water
 	@echo "Made:"
