@@ -29,7 +29,7 @@ using gl::Program;
 using gl::Texture;
 using gl::VertexArray;
 
-constexpr int kSunMap = 2048;  // pixels along each side
+constexpr int kSunMap = 1280;  // pixels along each side
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -310,7 +310,7 @@ class GlRenderer final : public Renderer {
     smooth_program_.set("scale", pixels.scale);
     // Wide with few samples first, then what lies between them.
     const float reaches[] = {4.0f, 1.5f};
-    const int taps[] = {16, 8};
+    const int taps[] = {12, 6};
     for (std::size_t pass = 0; pass < 2; ++pass) {
       begin(to_surface_[1 - pass], settings_.width, settings_.height);
       smooth_program_.read("surface", 0, surface_[pass]);

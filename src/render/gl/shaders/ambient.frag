@@ -10,7 +10,7 @@ uniform float far_reach;     // of the large ones, m
 layout(location = 0) out vec4 ambient;
 layout(location = 1) out vec4 water_normal;  // in view space, from [-1, 1] to [0, 1]
 
-const int kTaps = 5;
+const int kTaps = 4;
 
 float depth_at(ivec2 pixel) { return abs(texelFetch(surface, pixel, 0).x); }
 

@@ -28,18 +28,17 @@ vec3 mirrored_sky(vec3 direction) {
   return color + vec3(1.0, 0.95, 0.85) * (0.35 * wide * wide + 0.8 * smoothstep(0.93, 1.0, toward));
 }
 
-// The share of the sun's light that arrives: the mean of two samples of the map a turn, in a ring around the point.
-float sunlight(vec3 point, float turn, int turns) {
+// The share of the sun's light that arrives: the mean of so many samples of the map, in a ring around the point.
+float sunlight(vec3 point, float turn, int count) {
   vec3 at = (to_sun * (point - sun_eye)) * vec3(sun_scale.xy, -sun_scale.z);
   float light = 0.0;
-  for (int i = 0; i < turns; ++i) {
+  for (int i = 0; i < count; ++i) {
     float share = fract(turn + 0.618 * float(i));
     float angle = 6.2831853 * share;
     vec2 shift = sun_blur * (0.3 + 0.7 * fract(share * 7.0)) * vec2(cos(angle), sin(angle)) * sun_scale.xy;
-    light += texture(sun_map, vec3(0.5 + 0.5 * (at.xy + shift), at.z)) +
-             texture(sun_map, vec3(0.5 + 0.5 * (at.xy - shift), at.z));
+    light += texture(sun_map, vec3(0.5 + 0.5 * (at.xy + shift), at.z));
   }
-  return any(greaterThan(abs(at.xy), vec2(0.999))) || at.z > 1.0 ? 1.0 : light / float(2 * turns);
+  return any(greaterThan(abs(at.xy), vec2(0.999))) || at.z > 1.0 ? 1.0 : light / float(count);
 }
 
 vec3 ground_color(vec3 point, float sun) {
