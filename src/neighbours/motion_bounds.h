@@ -82,7 +82,10 @@ class MotionBounds {
         if (runs.empty() || runs.back().block != block) runs.push_back({static_cast<std::uint32_t>(i), block});
       }
     });
+    std::size_t run_count = 0;
+    for (const std::vector<Run>& runs : chunks) run_count += runs.size();
     runs_.clear();
+    runs_.reserve(run_count);
     for (const std::vector<Run>& runs : chunks) runs_.insert(runs_.end(), runs.begin(), runs.end());
     count_ = count;
   }

@@ -335,6 +335,7 @@ class CpuBackend final : public Backend {
     // A pack more than there are particles, for searches to read.
     listed_at_.resize(padded(count_) + kLanes);
     std::vector<std::uint32_t>& ranks = order_;  // of no use any more as the order of the sort
+    ranks.reserve(padded(count_) + kLanes);  // a growing vector would take twice that
     ranks.resize(padded(count_) + kLanes);
     radii_.resize(rules_.largest_radius > rules_.smallest_radius ? padded(count_) + kLanes : 0);
     parallel_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
