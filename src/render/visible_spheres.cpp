@@ -67,8 +67,8 @@ Disc project(const Sphere& sphere, std::uint32_t index, const Projection& view) 
   disc.x += scale * right;
   disc.y += scale * up;
   const float outer = scale * radius * stretch + kRounding;
-  const bool outside = disc.x + outer < 0 || disc.y + outer < 0 || disc.x - outer > view.width ||
-                       disc.y - outer > view.height;
+  const bool outside =
+      disc.x + outer < 0 || disc.y + outer < 0 || disc.x - outer > view.width || disc.y - outer > view.height;
   if (outside) return disc;
   disc.outer = outer;
   // What is cut off before the nearest depth hides nothing.
@@ -156,8 +156,8 @@ class Coverage {
 
 // Discs in buckets of the distance of their nearest point.
 struct Buckets {
-  std::vector<Disc> discs;           // by bucket
-  std::vector<std::size_t> first;    // of each bucket, and the end
+  std::vector<Disc> discs;  // by bucket
+  std::vector<std::size_t> first;  // of each bucket, and the end
   float nearest = 0, per_meter = 0;
 
   // The first bucket all of which lies behind `distance`.
