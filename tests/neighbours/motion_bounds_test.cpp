@@ -185,7 +185,7 @@ TEST(MotionBounds, JudgeTheSameInScratchMemory) {
   };
   std::vector<unsigned char> restless, in_scratch;
   ASSERT_EQ(bounded.bounds().judge(displacement, kGroup, restless), Trust::some);
-  for (const std::size_t size : {0, 1, 1000, 1000000}) {
+  for (const std::size_t size : {0U, 1U, 1000U, 1000000U}) {
     std::vector<double> scratch(size, 1e9);
     EXPECT_EQ(bounded.bounds().judge(displacement, kGroup, in_scratch, std::as_writable_bytes(std::span(scratch))),
               Trust::some);
