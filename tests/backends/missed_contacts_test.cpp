@@ -156,10 +156,10 @@ TEST_P(Spray, MissesNoContactAndKeepsTheList) {
   }
   Simulation simulation = simulate(scene, particles, {"cpu", precision, 2, isa});
   Simulation unmeasured = simulate(scene, particles, {"cpu", precision, 2, isa});
-  for (int step = 1; step <= 40; ++step) {
+  for (int step = 1; step <= 24; ++step) {
     ASSERT_TRUE(advance(simulation, 1));
     ASSERT_TRUE(advance(unmeasured, 1));
-    if (step % 10 == 0) {
+    if (step % 8 == 0) {
       ASSERT_EQ(measured(simulation).contacts, true_contacts(simulation)) << "after step " << step;
     } else {
       measured(simulation);
