@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "hooke/base/parallel.h"
 #include "hooke/render/gl/egl_context.h"
 #include "hooke/render/gl/gl_objects.h"
 #include "hooke/render/gl/shaders.h"
@@ -35,7 +36,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 float length_of(const Vec3d& v) { return static_cast<float>(std::sqrt(dot(v, v))); }
 
-// Spheres on the device, one instance of a square each.
+// Spheres on the device, one instance of a triangle each.
 class SphereBuffer {
  public:
   SphereBuffer() : array_(gl::make_vertex_array()), buffer_(gl::make_buffer()) {
@@ -46,6 +47,7 @@ class SphereBuffer {
     attribute(2, 4, GL_UNSIGNED_BYTE, offsetof(Sphere, color));
   }
 
+  bool empty() const { return spheres_.empty(); }
   void clear() { spheres_.clear(); }
   void add(const Sphere& sphere) { spheres_.push_back(sphere); }
   void upload() const {
@@ -55,7 +57,7 @@ class SphereBuffer {
   }
   void draw() const {
     glBindVertexArray(array_.get());
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(spheres_.size()));
+    glDrawArraysInstanced(GL_TRIANGLES, 0, 3, static_cast<GLsizei>(spheres_.size()));
   }
 
  private:
@@ -119,8 +121,12 @@ class GlRenderer final : public Renderer {
     context_.make_current();
     const Projection view = project(frame.camera, width_, height_);
     const Sun sun = make_sun(frame);
-    const std::vector<std::uint32_t> seen = visible_spheres(frame.spheres, view);
-    const std::vector<std::uint32_t> sunlit = visible_spheres(frame.spheres, sun.projection);
+    std::vector<std::uint32_t> seen, sunlit;
+    parallel_ranges(2, 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) {
+        (k == 0 ? seen : sunlit) = visible_spheres(frame.spheres, k == 0 ? view : sun.projection);
+      }
+    });
     const bool water =
         std::any_of(frame.spheres.begin(), frame.spheres.end(), [](const Sphere& s) { return s.foam > 0; });
     if (water) upload_thickness(water_thickness(frame.spheres, view));
@@ -132,14 +138,18 @@ class GlRenderer final : public Renderer {
     upload(frame.spheres, seen);
     draw_spheres(view);
     const Projection pixels = project(frame.camera, settings_.width, settings_.height);
-    begin_surface_passes(bounds_on_picture(frame.spheres, seen, pixels));
+    const PixelRectangle box = bounds_on_picture(frame.spheres, seen, pixels);
+    begin_surface_passes(box);
     reduce();
-    if (water) smooth_water(pixels, sphere_size);
-    draw_ambient(pixels, sphere_size, frame);
+    if (water) {
+      smooth_water(pixels, sphere_size);
+      find_water_normals(pixels, sphere_size);
+    }
+    draw_ambient(pixels, box, sphere_size, frame);
     glDisable(GL_SCISSOR_TEST);
     draw_backdrop(frame, pixels, sun, sphere_size);
     clear_shaded();
-    shade_balls(frame, view, sun, sphere_size);
+    if (!balls_.empty()) shade_balls(frame, view, sun, sphere_size);
     if (water) shade_water(frame, view, sun, sphere_size);
     resolve();
     draw_tank(frame, pixels);
@@ -163,7 +173,7 @@ class GlRenderer final : public Renderer {
     depth_stencil_ = gl::make_texture(width_, height_, GL_DEPTH32F_STENCIL8, GL_NEAREST);
     shaded_ = gl::make_texture(width_, height_, GL_RGBA8, GL_NEAREST);
     for (Texture& surface : surface_) surface = gl::make_texture(w, h, GL_RG32F, GL_NEAREST);
-    for (Texture& ambient : ambient_) ambient = gl::make_texture(w, h, GL_R8, GL_LINEAR);
+    for (Texture& ambient : ambient_) ambient = gl::make_texture(half(w), half(h), GL_R8, GL_LINEAR);
     water_normal_ = gl::make_texture(w, h, GL_RGBA8, GL_LINEAR);
     thickness_ = gl::make_texture(1, 1, GL_R32F, GL_LINEAR);
     backdrop_ = gl::make_texture(w, h, GL_RGBA8, GL_NEAREST);
@@ -175,7 +185,8 @@ class GlRenderer final : public Renderer {
     to_spheres_ = gl::make_framebuffer({&color_, &normal_, &depth_}, &depth_stencil_);
     to_surface_[0] = gl::make_framebuffer({&surface_[0]}, nullptr);
     to_surface_[1] = gl::make_framebuffer({&surface_[1]}, nullptr);
-    to_ambient_ = gl::make_framebuffer({&ambient_[0], &water_normal_}, nullptr);
+    to_water_normal_ = gl::make_framebuffer({&water_normal_}, nullptr);
+    to_ambient_ = gl::make_framebuffer({&ambient_[0]}, nullptr);
     to_blurred_ = gl::make_framebuffer({&ambient_[1]}, nullptr);
     to_backdrop_ = gl::make_framebuffer({&backdrop_}, nullptr);
     to_shaded_ = gl::make_framebuffer({&shaded_}, &depth_stencil_);
@@ -193,6 +204,7 @@ class GlRenderer final : public Renderer {
     sphere_program_ = Program(spheres_vert, spheres_frag);
     reduce_program_ = picture(reduce_frag);
     smooth_program_ = picture(smooth_frag);
+    water_normal_program_ = picture(view + water_normal_frag);
     ambient_program_ = picture(view + ambient_frag);
     blur_program_ = picture(blur_frag);
     backdrop_program_ = picture(lit + backdrop_frag);
@@ -278,6 +290,9 @@ class GlRenderer final : public Renderer {
     glDisable(GL_DEPTH_TEST);
   }
 
+  // Ambient light is drawn for every second pixel along each side.
+  static int half(int pixels) { return (pixels + 1) / 2; }
+
   // The passes that look at surfaces need to run only where there are some: `box`, and as far as they look around.
   void begin_surface_passes(const PixelRectangle& box) {
     glClearColor(0, 0, 0, 0);
@@ -286,12 +301,16 @@ class GlRenderer final : public Renderer {
       glClear(GL_COLOR_BUFFER_BIT);
     }
     glClearColor(1, 1, 1, 1);
-    begin(to_blurred_, settings_.width, settings_.height);
-    glClear(GL_COLOR_BUFFER_BIT);
-    begin(to_ambient_, settings_.width, settings_.height);
-    glClear(GL_COLOR_BUFFER_BIT);
-    constexpr int kAround = 4;  // pixels, that blur.frag looks around
+    for (const Framebuffer* target : {&to_ambient_, &to_blurred_}) {
+      begin(*target, half(settings_.width), half(settings_.height));
+      glClear(GL_COLOR_BUFFER_BIT);
+    }
     glEnable(GL_SCISSOR_TEST);
+    restrict_to(box);
+  }
+
+  static void restrict_to(const PixelRectangle& box) {
+    constexpr int kAround = 4;  // pixels, that blur.frag looks around
     glScissor(box.x - kAround, box.y - kAround, box.width + 2 * kAround, box.height + 2 * kAround);
   }
 
@@ -310,7 +329,7 @@ class GlRenderer final : public Renderer {
     smooth_program_.set("scale", pixels.scale);
     // Wide with few samples first, then what lies between them.
     const float reaches[] = {4.0f, 1.5f};
-    const int taps[] = {12, 6};
+    const int taps[] = {10, 6};
     for (std::size_t pass = 0; pass < 2; ++pass) {
       begin(to_surface_[1 - pass], settings_.width, settings_.height);
       smooth_program_.read("surface", 0, surface_[pass]);
@@ -320,18 +339,29 @@ class GlRenderer final : public Renderer {
     }
   }
 
-  void draw_ambient(const Projection& pixels, float sphere_size, const Frame& frame) {
-    begin(to_ambient_, settings_.width, settings_.height);
+  void find_water_normals(const Projection& pixels, float sphere_size) {
+    begin(to_water_normal_, settings_.width, settings_.height);
+    water_normal_program_.use();
+    set_picture(water_normal_program_, pixels);
+    water_normal_program_.read("surface", 0, surface_[0]);
+    water_normal_program_.set("range", 10.0f * sphere_size);
+    cover();
+  }
+
+  void draw_ambient(const Projection& pixels, const PixelRectangle& box, float sphere_size, const Frame& frame) {
+    restrict_to({box.x / 2, box.y / 2, half(box.width), half(box.height)});
+    begin(to_ambient_, half(settings_.width), half(settings_.height));
     const Program& program = ambient_program_;
     program.use();
     set_picture(program, pixels);
     program.read("surface", 0, surface_[0]);
     program.read("normals", 1, normal_);
+    program.read("water_normals", 2, water_normal_);
     program.set("samples", settings_.samples);
     program.set("reach", 2.5f * sphere_size);
     program.set("far_reach", 0.08f * length_of(frame.action.max - frame.action.min));
     cover();
-    begin(to_blurred_, settings_.width, settings_.height);
+    begin(to_blurred_, half(settings_.width), half(settings_.height));
     blur_program_.use();
     blur_program_.read("ambient", 0, ambient_[0]);
     cover();
@@ -481,13 +511,14 @@ class GlRenderer final : public Renderer {
   Texture sun_map_, color_, normal_, depth_, depth_stencil_, shaded_;  // several samples a pixel
   Texture water_normal_, thickness_, backdrop_, result_;
   std::array<Texture, 2> surface_, ambient_;
-  Framebuffer to_sun_map_, to_spheres_, to_ambient_, to_blurred_, to_backdrop_, to_shaded_, to_result_;
+  Framebuffer to_sun_map_, to_spheres_, to_water_normal_, to_ambient_, to_blurred_, to_backdrop_, to_shaded_,
+      to_result_;
   std::array<Framebuffer, 2> to_surface_;
   SphereBuffer balls_, water_;
   VertexArray nothing_, edge_array_;
   Buffer edge_buffer_;
-  Program sun_program_, sphere_program_, reduce_program_, smooth_program_, ambient_program_, blur_program_,
-      backdrop_program_, ball_program_, water_program_, resolve_program_, edge_program_;
+  Program sun_program_, sphere_program_, reduce_program_, smooth_program_, water_normal_program_, ambient_program_,
+      blur_program_, backdrop_program_, ball_program_, water_program_, resolve_program_, edge_program_;
 };
 
 }  // namespace

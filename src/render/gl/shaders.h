@@ -12,6 +12,7 @@ extern const char* const sun_depth_frag;
 extern const char* const reduce_frag;
 extern const char* const smooth_frag;
 extern const char* const view_glsl;
+extern const char* const water_normal_frag;
 extern const char* const ambient_frag;
 extern const char* const blur_frag;
 extern const char* const light_glsl;

@@ -18,7 +18,7 @@ void main() {
   float line = max(lines(dot(point - action_center, across) / line_step), lines(dot(point - action_center, along) / line_step));
   vec3 color = sky(direction);
   if (sees_ground(eye, direction)) {
-    color = ground_color(point, sunlight(point + 0.02 * sphere_size * up, noise(gl_FragCoord.xy), 4));
+    color = ground_color(point, sunlight(point + 0.02 * sphere_size * up, noise(gl_FragCoord.xy), 3));
     color += 0.035 * line * exp(-length(point - action_center) / action_size);
   }
   shaded = stored(color);

@@ -41,6 +41,9 @@ float sunlight(vec3 point, float turn, int count) {
   return any(greaterThan(abs(at.xy), vec2(0.999))) || at.z > 1.0 ? 1.0 : light / float(count);
 }
 
+// How far off its surface a ball asks for the sun, so as not to lie in its own shadow, m: some pixels of the map.
+float off_surface() { return 0.15 * sphere_size + 4.0 / (float(textureSize(sun_map, 0).x) * sun_scale.x); }
+
 vec3 ground_color(vec3 point, float sun) {
   vec3 from = point - action_center;
   float away = length(from - dot(from, up) * up) / action_size;
@@ -62,8 +65,14 @@ float mirror(float straight, float cosine) {
   return straight + (1.0 - straight) * square * square * missing;
 }
 
-float highlight(vec3 normal, vec3 to_eye, float sharpness) {
-  return pow(max(0.0, dot(normal, normalize(to_eye + to_light))), sharpness) * (sharpness + 8.0) / 25.0;
+// The sun's own reflection on a surface that is not quite smooth.
+float highlight(vec3 normal, vec3 to_eye) {
+  float cosine = max(0.0, dot(normal, normalize(to_eye + to_light)));
+  float power = cosine * cosine;                                  // 2
+  power *= power;                                                 // 4
+  power *= power;                                                 // 8
+  power *= power;                                                 // 16
+  return 2.0 * power * power * power;
 }
 
 vec3 matte_light(vec3 normal, float sun, float sky_share) {

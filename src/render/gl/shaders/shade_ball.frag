@@ -14,9 +14,9 @@ void main() {
   vec3 albedo = texelFetch(colors, pixel, 0).rgb;
   albedo *= albedo;  // about linear
   float sky_share = texture(ambient, gl_FragCoord.xy / picture).x;
-  float sun = sunlight(point + 0.15 * sphere_size * (normal + to_light), noise(gl_FragCoord.xy), 1);
+  float sun = sunlight(point + off_surface() * (normal + to_light), noise(gl_FragCoord.xy), 1);
   vec3 color = albedo * matte_light(normal, sun, sky_share);
-  color += 0.13 * highlight(normal, to_eye, 40.0) * sun * kSun;
+  color += 0.13 * highlight(normal, to_eye) * sun * kSun;
   float shine = 0.5 * mirror(0.04, max(0.0, dot(normal, to_eye)));
   shaded = stored(mix(color, mirrored_sky(reflect(-to_eye, normal)) * sky_share, shine));
 }

@@ -48,7 +48,7 @@ void main() {
 
   vec3 mirrored = mirrored_sky(reflect(-to_eye, normal)) * mix(0.4, 1.0, sky_share);
   color = mix(color, mirrored, mirror(0.02, max(0.0, dot(normal, to_eye))));
-  color += highlight(normal, to_eye, 50.0) * sun * 0.12 * kSun;
+  color += highlight(normal, to_eye) * sun * 0.12 * kSun;
 
   // Foam and drops: white, and rough as the balls are.
   float thin = 1.0 - smoothstep(1.0, 5.0, water / sphere_size);

@@ -1,5 +1,6 @@
 #version 330 core
-// A square for every sphere, between the eye and the sphere, that just covers its outline. Lengths in metres.
+// A triangle for every sphere, between the eye and the sphere, that just covers its outline: one is cheaper to set up
+// than the two of a square. Lengths in metres.
 uniform vec3 eye;
 uniform mat3 to_view;      // right, up, back
 uniform vec2 scale;        // from metres (at depth 1 where not parallel) to half a picture
@@ -12,10 +13,10 @@ layout(location = 2) in vec4 color;
 flat out vec3 view_center;
 flat out float view_radius;
 flat out vec4 tint;
-out vec3 offset;           // from the centre to a point of the square
+out vec3 offset;           // from the centre to a point of the triangle
 
 void main() {
-  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+  vec2 corner = gl_VertexID == 0 ? vec2(-1.7320508, -1.0) : gl_VertexID == 1 ? vec2(1.7320508, -1.0) : vec2(0.0, 2.0);
   view_center = to_view * (center - eye);
   view_radius = radius;
   tint = color;
