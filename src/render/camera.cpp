@@ -45,6 +45,11 @@ Vec3d up_of(const Scene& scene) {
   return strength > 0 ? (-1 / strength) * scene.gravity : Vec3d{0, 1, 0};
 }
 
+double extent_along(const Box& box, const Vec3d& direction) {
+  const Vec3d size = box.max - box.min;
+  return std::abs(size.x * direction.x) + std::abs(size.y * direction.y) + std::abs(size.z * direction.z);
+}
+
 Box action_box(const Scene& scene, const ParticleSet& first) {
   constexpr double kHeadroom = 1.15;
   Box box{scene.domain.min, scene.domain.max};

@@ -33,6 +33,9 @@ CameraAxes axes(const Camera& camera);
 /// Against gravity; y where there is none.
 Vec3d up_of(const Scene& scene);
 
+/// How far `box` reaches along the unit vector `direction`, m.
+double extent_along(const Box& box, const Vec3d& direction);
+
 /// Where a scene's action takes place: the domain, but only as high as the particles reach at the start, `first`, and a
 /// bit.
 Box action_box(const Scene& scene, const ParticleSet& first);

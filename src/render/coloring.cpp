@@ -13,14 +13,10 @@ namespace {
 
 double norm(const Vec3d& v) { return std::sqrt(dot(v, v)); }
 
-// How high the action reaches from the floor, against gravity, m.
-double reach(const Box& action, const Vec3d& up) {
-  const Vec3d size = action.max - action.min;
-  return std::abs(size.x * up.x) + std::abs(size.y * up.y) + std::abs(size.z * up.z);
-}
-
 // Height of the action's lowest corner, along `up`, m.
-double floor_height(const Box& action, const Vec3d& up) { return dot(action.center(), up) - 0.5 * reach(action, up); }
+double floor_height(const Box& action, const Vec3d& up) {
+  return dot(action.center(), up) - 0.5 * extent_along(action, up);
+}
 
 double fastest(const ParticleSet& particles) {
   double most = 0;
@@ -33,7 +29,7 @@ double weight_pressure(const Scene& scene, const ParticleSet& first, const Box& 
   double mass = 0;
   for (const std::uint16_t material : first.material) mass += scene.materials[material].mass;
   const Vec3d size = action.max - action.min;
-  const double height = reach(action, up_of(scene));
+  const double height = extent_along(action, up_of(scene));
   const double floor_area = size.x * size.y * size.z / height;
   return 2 * mass * norm(scene.gravity) / floor_area;
 }
@@ -62,7 +58,7 @@ ColorTitle title(ColorBy by) {
 
 ColorScale default_scale(const Scene& scene, const ParticleSet& first, ColorBy by) {
   const Box action = action_box(scene, first);
-  const double height = reach(action, up_of(scene));
+  const double height = extent_along(action, up_of(scene));
   switch (by) {
     case ColorBy::material:
       return {by, 0, 1};

@@ -13,6 +13,8 @@
 #include <mutex>
 #include <thread>
 
+#include "hooke/backends/cpu/boundaries.h"
+#include "hooke/backends/cpu/column_store.h"
 #include "hooke/backends/cpu/contact_scan.h"
 #include "hooke/backends/cpu/id_table.h"
 #include "hooke/backends/cpu/isa.h"
@@ -36,25 +38,6 @@ constexpr std::size_t kSegment = NeighbourList::kSegment;
 
 // Positions beyond this are lost; records at kNowhere must stay further away from everything.
 constexpr double kFurthest = kNowhere / 16;
-
-// Vectors, a column a component.
-template <class Real>
-class ColumnStore {
- public:
-  void resize(std::size_t count) {
-    for (auto* column : {&x_, &y_, &z_}) column->resize(count);
-  }
-  void put(std::size_t i, const Vec3<Real>& value) {
-    x_[i] = value.x;
-    y_[i] = value.y;
-    z_[i] = value.z;
-  }
-  Vec3<Real> operator[](std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
-  Columns<Real> columns() const { return {x_.data(), y_.data(), z_.data()}; }
-
- private:
-  std::vector<Real> x_, y_, z_;
-};
 
 // The state in one precision. Particles lie in cell order as of the last build; ranks lead back to ids.
 template <class Real>
@@ -94,7 +77,7 @@ class CpuBackend final : public Backend {
     for (std::size_t i = 0; i < count_; ++i) {
       records_[i] = {vec_cast<Real>(particles.position[i]), static_cast<Real>(particles.material[i]),
                      vec_cast<Real>(particles.velocity[i]), rank_code<Real>(static_cast<std::uint32_t>(i))};
-      wrap_periodic(records_[i]);  // a coordinate may have been rounded up to the upper face
+      wrap_periodic(pass_, records_[i]);  // a coordinate may have been rounded up to the upper face
       if (verlet() && !particles.acceleration.empty()) acceleration_[i] = vec_cast<Real>(particles.acceleration[i]);
     }
     std::fill(records_.begin() + static_cast<std::ptrdiff_t>(count_), records_.end(), nowhere_record<Real>(Real(0)));
@@ -555,27 +538,10 @@ class CpuBackend final : public Backend {
 
   // Boundaries -------------------------------------------------------------------------------------------------------
 
-  void wrap_periodic(Record& p) const {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!pass_.periodic[axis]) continue;
-      Real& x = component(p.x, axis);
-      x = wrap_coordinate(x, component(pass_.min, axis), component(pass_.max, axis));
-    }
-  }
-
-  bool is_outside_open_face(const Record& p) const {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!pass_.open_or_periodic[axis] || pass_.periodic[axis]) continue;
-      const Real x = component(p.x, axis);
-      if (x < component(pass_.min, axis) || x > component(pass_.max, axis)) return true;
-    }
-    return false;
-  }
-
   // Wraps periodic coordinates; a particle outside an open face goes nowhere.
   void apply_boundaries(Record& p, RemovalSums& left) const {
-    wrap_periodic(p);
-    if (!is_outside_open_face(p)) return;
+    wrap_periodic(pass_, p);
+    if (!is_outside_open_face(pass_, p)) return;
     left.add_particle(material_of(p).mass, vec_cast<double>(p.x), vec_cast<double>(p.v), scene_.gravity);
     const Real material = p.material;
     p = nowhere_record<Real>(p.rank);

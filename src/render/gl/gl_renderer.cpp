@@ -210,7 +210,7 @@ class GlRenderer final : public Renderer {
     backdrop_program_ = picture(lit + backdrop_frag);
     ball_program_ = picture(lit + shade_ball_frag);
     water_program_ = picture(lit + shade_water_frag);
-    resolve_program_ = picture(resolve_frag);
+    resolve_program_ = picture(view + resolve_frag);
     edge_program_ = Program(edges_vert, edges_frag);
   }
 
@@ -433,8 +433,7 @@ class GlRenderer final : public Renderer {
     program.read("water_normals", 6, water_normal_);
     program.read("thickness", 7, thickness_);
     program.set("samples", settings_.samples);
-    const Vec3d size = frame.action.max - frame.action.min;
-    const double height = std::abs(size.x * frame.up.x) + std::abs(size.y * frame.up.y) + std::abs(size.z * frame.up.z);
+    const double height = extent_along(frame.action, frame.up);
     program.set("water_scale", static_cast<float>(0.6 * height));
     begin_shading(program, kWater);
     cover();

@@ -1,12 +1,9 @@
-#version 330 core
 // The mean of each pixel's samples, as screens take it (sRGB), with a noise of one step against bands.
 uniform sampler2D shaded;     // alpha 0 where a sample shows nothing
 uniform sampler2D backdrop;   // what is seen there
 uniform int samples;
 
 out vec4 image;
-
-float noise(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }
 
 void main() {
   ivec2 first = ivec2(gl_FragCoord.xy) * samples;
