@@ -91,6 +91,29 @@ struct NeighbourStatistics {
   double slots_per_particle = 0;  ///< list entries read a particle and step, padding included
 };
 
+/// Wall time by stage, s. Stages don't overlap; what of a step is in none of them is the rest.
+struct StageTimes {
+  double sort = 0;    ///< numbering the cells, sorting particles into them
+  double list = 0;    ///< listing who may touch whom
+  double motion = 0;  ///< judging how far the list can be trusted
+  double force = 0;   ///< the pass: contacts, walls, drag, gravity, the integrator, and the step's sums
+  double drift = 0;   ///< velocity Verlet's first half
+
+  double total() const { return sort + list + motion + force + drift; }
+
+  StageTimes& operator+=(const StageTimes& b) {
+    sort += b.sort;
+    list += b.list;
+    motion += b.motion;
+    force += b.force;
+    drift += b.drift;
+    return *this;
+  }
+  friend StageTimes operator-(const StageTimes& a, const StageTimes& b) {
+    return {a.sort - b.sort, a.list - b.list, a.motion - b.motion, a.force - b.force, a.drift - b.drift};
+  }
+};
+
 /// Where particles live and step: reference (all pairs, the specification), cpu, and others to come. A back
 /// end owns the particles' state in its own layout and order; everything that comes out is by id. Stages
 /// are coarse: fusing inside one is its own affair. core/step.cpp says in which order they run.
@@ -137,6 +160,9 @@ class Backend {
   virtual Expected<Measurements> measure() = 0;
 
   virtual NeighbourStatistics neighbour_statistics() const = 0;
+
+  /// Of everything so far, also of what was not a step.
+  virtual StageTimes stage_times() const = 0;
 };
 
 }  // namespace hooke

@@ -103,6 +103,8 @@ struct Simulation::Impl {
   bool host_edited = false;
   std::uint64_t first_new_id = 0;
 
+  StageTimes stage_times;  // of steps
+
   bool failed = false;
   Error failure;
 
@@ -201,6 +203,24 @@ struct Simulation::Impl {
                   fmt::format("{} particles do not fit into memory", particles.size()));
     }
   }
+
+  Expected<void> take_steps(std::int64_t count) {
+    try {
+      if (auto flushed = flush(); !flushed) return flushed;
+      for (std::int64_t i = 0; i < count; ++i) {
+        host_current = false;
+        if (auto taken = check(take_step(*backend, scene.integrator)); !taken) return taken;
+        ++step;
+      }
+      // What the next step would begin with. Done now, it reports what the last step has lost before anyone saves it.
+      if (count > 0 && backend->neighbours_stale()) return check(backend->build_neighbours());
+      return {};
+    } catch (const std::bad_alloc&) {
+      failed = true;
+      failure = out_of_memory(step);
+      return fail(failure);
+    }
+  }
 };
 
 Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -244,21 +264,10 @@ Expected<void> Simulation::step(std::int64_t count) {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
   if (count < 0) return fail(Error::Kind::bad_input, "step", fmt::format("{} steps; 0 or more are possible", count));
-  try {
-    if (auto flushed = s.flush(); !flushed) return flushed;
-    for (std::int64_t i = 0; i < count; ++i) {
-      s.host_current = false;
-      if (auto taken = s.check(take_step(*s.backend, s.scene.integrator)); !taken) return taken;
-      ++s.step;
-    }
-    // What the next step would begin with. Done now, it reports what the last step has lost before anyone saves it.
-    if (count > 0 && s.backend->neighbours_stale()) return s.check(s.backend->build_neighbours());
-    return {};
-  } catch (const std::bad_alloc&) {
-    s.failed = true;
-    s.failure = out_of_memory(s.step);
-    return fail(s.failure);
-  }
+  const StageTimes before = s.backend->stage_times();
+  auto taken = s.take_steps(count);
+  s.stage_times += s.backend->stage_times() - before;
+  return taken;
 }
 
 const Scene& Simulation::scene() const { return impl_->scene; }
@@ -270,6 +279,7 @@ std::uint64_t Simulation::particle_count() const {
 std::uint64_t Simulation::next_id() const { return impl_->next_id; }
 BackendInfo Simulation::backend_info() const { return impl_->backend->info(); }
 NeighbourStatistics Simulation::neighbour_statistics() const { return impl_->backend->neighbour_statistics(); }
+const StageTimes& Simulation::stage_times() const { return impl_->stage_times; }
 
 const ParticleSet& Simulation::particles() const { return impl_->particles(); }
 std::span<const std::uint64_t> Simulation::ids() const { return particles().id; }

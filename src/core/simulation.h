@@ -65,6 +65,8 @@ class Simulation {
   std::uint64_t next_id() const;
   BackendInfo backend_info() const;
   NeighbourStatistics neighbour_statistics() const;
+  /// Wall time of all calls of step() so far, by stage.
+  const StageTimes& stage_times() const;
 
   /// The particles now, by ascending id. Valid until the next call that steps or changes something.
   /// The first look after a step copies them from the back end.

@@ -18,6 +18,16 @@ namespace {
 
 nlohmann::ordered_json to_array(const Vec3d& v) { return {v.x, v.y, v.z}; }
 
+nlohmann::ordered_json stages_of(const RunReport& r) {
+  const StageTimes& s = r.stages;
+  nlohmann::ordered_json json = {{"sort", s.sort}, {"list", s.list}, {"motion", s.motion}};
+  json["force"] = s.force - r.walls.value_or(0);
+  json["walls"] = r.walls ? nlohmann::ordered_json(*r.walls) : nlohmann::ordered_json();
+  json["drift"] = s.drift;
+  json["rest"] = r.rest();
+  return json;
+}
+
 }  // namespace
 
 double RunReport::contacts_per_particle() const {
@@ -47,6 +57,7 @@ RunReport make_report(const Simulation& simulation, const Measurements& measurem
   report.initial_energy = simulation.initial_energy();
   report.momentum_drift = momentum_drift(measurements, simulation.ledger(), simulation.initial_momentum());
   report.neighbours = simulation.neighbour_statistics();
+  report.stages = simulation.stage_times();
   return report;
 }
 
@@ -59,6 +70,7 @@ std::string to_json(const RunReport& r) {
   json["step"] = r.step;
   json["time"] = r.time;
   json["seconds"] = r.seconds;
+  json["stages"] = stages_of(r);
   json["steps_per_second"] = r.steps_per_second();
   json["particle_steps_per_second"] = r.particle_steps_per_second();
   json["contacts"] = m.contacts;

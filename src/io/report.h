@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "hooke/base/expected.h"
@@ -30,17 +31,23 @@ struct RunReport {
   double initial_energy = 0;      ///< kinetic, potential and elastic at step 0, J
   double momentum_drift = 0;      ///< beyond what gravity, walls, drag and departures account for, relative
   NeighbourStatistics neighbours;
+  StageTimes stages;              ///< of those steps
+  std::optional<double> walls;    ///< s, the part of stages.force that walls take, where somebody has measured it
 
   double steps_per_second() const { return seconds > 0 ? static_cast<double>(steps) / seconds : 0; }
   double particle_steps_per_second() const { return steps_per_second() * static_cast<double>(particles); }
+  double rest() const { return seconds - stages.total(); }  ///< of `seconds`, in no stage
   double contacts_per_particle() const;  ///< 2 contacts / particles
   double energy_balance() const;         ///< what the ledger leaves unexplained of the change of energy, J
 };
 
-/// Everything but `steps` and `seconds`, which the caller has timed.
+/// Everything but `steps` and `seconds`, which the caller has timed, and `walls`. `stages` are those of all steps of
+/// `simulation`.
 RunReport make_report(const Simulation& simulation, const Measurements& measurements);
 
-/// One JSON object, indented, with a line feed at the end. Numbers that are not finite become null.
+/// One JSON object, indented, with a line feed at the end. Numbers that are not finite become null. "stages" holds
+/// seconds that add up to "seconds": where walls were measured, "force" is what is left without them, else "walls" is
+/// null and "force" the whole pass.
 std::string to_json(const RunReport& report);
 
 /// Writes text beside `file` and renames: at any moment the old text or the new one is there, whole.

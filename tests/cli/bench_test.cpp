@@ -38,6 +38,31 @@ TEST_F(Bench, JsonHoldsTheFields) {
   EXPECT_EQ(report.at("state_hash"), state_hash("s"));
 }
 
+TEST_F(Bench, StagesOfAStepAddUpToIt) {
+  for (const char* integrator : {"symplectic-euler", "velocity-verlet"}) {
+    write("s.json", pool_scene(16, integrator, "single"));
+    const auto report =
+        nlohmann::json::parse(hooke_ok({"bench", "s.json", "--steps", "200", "--warmup", "0", "--json"}));
+    double sum = 0;
+    for (const auto& [stage, seconds] : report.at("stages").items()) {
+      EXPECT_GE(seconds, 0) << stage;
+      sum += seconds.get<double>();
+    }
+    const double whole = report.at("seconds");
+    EXPECT_NEAR(sum, whole, 1e-9);
+    EXPECT_LT(report.at("stages").at("rest"), 0.5 * whole);
+    for (const char* stage : {"sort", "list", "force"}) EXPECT_GT(report.at("stages").at(stage), 0) << stage;
+    EXPECT_TRUE(report.at("stages").contains("motion"));
+    EXPECT_EQ(report.at("stages").at("drift") > 0, std::string(integrator) == "velocity-verlet");
+  }
+}
+
+TEST_F(Bench, WithoutWallsTheyTakeNoTime) {
+  const auto report = nlohmann::json::parse(
+      hooke_ok({"bench", "s.json", "--set", "domain.walls=\"periodic\"", "--steps", "5", "--warmup", "0", "--json"}));
+  EXPECT_EQ(report.at("stages").at("walls"), 0);
+}
+
 TEST_F(Bench, StartsFromACheckpoint) {
   hooke_ok({"run", "s.json", "--steps", "30"});
   hooke_ok({"run", "s.json", "--steps", "50", "-o", "later"});
@@ -48,8 +73,8 @@ TEST_F(Bench, StartsFromACheckpoint) {
 
 TEST_F(Bench, PrintsATable) {
   const std::string table = hooke_ok({"bench", "s.json", "--steps", "5", "--warmup", "0"});
-  for (const char* row :
-       {"particle-steps/s", "contacts per particle", "rebuilds", "bytes per particle", "state hash"}) {
+  for (const char* row : {"particle-steps/s", "contacts per particle", "rebuilds", "bytes per particle", "state hash",
+                          "a step", "sort", "list", "motion", "force", "walls", "rest", " ms, "}) {
     EXPECT_THAT(table, HasSubstr(row));
   }
 }

@@ -66,6 +66,21 @@ TEST(Report, HasEveryFieldThatIsPromised) {
   EXPECT_LT(json["momentum_drift"], 1e-12);
 }
 
+TEST(Report, StagesAddUpToTheSeconds) {
+  RunReport report;
+  report.seconds = 10;
+  report.stages = {.sort = 1, .list = 2, .motion = 0.5, .force = 4, .drift = 0.25};
+  auto stages = nlohmann::json::parse(to_json(report)).at("stages");
+  EXPECT_TRUE(stages["walls"].is_null()) << "nobody has measured them";
+  EXPECT_EQ(stages["force"], 4);
+  EXPECT_EQ(stages["rest"], 2.25);
+  report.walls = 1.5;
+  stages = nlohmann::json::parse(to_json(report)).at("stages");
+  EXPECT_EQ(stages["walls"], 1.5);
+  EXPECT_EQ(stages["force"], 2.5);
+  EXPECT_EQ(stages["rest"], 2.25);
+}
+
 TEST(Report, CountsEachContactForBothItsParticles) {
   RunReport report;
   EXPECT_EQ(report.contacts_per_particle(), 0);

@@ -21,6 +21,7 @@
 #include "hooke/backends/cpu/pass_rules.h"
 #include "hooke/backends/cpu/threads.h"
 #include "hooke/base/parallel.h"
+#include "hooke/base/stopwatch.h"
 #include "hooke/core/state_hash.h"
 #include "hooke/core/sums.h"
 #include "hooke/neighbours/cell_grid.h"
@@ -110,6 +111,7 @@ class CpuBackend final : public Backend {
   }
 
   void half_kick_and_drift() override {
+    Stopwatch drifting(times_.drift);
     RemovalSums removed;
     std::atomic<bool> moved_far{false};
     for_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
@@ -126,6 +128,7 @@ class CpuBackend final : public Backend {
       if (far) moved_far = true;
       collect(removed, left);
     });
+    drifting.stop();
     if (moved_far && listed_) judge_list();
     book(removed);
   }
@@ -142,6 +145,7 @@ class CpuBackend final : public Backend {
   }
 
   Condition apply_forces() override {
+    Stopwatch forcing(times_.force);
     StepSums sums;
     RemovalSums removed;
     Condition condition;
@@ -174,6 +178,7 @@ class CpuBackend final : public Backend {
       condition = Condition::first(condition, found);
     });
     book_step(ledger_, sums.rates(scene_.gravity, total_mass_), scene_.time_step, scene_.integrator);
+    forcing.stop();
     records_.swap(next_);
     if (moved_far) judge_list();
     book(removed);
@@ -216,6 +221,8 @@ class CpuBackend final : public Backend {
     const auto n = static_cast<double>(std::max<std::size_t>(count_, 1));
     return {rebuilds_, static_cast<double>(list_.entry_count()) / n};
   }
+
+  StageTimes stage_times() const override { return times_; }
 
  private:
   // Where the groups of one segment report.
@@ -275,6 +282,7 @@ class CpuBackend final : public Backend {
   }
 
   Condition sort_by_cell() {
+    const Stopwatch sorting(times_.sort);
     Vec3d min, max;
     if (const Condition condition = bounding_box(min, max); !condition.good()) return condition;
     for (int axis = 0; axis < 3; ++axis) {
@@ -315,6 +323,7 @@ class CpuBackend final : public Backend {
   }
 
   void list_neighbours() {
+    const Stopwatch listing(times_.list);
     // A pack more than there are particles, for searches to read.
     listed_at_.resize(padded(count_) + kLanes);
     std::vector<std::uint32_t>& ranks = order_;  // of no use any more as the order of the sort
@@ -396,6 +405,7 @@ class CpuBackend final : public Backend {
   // How much of the list can be trusted, now that some particle has moved by more than half a skin: all of it where its
   // surroundings have moved along.
   void judge_list() {
+    const Stopwatch judging(times_.motion);
     threads_.run([&] {
       if (!motion_laid_out_) {
         motion_.lay_out(listed_at_.columns(), count_, motion_limits_);
@@ -610,6 +620,7 @@ class CpuBackend final : public Backend {
   typename MotionBounds<Real>::Limits motion_limits_;
   bool motion_laid_out_ = false;
   std::uint64_t rebuilds_ = 0;
+  StageTimes times_;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "hooke/base/stopwatch.h"
 #include "hooke/core/state_hash.h"
 #include "hooke/core/sums.h"
 #include "hooke/physics/contact.h"
@@ -56,6 +57,7 @@ class ReferenceBackend final : public Backend {
   void download(ParticleSet& out) const override { out = p_; }
 
   void half_kick_and_drift() override {
+    const Stopwatch drifting(times_.drift);
     for (std::size_t i = 0; i < p_.size(); ++i) {
       p_.velocity[i] = kick(p_.velocity[i], p_.acceleration[i], scene_.time_step / 2);
       p_.position[i] = drift(p_.position[i], p_.velocity[i], scene_.time_step);
@@ -76,6 +78,7 @@ class ReferenceBackend final : public Backend {
   }
 
   Condition apply_forces() override {
+    const Stopwatch forcing(times_.force);
     const Forces forces = accelerations();
     const double dt = scene_.time_step;
     for (std::size_t i = 0; i < p_.size(); ++i) {
@@ -116,6 +119,7 @@ class ReferenceBackend final : public Backend {
   }
 
   NeighbourStatistics neighbour_statistics() const override { return {0, static_cast<double>(p_.size())}; }
+  StageTimes stage_times() const override { return times_; }
 
  private:
   struct Forces {
@@ -259,6 +263,7 @@ class ReferenceBackend final : public Backend {
   std::array<int, 3> images_{};  // images -n to n of every particle are looked at, a periodic axis
   ParticleSet p_;
   Ledger ledger_;
+  StageTimes times_;
 };
 
 }  // namespace
