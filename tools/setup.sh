@@ -6,6 +6,7 @@
 #   tools/setup.sh          to build and run
 #   tools/setup.sh test     also to test, which checks the format
 #   tools/setup.sh lint     also to lint
+#   tools/setup.sh bench    also to compare speeds with LAMMPS
 set -euo pipefail
 
 build_packages=(
@@ -16,11 +17,13 @@ build_packages=(
   libepoxy-dev libegl1 libgl1 libgl1-mesa-dri libpng-dev libcairo2-dev fonts-dejavu-core ffmpeg
   python3)
 test_packages=(clang-format-19 lammps python3-vtk9 python3-h5py)
+bench_packages=(lammps python3-numpy)
 lint_packages=(clang-19 clang-tidy-19)
 
 packages=("${build_packages[@]}")
 case "${1:-}" in
   test) packages+=("${test_packages[@]}") ;;
+  bench) packages+=("${bench_packages[@]}") ;;
   lint) packages+=("${test_packages[@]}" "${lint_packages[@]}") ;;
 esac
 
