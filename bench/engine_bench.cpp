@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,15 +26,21 @@ namespace {
 constexpr double kRadius = 0.2;
 constexpr std::size_t kLayers = 20;
 
-// A pool of `wide` x `wide` x 20 balls, a little jittered, that has come to rest for the most part.
-Expected<Simulation> make_pool(std::size_t wide, Precision precision, int threads, const std::string& isa) {
+Scene pool_scene(std::size_t wide) {
   Scene scene;
   scene.name = "pool";
-  scene.precision = precision;
   scene.materials = {
       {.name = "water", .radius = kRadius, .mass = 1, .contact = {8000, 0.3, 2}, .drag = 0, .color = ""}};
   const double side = 2 * kRadius * static_cast<double>(wide);
   scene.domain.max = {side, 4 * kRadius * kLayers, side};
+  return scene;
+}
+
+// A pool of `wide` x `wide` x 20 balls that has come to rest for the most part; made once.
+Expected<ParticleSet> settled_pool(std::size_t wide) {
+  static std::map<std::size_t, ParticleSet> pools;
+  if (const auto known = pools.find(wide); known != pools.end()) return known->second;
+  const Scene scene = pool_scene(wide);
   ParticleSet p;
   p.resize(wide * wide * kLayers);
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -41,49 +49,106 @@ Expected<Simulation> make_pool(std::size_t wide, Precision precision, int thread
       return kRadius * (1 + 2 * static_cast<double>(index) + 0.2 * (random - 0.5));
     };
     p.id[i] = i + 1;
-    p.position[i] = {std::min(at(i % wide, u[0]), side), at(i / wide / wide, u[1]),
-                     std::min(at(i / wide % wide, u[2]), side)};
+    p.position[i] = {std::min(at(i % wide, u[0]), scene.domain.max.x), at(i / wide / wide, u[1]),
+                     std::min(at(i / wide % wide, u[2]), scene.domain.max.z)};
   }
-  auto backend = make_cpu_backend({.precision = precision, .threads = threads, .isa = isa});
+  auto backend = make_cpu_backend({.precision = scene.precision, .threads = 0, .isa = ""});
   if (!backend) return fail(backend.error());
   auto simulation = Simulation::create(scene, std::move(p), std::move(*backend));
-  if (!simulation) return simulation;
+  if (!simulation) return fail(simulation.error());
   if (auto settled = simulation->step(400); !settled) return fail(settled.error());
-  return simulation;
+  return pools[wide] = simulation->particles();
 }
 
-// Whole steps; arguments: balls along a side, double precision or not, threads, instruction set of those there are.
-void whole_step(benchmark::State& state) {
+// Arguments of what is measured on a pool: balls along a side, double precision or not, threads, which instruction set
+// of those there are.
+void pool_arguments(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgNames({"wide", "double", "threads", "isa"})->Unit(benchmark::kMillisecond);
+  for (const std::int64_t wide : {20, 57, 160}) benchmark->Args({wide, 0, 2, 0});
+  benchmark->Args({160, 0, 1, 0})->Args({160, 1, 2, 0})->Args({160, 0, 2, 1})->Args({160, 0, 2, 2});
+}
+
+struct Pool {
+  Scene scene;
+  ParticleSet particles;
+  std::unique_ptr<Backend> backend;
+  Isa isa;
+};
+
+Expected<Pool> open_pool(const benchmark::State& state) {
   const std::vector<Isa> isas = available_isas();
   const auto isa_index = static_cast<std::size_t>(state.range(3));
-  if (isa_index >= isas.size()) return state.SkipWithError("not on this processor");
-  const Precision precision = state.range(1) != 0 ? Precision::double_precision : Precision::single_precision;
-  auto pool = make_pool(static_cast<std::size_t>(state.range(0)), precision, static_cast<int>(state.range(2)),
-                        isas[isa_index].name);
+  if (isa_index >= isas.size()) return fail(Error::Kind::bad_input, "isa", "not on this processor");
+  const auto wide = static_cast<std::size_t>(state.range(0));
+  auto particles = settled_pool(wide);
+  if (!particles) return fail(particles.error());
+  Pool pool{pool_scene(wide), std::move(*particles), nullptr, isas[isa_index]};
+  pool.scene.precision = state.range(1) != 0 ? Precision::double_precision : Precision::single_precision;
+  auto backend = make_cpu_backend(
+      {.precision = pool.scene.precision, .threads = static_cast<int>(state.range(2)), .isa = pool.isa.name});
+  if (!backend) return fail(backend.error());
+  pool.backend = std::move(*backend);
+  return pool;
+}
+
+bool momentum_is_kept(const Measurements& now, const Ledger& ledger, const Vec3d& initial, Precision precision) {
+  return momentum_drift(now, ledger, initial) < (precision == Precision::single_precision ? 1e-4 : 1e-10);
+}
+
+void report_pool(benchmark::State& state, const Pool& pool, const Measurements& now) {
+  state.SetLabel(pool.isa.name);
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(now.particles));
+  state.counters["contacts"] = 2 * static_cast<double>(now.contacts) / static_cast<double>(now.particles);
+}
+
+void whole_step(benchmark::State& state) {
+  auto pool = open_pool(state);
   if (!pool) return state.SkipWithError(pool.error().text().c_str());
+  auto simulation = Simulation::create(pool->scene, std::move(pool->particles), std::move(pool->backend));
+  if (!simulation) return state.SkipWithError(simulation.error().text().c_str());
   for (auto iteration : state) {
-    if (auto stepped = pool->step(); !stepped) return state.SkipWithError(stepped.error().text().c_str());
+    if (auto stepped = simulation->step(); !stepped) return state.SkipWithError(stepped.error().text().c_str());
   }
-  const auto now = pool->measure();
-  const double limit = precision == Precision::single_precision ? 1e-4 : 1e-10;
-  if (!now || !(momentum_drift(*now, pool->ledger(), pool->initial_momentum()) < limit)) {
+  const auto now = simulation->measure();
+  if (!now || !momentum_is_kept(*now, simulation->ledger(), simulation->initial_momentum(), pool->scene.precision)) {
     return state.SkipWithError("momentum drifts beyond what gravity and walls account for");
   }
-  state.SetLabel(isas[isa_index].name);
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(pool->particle_count()));
-  state.counters["contacts"] = 2 * static_cast<double>(now->contacts) / static_cast<double>(now->particles);
+  report_pool(state, *pool, *now);
 }
-BENCHMARK(whole_step)
-    ->ArgNames({"wide", "double", "threads", "isa"})
-    ->Args({20, 0, 2, 0})
-    ->Args({57, 0, 2, 0})
-    ->Args({160, 0, 2, 0})
-    ->Args({160, 0, 1, 0})
-    ->Args({160, 1, 2, 0})
-    ->Args({160, 0, 2, 1})
-    ->Args({160, 0, 2, 2})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
+BENCHMARK(whole_step)->Apply(pool_arguments)->UseRealTime();
+
+// One stage of steps that build their neighbour list anew, each of them.
+void stage(benchmark::State& state, double StageTimes::* part, Integrator integrator) {
+  auto pool = open_pool(state);
+  if (!pool) return state.SkipWithError(pool.error().text().c_str());
+  pool->scene.integrator = integrator;
+  Backend& backend = *pool->backend;
+  backend.configure(pool->scene);
+  backend.upload(pool->particles, 1, {});
+  const auto before = backend.measure();
+  for (auto iteration : state) {
+    const StageTimes start = backend.stage_times();
+    if (integrator == Integrator::velocity_verlet) backend.half_kick_and_drift();
+    if (!backend.build_neighbours().good() || !backend.apply_forces().good()) {
+      return state.SkipWithError("the pool went bad");
+    }
+    state.SetIterationTime((backend.stage_times() - start).*part);
+  }
+  const auto now = backend.measure();
+  if (!before || !now || !momentum_is_kept(*now, backend.ledger(), before->momentum, pool->scene.precision)) {
+    return state.SkipWithError("momentum drifts beyond what gravity and walls account for");
+  }
+  report_pool(state, *pool, *now);
+}
+void stage_arguments(benchmark::internal::Benchmark* benchmark) {
+  pool_arguments(benchmark);
+  benchmark->Iterations(20)->UseManualTime();
+}
+BENCHMARK_CAPTURE(stage, sort, &StageTimes::sort, Integrator::symplectic_euler)->Apply(stage_arguments);
+BENCHMARK_CAPTURE(stage, list, &StageTimes::list, Integrator::symplectic_euler)->Apply(stage_arguments);
+BENCHMARK_CAPTURE(stage, force, &StageTimes::force, Integrator::symplectic_euler)->Apply(stage_arguments);
+// The part of integration that is a stage of its own.
+BENCHMARK_CAPTURE(stage, integrate, &StageTimes::drift, Integrator::velocity_verlet)->Apply(stage_arguments);
 
 // Sorting half a million cell numbers.
 void sort_keys(benchmark::State& state) {

@@ -6,7 +6,7 @@
 #   tools/setup.sh          to build and run
 #   tools/setup.sh test     also to test, which checks the format
 #   tools/setup.sh lint     also to lint
-#   tools/setup.sh bench    also to compare speeds with LAMMPS
+#   tools/setup.sh bench    also to measure and to draw what was measured
 set -euo pipefail
 
 build_packages=(
@@ -16,15 +16,15 @@ build_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev pkg-config
   libepoxy-dev libegl1 libgl1 libgl1-mesa-dri libpng-dev libcairo2-dev fonts-dejavu-core ffmpeg
   python3)
-test_packages=(clang-format-19 lammps python3-vtk9 python3-h5py)
-bench_packages=(lammps python3-numpy)
+test_packages=(clang-format-19 lammps python3-vtk9 python3-h5py python3-numpy)
+bench_packages=(lammps python3-numpy python3-matplotlib)
 lint_packages=(clang-19 clang-tidy-19)
 
 packages=("${build_packages[@]}")
 case "${1:-}" in
   test) packages+=("${test_packages[@]}") ;;
-  bench) packages+=("${bench_packages[@]}") ;;
   lint) packages+=("${test_packages[@]}" "${lint_packages[@]}") ;;
+  bench) packages+=("${bench_packages[@]}") ;;
 esac
 
 if ! command -v dpkg-query >/dev/null; then
