@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "commands.h"
@@ -15,25 +14,6 @@
 
 namespace hooke::cli {
 namespace {
-
-// Single precision resolves positions no finer than this part of a radius without loss that shows (docs/theory.md).
-constexpr double kFinestSpacing = 1e-4;
-
-// Distance between neighbouring floats at the coordinate of the domain that is farthest from 0, m.
-double float_spacing(const Domain& domain) {
-  double farthest = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    farthest = std::max({farthest, std::abs(component(domain.min, axis)), std::abs(component(domain.max, axis))});
-  }
-  const auto edge = static_cast<float>(farthest);
-  return static_cast<double>(std::nextafter(edge, INFINITY)) - static_cast<double>(edge);
-}
-
-double smallest_radius(const Scene& scene) {
-  double radius = INFINITY;
-  for (const Material& material : scene.materials) radius = std::min(radius, material.radius);
-  return radius;
-}
 
 void print_step(const Scene& scene) {
   const StableStep stable = stable_step(scene);
@@ -59,15 +39,9 @@ void print_precision(const Scene& scene) {
     fmt::print("  precision  double\n");
     return;
   }
-  const double spacing = float_spacing(scene.domain);
-  const double parts = spacing / smallest_radius(scene);
-  fmt::print("  precision  single; positions at the domain's edge are {:.3g} m apart, {:.3g} radii\n", spacing, parts);
-  if (parts > kFinestSpacing) {
-    spdlog::warn(
-        "domain: single precision resolves only {:.3g} radii at its edge ({} is fine): move it nearer to 0, or "
-        "set precision to double",
-        parts, kFinestSpacing);
-  }
+  const FloatSpacing spacing = float_spacing(scene);
+  fmt::print("  precision  single; positions at the domain's edge are {:.3g} m apart, {:.3g} radii\n", spacing.metres,
+             spacing.radii);
 }
 
 }  // namespace
@@ -94,6 +68,7 @@ ExitStatus check_command(const CheckArguments& arguments) {
     if (arguments.strict) return report_error({Error::Kind::bad_input, {{"", unstable}}});
     spdlog::warn(unstable);
   }
+  if (const std::string coarse = coarse_positions(simulation); !coarse.empty()) spdlog::warn(coarse);
   return kDone;
 }
 

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 
@@ -59,6 +61,31 @@ std::string unstable_step(const Scene& scene) {
   if (scene.time_step <= stable.seconds) return {};
   return fmt::format("time.step: {:.6g} s is {:.3g} times the stable step {:.6g} s, which the {} sets", scene.time_step,
                      scene.time_step / stable.seconds, stable.seconds, stable.limit);
+}
+
+FloatSpacing float_spacing(const Scene& scene) {
+  double farthest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    farthest =
+        std::max({farthest, std::abs(component(scene.domain.min, axis)), std::abs(component(scene.domain.max, axis))});
+  }
+  double radius = INFINITY;
+  for (const Material& material : scene.materials) radius = std::min(radius, material.radius);
+  const auto edge = static_cast<float>(farthest);
+  const double spacing = static_cast<double>(std::nextafter(edge, INFINITY)) - static_cast<double>(edge);
+  return {spacing, spacing / radius};
+}
+
+std::string coarse_positions(const Simulation& simulation) {
+  // What it does to a pile from here on: docs/determinism.md.
+  constexpr double kFinest = 1e-4;  // radii
+  if (simulation.backend_info().precision == Precision::double_precision) return {};
+  const double radii = float_spacing(simulation.scene()).radii;
+  if (radii <= kFinest) return {};
+  return fmt::format(
+      "domain: single precision resolves only {:.3g} radii at its edge ({} is fine), too little for particles at rest "
+      "there: set \"precision\": \"double\", or move the domain nearer to 0",
+      radii, kFinest);
 }
 
 }  // namespace hooke::cli

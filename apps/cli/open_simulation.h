@@ -32,4 +32,14 @@ Expected<OpenedSimulation> open_simulation(const SceneArguments& scene, const De
 /// A sentence about a time step that is too long for the scene; empty where it is not.
 std::string unstable_step(const Scene& scene);
 
+/// How far apart positions lie that single precision can tell, at the coordinate of the domain that is farthest from 0.
+struct FloatSpacing {
+  double metres = 0;
+  double radii = 0;  ///< in radii of the smallest particle; 0 where there is none
+};
+FloatSpacing float_spacing(const Scene& scene);
+
+/// A sentence about a domain that is too large for the single precision computed in; empty where it is not.
+std::string coarse_positions(const Simulation& simulation);
+
 }  // namespace hooke::cli

@@ -171,6 +171,7 @@ void log_start(const OpenedSimulation& opened) {
                back_end.threads);
   for (const Finding& warning : opened.warnings) spdlog::warn("{}: {}", warning.where, warning.message);
   if (const std::string unstable = unstable_step(simulation.scene()); !unstable.empty()) spdlog::warn(unstable);
+  if (const std::string coarse = coarse_positions(simulation); !coarse.empty()) spdlog::warn(coarse);
 }
 
 Expected<RunReport> write_reports(const Run& run, const Simulation& simulation, RunWriter& writer,

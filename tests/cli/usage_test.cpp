@@ -143,13 +143,15 @@ TEST_F(Usage, CheckWarnsOfAnUnstableStepAndStrictRefusesIt) {
   EXPECT_THAT(refused.err, HasSubstr("stable step"));
 }
 
-TEST_F(Usage, CheckWarnsWhereFloatsAreCoarse) {
+TEST_F(Usage, CheckAndRunWarnWhereFloatsAreCoarse) {
   write("s.json", small_scene());
-  const std::vector<std::string> far{"check", "s.json", "--set", "domain.max=[100000,6,4]"};
-  EXPECT_THAT(hooke(far).err, HasSubstr("single precision"));
-  std::vector<std::string> in_double = far;
-  in_double.insert(in_double.end(), {"--set", "precision=double"});
-  EXPECT_EQ(hooke(in_double).err, "");
+  for (const std::string command : {"check", "run"}) {
+    std::vector<std::string> words{command, "s.json", "--set", "domain.max=[100000,6,4]"};
+    if (command == "run") words.insert(words.end(), {"--steps", "1", "--overwrite"});
+    EXPECT_THAT(hooke(words).err, HasSubstr("set \"precision\": \"double\"")) << command;
+    words.insert(words.end(), {"--set", "precision=double"});
+    EXPECT_THAT(hooke(words).err, Not(HasSubstr("precision\":"))) << command;
+  }
 }
 
 }  // namespace
