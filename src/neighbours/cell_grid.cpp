@@ -12,22 +12,24 @@
 
 namespace hooke {
 
-void CellGrid::lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic)[3], double reach) {
+void CellGrid::lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic)[3], const Vec3d& reach) {
   for (int i = 0; i < 3; ++i) {
     Axis& a = axes_[i];
     const double length = component(max, i) - component(min, i);
-    const double cells = std::floor(length / reach);
+    const double cells = std::floor(length / component(reach, i));
     a.periodic = periodic[i];
     a.origin = component(min, i);
+    a.length = length;
     a.count = static_cast<std::int64_t>(std::clamp(cells, 1.0, static_cast<double>(kMaxCells)));
-    a.cell = std::max(reach, length / static_cast<double>(a.count));
+    a.cell = std::max(component(reach, i), length / static_cast<double>(a.count));
     inverse_cell_[i] = 1 / a.cell;
+    last_cell_[i] = static_cast<double>(a.count - 1);
   }
   stride_y_ = axes_[0].count + 2;
   stride_z_ = stride_y_ * (axes_[1].count + 2);
 }
 
-std::size_t CellGrid::neighbour_ranges(std::uint64_t key, KeyRange (&out)[kMostRanges], int more, int around) const {
+std::size_t CellGrid::neighbour_ranges(std::uint64_t key, KeyRange (&out)[kMostRanges], int more) const {
   const auto k = static_cast<std::int64_t>(key);
   const std::int64_t rows_y = axes_[1].count + 2;
   const std::int64_t row = k / stride_y_;
@@ -54,9 +56,9 @@ std::size_t CellGrid::neighbour_ranges(std::uint64_t key, KeyRange (&out)[kMostR
     return 2;
   };
   Stretch xs[2], ys[2], zs[2];
-  const int nx = stretches(0, at[0] - around, at[0] + more + around, xs);
-  const int ny = stretches(1, at[1] - around, at[1] + around, ys);
-  const int nz = stretches(2, at[2] - around, at[2] + around, zs);
+  const int nx = stretches(0, at[0] - 1, at[0] + more + 1, xs);
+  const int ny = stretches(1, at[1] - 1, at[1] + 1, ys);
+  const int nz = stretches(2, at[2] - 1, at[2] + 1, zs);
 
   std::size_t ranges = 0;
   for (int sz = 0; sz < nz; ++sz) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,6 +23,7 @@ class CellGrid {
   struct Axis {
     double origin = 0;      // m, lower edge of the first cell
     double cell = 1;        // m, edge of a cell
+    double length = 1;      // m, of the box
     std::int64_t count = 1; // cells
     bool periodic = false;
   };
@@ -30,7 +32,11 @@ class CellGrid {
 
   /// Lays the grid over the box [min, max] (m) with cells no smaller than `reach` (m, > 0): points nearer to each other
   /// than that are in the same or in adjacent cells. A periodic axis covers its whole period min to max.
-  void lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic)[3], double reach);
+  void lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic)[3], double reach) {
+    lay_out(min, max, periodic, Vec3d{reach, reach, reach});
+  }
+  /// The same with a reach for each axis.
+  void lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic)[3], const Vec3d& reach);
 
   /// Number of the cell of a finite point; points outside the box count to its edge cells.
   std::uint64_t key_of(const Vec3d& x) const {
@@ -44,11 +50,31 @@ class CellGrid {
   struct KeyRange {
     std::uint64_t first, last;
   };
-  /// The cells up to `around` (1 or 2) indices away from `key` and up to `more` cells after it in its row, themselves
-  /// included, as disjoint ranges of numbers; each cell in one of them, once. At most nine rows for 1, 25 for 2, each
-  /// cut in two where x is periodic.
-  static constexpr std::size_t kMostRanges = 50;
-  std::size_t neighbour_ranges(std::uint64_t key, KeyRange (&out)[kMostRanges], int more = 0, int around = 1) const;
+  /// The cells adjacent to `key` and up to `more` cells after it in its row, themselves included, as disjoint ranges of
+  /// numbers; each cell in one of them, once. At most nine rows, each cut in two where x is periodic.
+  static constexpr std::size_t kMostRanges = 18;
+  std::size_t neighbour_ranges(std::uint64_t key, KeyRange (&out)[kMostRanges], int more = 0) const;
+
+  /// The cells that the box [min, max] meets, around periodic axes too, as disjoint ranges of numbers: body(range) for
+  /// each, in no order; each cell in one of them, once.
+  template <class Body>
+  void for_ranges(const Vec3d& min, const Vec3d& max, const Body& body) const {
+    Stretches along[3];
+    for (int axis = 0; axis < 3; ++axis) along[axis] = stretches(axis, component(min, axis), component(max, axis));
+    for (int sz = 0; sz < along[2].count; ++sz) {
+      for (std::int64_t z = along[2].of[sz].first; z <= along[2].of[sz].last; ++z) {
+        for (int sy = 0; sy < along[1].count; ++sy) {
+          for (std::int64_t y = along[1].of[sy].first; y <= along[1].of[sy].last; ++y) {
+            const std::int64_t start = y * stride_y_ + z * stride_z_;
+            for (int sx = 0; sx < along[0].count; ++sx) {
+              body(KeyRange{static_cast<std::uint64_t>(start + along[0].of[sx].first),
+                            static_cast<std::uint64_t>(start + along[0].of[sx].last)});
+            }
+          }
+        }
+      }
+    }
+  }
 
   /// Key of the last cell of the row that `key` is in.
   std::uint64_t row_end(std::uint64_t key) const {
@@ -60,16 +86,35 @@ class CellGrid {
 
  private:
   std::int64_t index_of(double x, int i) const {
+    const double cell = (x - axes_[i].origin) * inverse_cell_[i];
+    // Bounded before the conversion, which is undefined for what no int64 holds.
+    const double inside = cell > 0 ? cell : 0;
+    return static_cast<std::int64_t>(inside < last_cell_[i] ? inside : last_cell_[i]) + 1;
+  }
+
+  // Indices first to last of an axis as one stretch, or as two where they reach around a periodic axis.
+  struct Stretches {
+    struct {
+      std::int64_t first, last;
+    } of[2];
+    int count;
+  };
+  Stretches stretches(int i, double min, double max) const {
     const Axis& a = axes_[i];
-    const double cell = (x - a.origin) * inverse_cell_[i];
-    // Compared before the conversion, which is undefined for what no int64 holds.
-    if (!(cell > 0)) return 1;
-    if (cell >= static_cast<double>(a.count)) return a.count;
-    return static_cast<std::int64_t>(cell) + 1;
+    const double end = a.origin + a.length;
+    if (!a.periodic || (min >= a.origin && max < end)) return {{{index_of(min, i), index_of(max, i)}, {}}, 1};
+    if (!(max - min < a.length)) return {{{1, a.count}, {}}, 1};
+    const double before = std::floor((min - a.origin) / a.length) * a.length;
+    const std::int64_t first = index_of(min - before, i);
+    if (max - before < end) return {{{first, index_of(max - before, i)}, {}}, 1};
+    const std::int64_t last = index_of(max - before - a.length, i);
+    if (last >= first) return {{{1, a.count}, {}}, 1};
+    return {{{first, a.count}, {1, last}}, 2};
   }
 
   Axis axes_[3];
   double inverse_cell_[3] = {1, 1, 1};
+  double last_cell_[3] = {0, 0, 0};  // their number less one
   std::int64_t stride_y_ = 3, stride_z_ = 9;  // with one empty cell on both sides of every axis
 };
 

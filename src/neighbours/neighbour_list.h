@@ -8,11 +8,12 @@
 #include <cstdint>
 #include <mutex>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "hooke/base/parallel.h"
 #include "hooke/base/vec3.h"
-#include "hooke/neighbours/cell_grid.h"
+#include "hooke/neighbours/cell_list.h"
 #include "hooke/neighbours/group_search.h"
 
 namespace hooke {
@@ -53,156 +54,227 @@ class NeighbourList {
   void clear(std::size_t segment_count) {
     segments.assign(segment_count, Segment{});
     blocks_in_use_ = 0;
-    used_ = 0;
   }
 
-  /// A copy of `entries` that lives until clear(). Any thread may call.
-  const std::uint32_t* keep(std::span<const std::uint32_t> entries) {
-    const std::lock_guard lock(mutex_);
-    if (blocks_in_use_ == 0 || used_ + entries.size() > blocks_[blocks_in_use_ - 1].size()) {
-      // Segments are much smaller than a block, so little is left unused at its end.
-      if (blocks_in_use_ == blocks_.size()) blocks_.emplace_back();
-      std::vector<std::uint32_t>& block = blocks_[blocks_in_use_++];
-      if (block.size() < entries.size()) block.resize(std::max(kBlock, entries.size()));
-      used_ = 0;
+  /// Writes the rows of one segment after the other, straight to where they stay until clear(). One thread each.
+  class Writer {
+   public:
+    explicit Writer(NeighbourList& list) : list_(list) {}
+
+    /// Room for so many more entries of the segment; what was written of it before may move.
+    std::uint32_t* room(std::size_t entries) {
+      if (static_cast<std::size_t>(end_ - to_) < entries) {
+        const std::span<std::uint32_t> block = list_.new_block(static_cast<std::size_t>(to_ - segment_) + entries);
+        to_ = std::copy(segment_, to_, block.data());
+        segment_ = block.data();
+        end_ = block.data() + block.size();
+      }
+      return to_;
     }
-    std::uint32_t* to = blocks_[blocks_in_use_ - 1].data() + used_;
-    std::copy(entries.begin(), entries.end(), to);
-    used_ += entries.size();
-    return to;
-  }
+    /// So many of them are filled.
+    void add(std::size_t entries) { to_ += entries; }
+    /// Ends the segment; returns where it starts.
+    const std::uint32_t* finish_segment() { return std::exchange(segment_, to_); }
+
+   private:
+    NeighbourList& list_;
+    std::uint32_t* segment_ = nullptr;
+    std::uint32_t* to_ = nullptr;
+    std::uint32_t* end_ = nullptr;
+  };
 
  private:
   static constexpr std::size_t kBlock = std::size_t{1} << 18U;  // entries: 1 MiB
 
+  // Memory for at least so many entries. Any thread may call.
+  std::span<std::uint32_t> new_block(std::size_t entries) {
+    const std::lock_guard lock(mutex_);
+    if (blocks_in_use_ == blocks_.size()) blocks_.emplace_back();
+    std::vector<std::uint32_t>& block = blocks_[blocks_in_use_++];
+    if (block.size() < entries) block.resize(std::max(kBlock, entries));
+    return block;
+  }
+
   std::mutex mutex_;
   std::vector<std::vector<std::uint32_t>> blocks_;
   std::size_t blocks_in_use_ = 0;
-  std::size_t used_ = 0;  // of the last block in use
 };
 
-/// Which points the list is built over, sorted by cell.
-struct SortedCells {
-  std::span<const std::uint64_t> keys;  // ascending
-  const CellGrid* grid = nullptr;
-};
-
-namespace detail {
-
-// Cuts groups into blocks: points in up to three adjacent cells of a row share the search for who may be near them.
-class BlockFinder {
- public:
-  BlockFinder(const SortedCells& cells, int around) : keys_(cells.keys), grid_(*cells.grid), around_(around) {}
-
-  // The block of the points from `first` on, `end` at most. Returns the number of points that its ranges hold.
-  std::size_t find(std::size_t first, std::size_t end, SearchBlock& block) {
-    constexpr int kMore = 2;
-    const std::uint64_t key = keys_[first];
-    const std::uint64_t key_end = std::min(key + kMore, grid_.row_end(key));
-    std::size_t last = first + 1;
-    while (last < end && keys_[last] <= key_end) ++last;
-    block.last = static_cast<std::uint32_t>(last);
-
-    static_assert(SearchBlock::kMostRanges == CellGrid::kMostRanges);
-    CellGrid::KeyRange ranges[CellGrid::kMostRanges];
-    const std::size_t range_count =
-        grid_.neighbour_ranges(key, ranges, static_cast<int>(keys_[last - 1] - key), around_);
-    block.range_count = static_cast<std::uint32_t>(range_count);
-    std::size_t points = 0;
-    for (std::size_t r = 0; r < range_count; ++r) {
-      block.from[r] = static_cast<std::uint32_t>(from_[r].seek(keys_, ranges[r].first));
-      block.to[r] = static_cast<std::uint32_t>(to_[r].seek(keys_, ranges[r].last + 1));
-      points += block.to[r] - block.from[r];
-    }
-    return points;
-  }
-
- private:
-  std::span<const std::uint64_t> keys_;
-  const CellGrid& grid_;
-  int around_;
-  std::array<KeyCursor, SearchBlock::kMostRanges> from_, to_;
-};
-
-}  // namespace detail
-
-/// What one thread searches with. Room grows and is kept.
+/// What one thread searches with.
 template <class Real>
 class GroupSearcher {
  public:
-  /// Looks in the cells up to `around` away.
-  GroupSearcher(const SortedCells& cells, const NeighbourRule<Real>& rule, GroupSearchFunction<Real> search, int around)
-      : rule_(rule),
-        search_(search),
-        finder_(cells, around) {}
+  /// Finds the neighbours that `rule` asks for, of points that lay at `sorted_at` (m) when they were sorted into cells.
+  /// Since then, points that are nearer to each other than the rule's reach moved by less than `moved` (m) relative to
+  /// each other.
+  GroupSearcher(const CellList& cells, const Columns<Real>& sorted_at, const NeighbourRule<Real>& rule,
+                GroupSearchFunction<Real> search, double moved)
+      : cells_(cells),
+        sorted_at_(sorted_at),
+        rule_(rule),
+        search_(search) {
+    for (std::size_t level = 0; level < cells.level_count(); ++level) {
+      levels_.push_back({cells.level_end(level), largest_block(level, moved), {}});
+      for (std::size_t other = 0; other < cells.level_count(); ++other) {
+        levels_.back().reach.push_back(reach(level, other) + moved);
+      }
+    }
+  }
 
-  /// Adds the rows of the points first to end - 1, at most 16, to the entries; returns their number.
-  std::size_t add(std::size_t first, std::size_t end) {
+  /// The rows of the points first to end - 1, at most 16, until the next call.
+  std::span<const std::uint32_t> rows(std::size_t first, std::size_t end) {
+    const std::size_t rows = write_rows(first, end, [this](std::size_t most) {
+      row_buffer_.resize(std::max(row_buffer_.size(), most));
+      return row_buffer_.data();
+    });
+    return {row_buffer_.data(), rows * NeighbourList::kLanes};
+  }
+
+  /// Writes these rows to room(n), where there has to be room for n entries; returns their number.
+  template <class Room>
+  std::size_t write_rows(std::size_t first, std::size_t end, const Room& room) {
+    ranges_.clear();
     std::size_t most = 0, block_count = 0;
     for (std::size_t i = first; i < end; i = blocks_[block_count++].last) {
-      most = std::max(most, finder_.find(i, end, blocks_[block_count]));
+      most = std::max(most, find_block(i, end, blocks_[block_count]));
     }
     make_room(most);
     const GroupSearch<Real> group{static_cast<std::uint32_t>(first),
                                   blocks_.data(),
                                   block_count,
-                                  entries_.data() + used_,
-                                  ranks_.data(),
+                                  ranges_.data(),
+                                  room((most + 1) * NeighbourList::kLanes),
+                                  rows_.data(),
                                   x_.data(),
                                   y_.data(),
                                   z_.data(),
+                                  square_.data(),
                                   radius_.data(),
-                                  index_.data(),
-                                  found_.data()};
-    const std::size_t rows = search_(rule_, group);
-    used_ += rows * NeighbourList::kLanes;
-    return rows;
+                                  keys_.data(),
+                                  near_.data(),
+                                  near_.size() / 4};
+    return search_(rule_, group);
   }
-
-  std::span<const std::uint32_t> entries() const { return {entries_.data(), used_}; }
-  void clear() { used_ = 0; }
 
  private:
-  // For a group whose blocks' ranges hold `most` points.
-  void make_room(std::size_t most) {
-    const std::size_t rows = (most + 1) * NeighbourList::kLanes;
-    if (used_ + rows > entries_.size()) entries_.resize(2 * (used_ + rows));
-    if (most + 32 <= x_.size()) return;
-    const std::size_t room = 2 * (most + 32);
-    ranks_.resize(room * NeighbourList::kLanes);
-    for (auto* column : {&index_, &found_}) column->resize(room);
-    for (auto* column : {&x_, &y_, &z_, &radius_}) column->resize(room);
+  struct Level {
+    std::size_t end;  // one past its last point
+    Vec3<Real> block;  // m: its blocks are no larger
+    std::vector<double> reach;  // m: its neighbours of each level were no further when sorted
+  };
+
+  // Cuts off the points from `first` on, before `end`, that lie close together, and finds the ranges that they are
+  // compared with. Returns the number of points in those.
+  std::size_t find_block(std::size_t first, std::size_t end, SearchBlock<Real>& block) {
+    std::size_t l = 0;
+    while (first >= levels_[l].end) ++l;
+    const Level& level = levels_[l];
+    end = std::min(end, level.end);
+    Vec3<Real> min = sorted_at(first), max = min;
+    std::size_t last = first + 1;
+    for (; last < end; ++last) {
+      const Vec3<Real> x = sorted_at(last);
+      const Vec3<Real> low{std::min(min.x, x.x), std::min(min.y, x.y), std::min(min.z, x.z)};
+      const Vec3<Real> high{std::max(max.x, x.x), std::max(max.y, x.y), std::max(max.z, x.z)};
+      if (high.x - low.x > level.block.x || high.y - low.y > level.block.y || high.z - low.z > level.block.z) break;
+      min = low;
+      max = high;
+    }
+    block.last = static_cast<std::uint32_t>(last);
+    block.middle = rule_.at.x == sorted_at_.x ? min : lowest(first, last);
+
+    const std::size_t before = ranges_.size();
+    std::size_t points = 0;
+    for (std::size_t other = 0; other < levels_.size(); ++other) {
+      const Vec3d reach{level.reach[other], level.reach[other], level.reach[other]};
+      points += cells_.find(other, vec_cast<double>(min) - reach, vec_cast<double>(max) + reach, ranges_);
+    }
+    block.range_count = static_cast<std::uint32_t>(ranges_.size() - before);
+    return points;
   }
 
+  // Where some points are now. Departed ones are above all others, and don't count as long as there are others.
+  Vec3<Real> lowest(std::size_t first, std::size_t last) const {
+    Vec3<Real> min = position(first);
+    for (std::size_t i = first + 1; i < last; ++i) {
+      const Vec3<Real> x = position(i);
+      min = {std::min(min.x, x.x), std::min(min.y, x.y), std::min(min.z, x.z)};
+    }
+    return min;
+  }
+
+  // How far neighbours of two levels may be from each other, m. A millionth more for rounding.
+  double reach(std::size_t a, std::size_t b) const {
+    const double radii = rule_.radius == nullptr ? 0 : cells_.largest_radius(a) + cells_.largest_radius(b);
+    return (static_cast<double>(rule_.reach) + radii) * (1 + 1e-6);
+  }
+
+  // How large a block of a level may be, m: long enough that many points share a search; across a periodic axis so
+  // small that whoever is near has one image only that is.
+  Vec3<Real> largest_block(std::size_t level, double moved) const {
+    constexpr double kLong = 3;  // cells
+    const CellGrid& grid = cells_.grid(level);
+    Vec3d most{kLong * grid.axis(1).cell, grid.axis(1).cell, grid.axis(2).cell};
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!rule_.periodic[axis]) continue;
+      const double half = 0.499 * static_cast<double>(component(rule_.length, axis));
+      component(most, axis) =
+          std::min(component(most, axis), half - reach(level, cells_.level_count() - 1) - 2 * moved);
+    }
+    return vec_cast<Real>(most);
+  }
+
+  Vec3<Real> sorted_at(std::size_t i) const { return {sorted_at_.x[i], sorted_at_.y[i], sorted_at_.z[i]}; }
+  Vec3<Real> position(std::size_t i) const {
+    if (rule_.at.x != nullptr) return {rule_.at.x[i], rule_.at.y[i], rule_.at.z[i]};
+    const Real* record = rule_.records + 8 * i;
+    return {record[0], record[1], record[2]};
+  }
+
+  // For a group whose blocks' ranges hold `most` points.
+  void make_room(std::size_t most) {
+    if (most + 32 <= x_.size()) return;
+    const std::size_t room = 2 * (most + 32);
+    rows_.resize(room * NeighbourList::kLanes);
+    keys_.resize(room);
+    near_.resize(4 * room);
+    for (auto* column : {&x_, &y_, &z_, &square_, &radius_}) column->resize(room);
+  }
+
+  const CellList& cells_;
+  const Columns<Real> sorted_at_;
   const NeighbourRule<Real>& rule_;
-  GroupSearchFunction<Real> search_;
-  detail::BlockFinder finder_;
-  std::array<SearchBlock, NeighbourList::kLanes> blocks_;
-  std::vector<std::uint32_t> entries_;
-  std::size_t used_ = 0;
-  std::vector<std::int32_t> ranks_, index_, found_;
-  std::vector<Real> x_, y_, z_, radius_;
+  const GroupSearchFunction<Real> search_;
+  std::vector<Level> levels_;
+  std::array<SearchBlock<Real>, NeighbourList::kLanes> blocks_;
+  std::vector<SearchRange> ranges_;
+  std::vector<std::uint64_t> rows_, keys_;
+  std::vector<std::int32_t> near_;
+  std::vector<Real> x_, y_, z_, square_, radius_;
+  std::vector<std::uint32_t> row_buffer_;
 };
 
-/// Builds `list` anew, over the points that `rule` has columns of.
+/// Builds `list` anew, over the sorted points, of which `rule` has columns.
 template <class Real>
-void build_neighbour_list(const SortedCells& cells, const NeighbourRule<Real>& rule,
+void build_neighbour_list(const CellList& cells, const NeighbourRule<Real>& rule,
                           GroupSearchFunction<Real> search_group, NeighbourList& list) {
   constexpr std::size_t kLanes = NeighbourList::kLanes;
-  const std::size_t count = cells.keys.size();
+  const std::size_t count = cells.point_count();
   list.clear((count + NeighbourList::kSegment - 1) / NeighbourList::kSegment);
 
   parallel_ranges(list.segments.size(), 1, [&](std::size_t first_segment, std::size_t last_segment) {
-    GroupSearcher<Real> searcher(cells, rule, search_group, 1);
+    GroupSearcher<Real> searcher(cells, rule.at, rule, search_group, 0);
+    NeighbourList::Writer writer(list);
     for (std::size_t s = first_segment; s < last_segment; ++s) {
       NeighbourList::Segment& segment = list.segments[s];
-      searcher.clear();
       for (std::size_t g = 0; g < NeighbourList::kGroups; ++g) {
         const std::size_t first = std::min(s * NeighbourList::kSegment + g * kLanes, count);
-        const std::size_t rows = searcher.add(first, std::min(first + kLanes, count));
+        const std::size_t rows = searcher.write_rows(first, std::min(first + kLanes, count),
+                                                     [&](std::size_t most) { return writer.room(most); });
+        writer.add(rows * kLanes);
         segment.first_row[g + 1] = segment.first_row[g] + static_cast<std::uint32_t>(rows);
       }
-      segment.entries = list.keep(searcher.entries());
+      segment.entries = writer.finish_segment();
     }
   });
 }

@@ -13,7 +13,7 @@
 namespace hooke {
 namespace {
 
-constexpr std::uint32_t kDummy = 0xfffffff0U;
+constexpr std::uint32_t kDummy = 0x3ffffff0U;
 
 struct Setting {
   const char* name;
@@ -64,11 +64,11 @@ class Lists {
       x.push_back(vec_cast<Real>(setting.min + Vec3d{setting.spread.x * u[0] * size.x, setting.spread.y * u[1] * size.y,
                                                      setting.spread.z * u[2] * size.z}));
     }
-    grid_.lay_out(setting.min, setting.max, setting.periodic,
-                  (2 * setting.radius * setting.ratio + kSkin * setting.radius) * (1 + 1e-6));
-    for (const auto& p : x) keys_.push_back(grid_.key_of(vec_cast<double>(p)));
+    const double largest = setting.radius * setting.ratio;
+    const CellList::Level level{largest, 2 * largest + kSkin * setting.radius};
+    cells_.lay_out(setting.min, setting.max, setting.periodic, {&level, 1}, setting.count);
     std::vector<std::uint32_t> order;
-    sort_by_key(keys_, order);
+    cells_.sort(setting.count, [&](std::size_t i) { return cells_.key_of(vec_cast<double>(x[i]), 0); }, order);
     constexpr std::size_t kReadable = 16;
     for (auto* column : {&x_, &y_, &z_, &radii_}) column->resize(setting.count + kReadable);
     ranks_.resize(setting.count + kReadable);
@@ -87,12 +87,12 @@ class Lists {
     std::copy(std::begin(setting.periodic), std::end(setting.periodic), rule_.periodic);
     rule_.length = vec_cast<Real>(size);
     rule_.stride = kStride;
-    rule_.dummy = kDummy;
+    rule_.dummy = kDummy / kStride;
   }
 
   void build(const Isa& isa, bool list_self, NeighbourList& list) {
     rule_.list_self = list_self;
-    build_neighbour_list<Real>({keys_, &grid_}, rule_, search_of(isa, Real{}), list);
+    build_neighbour_list<Real>(cells_, rule_, search_of(isa, Real{}), list);
   }
 
   // Every pair looked at: the points nearer to i than the reach, by rank.
@@ -138,8 +138,7 @@ class Lists {
   static constexpr std::uint32_t kStride = 4;
 
   Setting setting_;
-  CellGrid grid_;
-  std::vector<std::uint64_t> keys_;
+  CellList cells_;
   std::vector<Real> x_, y_, z_, radii_;
   std::vector<std::uint32_t> ranks_;
   NeighbourRule<Real> rule_;

@@ -24,7 +24,7 @@
 #include "hooke/base/stopwatch.h"
 #include "hooke/core/state_hash.h"
 #include "hooke/core/sums.h"
-#include "hooke/neighbours/cell_grid.h"
+#include "hooke/neighbours/cell_list.h"
 #include "hooke/neighbours/motion_bounds.h"
 #include "hooke/neighbours/neighbour_list.h"
 #include "hooke/physics/drag.h"
@@ -153,7 +153,7 @@ class CpuBackend final : public Backend {
     aim_pass(verlet() ? acceleration_.data() : nullptr);
     const NeighbourRule<Real> touching = touching_rule();
     for_ranges(list_.segments.size(), 1, [&](std::size_t first, std::size_t last) {
-      Searcher searcher(sorted_cells(), touching, loops_.search_group, 2);
+      Searcher searcher(cells_, listed_at_.columns(), touching, loops_.search_group, rules_.found_distance);
       SegmentReport report;
       StepSums part;
       RemovalSums left;
@@ -290,20 +290,15 @@ class CpuBackend final : public Backend {
       component(min, axis) = component(pass_.min, axis);
       component(max, axis) = component(pass_.max, axis);
     }
-    // A millionth more than can be listed: positions are numbered in cells with rounding.
     motion_limits_.min = min;
     motion_limits_.max = max;
-    grid_.lay_out(min, max, pass_.periodic, (2 * rules_.largest_radius + rules_.skin) * (1 + 1e-6));
-    keys_.resize(count_);
-    parallel_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        keys_[i] = is_nowhere(records_[i]) ? grid_.key_end() : grid_.key_of(vec_cast<double>(records_[i].x));
-      }
-    });
+    cells_.lay_out(min, max, pass_.periodic, rules_.levels, count_);
+    const auto key_of = [&](std::size_t i) {
+      return is_nowhere(records_[i]) ? cells_.key_end() : cells_.key_of(vec_cast<double>(records_[i].x), 0);
+    };
     // The buffer for the next state is free until the records are permuted into it.
-    sort_by_key(keys_, order_, std::as_writable_bytes(std::span(next_)));
+    cells_.sort(count_, key_of, order_, std::as_writable_bytes(std::span(next_)));
     count_ = alive_;
-    keys_.resize(count_);
     permute(records_, next_);
     std::fill(records_.begin() + static_cast<std::ptrdiff_t>(count_), records_.end(), nowhere_record<Real>(Real(0)));
     std::fill(next_.begin() + static_cast<std::ptrdiff_t>(count_), next_.end(), nowhere_record<Real>(Real(0)));
@@ -341,15 +336,13 @@ class CpuBackend final : public Backend {
     NeighbourRule<Real> rule = touching_rule();
     rule.at = listed_at_.columns();
     rule.reach += static_cast<Real>(rules_.skin);
-    build_neighbour_list(sorted_cells(), rule, loops_.search_group, list_);
+    build_neighbour_list(cells_, rule, loops_.search_group, list_);
 
     listed_ = true;
     restless_.clear();
     motion_laid_out_ = false;
     ++rebuilds_;
   }
-
-  SortedCells sorted_cells() const { return {keys_, &grid_}; }
 
   // Finds who touches where the records are now.
   NeighbourRule<Real> touching_rule() const {
@@ -364,7 +357,7 @@ class CpuBackend final : public Backend {
     rule.length = pass_.length;
     rule.list_self = pass_.periodic_kind == PeriodicKind::images;
     rule.stride = record_offset<Real>(1);
-    rule.dummy = record_offset<Real>(static_cast<std::uint32_t>(records_.size() - 1));
+    rule.dummy = static_cast<std::uint32_t>(records_.size() - 1);
     return rule;
   }
 
@@ -377,9 +370,7 @@ class CpuBackend final : public Backend {
   std::span<const std::uint32_t> rows_of(std::size_t s, std::size_t g, Searcher& searcher) const {
     if (!is_restless(s, g)) return list_.rows(s, g);
     const std::size_t first = s * kSegment + g * kLanes;
-    searcher.clear();
-    searcher.add(first, std::min(first + kLanes, count_));
-    return searcher.entries();
+    return searcher.rows(first, std::min(first + kLanes, count_));
   }
 
   // How far a record has moved since its neighbours were listed, m.
@@ -529,7 +520,7 @@ class CpuBackend final : public Backend {
     aim_pass(evaluated.data());
     const NeighbourRule<Real> touching = touching_rule();
     for_ranges(list_.segments.size(), 1, [&](std::size_t first, std::size_t last) {
-      Searcher searcher(sorted_cells(), touching, loops_.search_group, 2);
+      Searcher searcher(cells_, listed_at_.columns(), touching, loops_.search_group, rules_.found_distance);
       SegmentReport report;
       StepSums part;
       for (std::size_t s = first; s < last; ++s) {
@@ -608,8 +599,7 @@ class CpuBackend final : public Backend {
   std::vector<Vec3<Real>> acceleration_;  // velocity Verlet only, m/s^2
   Ledger ledger_;
 
-  CellGrid grid_;
-  std::vector<std::uint64_t> keys_;
+  CellList cells_;
   std::vector<std::uint32_t> order_;  // while sorting: where each was before; then: ranks
   NeighbourList list_;
   std::vector<Real> radii_;  // m, likewise; empty where all are the same

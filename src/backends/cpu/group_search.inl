@@ -4,7 +4,7 @@
 // The search for neighbours, written once and compiled once for each instruction set (HOOKE_ISA). Points of a block are
 // compared with a pack of others at a time; then the rows of 16 points are sorted by rank side by side, one a lane.
 
-#include <limits>
+#include <utility>
 
 #include "hooke/backends/cpu/pack.h"
 #include "hooke/neighbours/group_search.h"
@@ -13,7 +13,103 @@ namespace hooke::HOOKE_ISA {
 namespace {
 
 constexpr std::size_t kRowLanes = 16;
-constexpr std::int32_t kLastRank = std::numeric_limits<std::int32_t>::max();
+
+// A neighbour's rank and index in one number that sorts like the rank: the bits of doubles of 1 and above.
+constexpr std::uint32_t kOne = 0x3ff00000U;
+HOOKE_HD std::uint64_t row_key(std::uint32_t rank, std::uint32_t index) {
+  return std::uint64_t{kOne + rank} << 32U | index;
+}
+
+// Pairs of rows that Batcher's merge exchange compares (Knuth, The Art of Computer Programming, 5.2.2, algorithm M).
+template <class Exchange>
+HOOKE_HD constexpr void merge_exchange(std::size_t rows, const Exchange& exchange) {
+  std::size_t top = 1;
+  while (2 * top < rows) top *= 2;
+  for (std::size_t p = top; p > 0; p /= 2) {
+    std::size_t q = top, r = 0, d = p;
+    for (;;) {
+      for (std::size_t row = 0; row + d < rows; ++row) {
+        if ((row & p) == r) exchange(row, row + d);
+      }
+      if (q == p) break;
+      d = q - p;
+      q /= 2;
+      r = p;
+    }
+  }
+}
+
+HOOKE_HD void exchange_rows(Pack<double>& a, Pack<double>& b) {
+  const Pack<double> low = min_of(a, b);
+  b = max_of(a, b);
+  a = low;
+}
+
+// The same for a number of rows that registers hold.
+template <std::size_t kRows>
+struct Network {
+  struct Pair {
+    unsigned char a, b;
+  };
+  static constexpr std::size_t count() {
+    std::size_t n = 0;
+    merge_exchange(kRows, [&](std::size_t, std::size_t) { ++n; });
+    return n;
+  }
+  struct Pairs {
+    Pair of[count() + 1];
+  };
+  static constexpr Pairs pairs() {
+    Pairs all{};
+    std::size_t n = 0;
+    merge_exchange(kRows, [&](std::size_t a, std::size_t b) {
+      all.of[n++] = {static_cast<unsigned char>(a), static_cast<unsigned char>(b)};
+    });
+    return all;
+  }
+
+  template <std::size_t... kPair, std::size_t... kRow>
+  HOOKE_HD static void sort(std::uint64_t* keys, std::index_sequence<kPair...>, std::index_sequence<kRow...>) {
+    [[maybe_unused]] constexpr Pairs kPairs = pairs();
+    for (std::size_t lane = 0; lane < kRowLanes; lane += Pack<double>::kLanes) {
+      Pack<double> row[kRows] = {load_bits(keys + kRow * kRowLanes + lane)...};
+      (exchange_rows(row[kPairs.of[kPair].a], row[kPairs.of[kPair].b]), ...);
+      (store_bits(keys + kRow * kRowLanes + lane, row[kRow]), ...);
+    }
+  }
+  static void sort_rows(std::uint64_t* keys) {
+    sort(keys, std::make_index_sequence<count()>(), std::make_index_sequence<kRows>());
+  }
+};
+
+template <std::size_t... kRows>
+void sort_rows_by_network(std::uint64_t* keys, std::size_t rows, std::index_sequence<kRows...>) {
+  using Sort = void (*)(std::uint64_t*);
+  static constexpr Sort kSorts[] = {Network<kRows + 1>::sort_rows...};
+  kSorts[rows - 1](keys);
+}
+
+void sort_rows(std::uint64_t* keys, std::size_t rows) {
+  if (rows < 2) return;
+  constexpr std::size_t kMostInRegisters = 16;
+  if (rows <= kMostInRegisters) return sort_rows_by_network(keys, rows, std::make_index_sequence<kMostInRegisters>());
+  merge_exchange(rows, [&](std::size_t a, std::size_t b) {
+    for (std::size_t lane = 0; lane < kRowLanes; lane += Pack<double>::kLanes) {
+      std::uint64_t* const at_a = keys + a * kRowLanes + lane;
+      std::uint64_t* const at_b = keys + b * kRowLanes + lane;
+      Pack<double> row_a = load_bits(at_a), row_b = load_bits(at_b);
+      exchange_rows(row_a, row_b);
+      store_bits(at_a, row_a);
+      store_bits(at_b, row_b);
+    }
+  });
+}
+
+HOOKE_HD WordVector ascending_words() {
+  WordVector words;
+  for (std::size_t lane = 0; lane < Pack<double>::kLanes; ++lane) words[lane] = static_cast<std::uint32_t>(lane);
+  return words;
+}
 
 template <class Real, bool kOneRadius, bool kPeriodic>
 class Search {
@@ -25,33 +121,53 @@ class Search {
   HOOKE_HD std::size_t run() {
     std::uint32_t i = group_.first;
     for (std::size_t b = 0; b < group_.block_count; ++b) {
-      const std::size_t count = gather(group_.blocks[b]);
-      for (; i < group_.blocks[b].last; ++i) put_into_lane(i, find_near(i, count));
+      const SearchBlock<Real>& block = group_.blocks[b];
+      middle_ = {P(block.middle.x), P(block.middle.y), P(block.middle.z)};
+      const std::size_t count = gather(ranges_, ranges_ + block.range_count);
+      for (; i + 4 <= block.last; i += 4) list_near<4>(i, count);
+      if (i + 2 <= block.last) {
+        list_near<2>(i, count);
+        i += 2;
+      }
+      if (i < block.last) list_near<1>(i++, count);
+      ranges_ += block.range_count;
     }
-    sort_rows();
-    return rows_;
+    write_rows();
+    return row_count_;
   }
 
  private:
-  // Copies the block's ranges behind each other, whole packs: what is too much is overwritten by the next one.
-  HOOKE_HD std::size_t gather(const SearchBlock& block) const {
+  // Copies the ranges behind each other, whole packs: what is too much is overwritten by the next one.
+  // And sixteen more, far away.
+  HOOKE_HD std::size_t gather(const SearchRange* range, const SearchRange* end) const {
     std::size_t to = 0;
-    for (std::uint32_t r = 0; r < block.range_count; ++r) {
-      for (std::size_t p = block.from[r]; p < block.to[r]; p += P::kLanes) {
-        const std::size_t at = to + p - block.from[r];
-        const Vec3<P> x = positions(p);
-        store(group_.x + at, x.x);
-        store(group_.y + at, x.y);
-        store(group_.z + at, x.z);
-        if constexpr (!kOneRadius) store(group_.radius + at, load(rule_.radius + p));
-        for (std::size_t lane = 0; lane < P::kLanes; ++lane) {
-          group_.index[at + lane] = static_cast<std::int32_t>(p + lane);
+    for (; range != end; ++range) {
+      for (std::size_t p = range->from; p < range->to; p += P::kLanes) {
+        const std::size_t at = to + p - range->from;
+        const Vec3<P> x = from_middle(positions(p));
+        P square = dot(x, x);
+        if constexpr (!kOneRadius) {
+          const P radius = load(rule_.radius + p);
+          square = square - radius * radius;
+          store(radius_ + at, radius);
+        }
+        store(x_ + at, x.x);
+        store(y_ + at, x.y);
+        store(z_ + at, x.z);
+        store(square_ + at, square);
+        for (std::size_t lane = 0; lane < P::kLanes; lane += Pack<double>::kLanes) {
+          const WordVector ranks = load_words(rule_.rank + p + lane) + kOne;
+          store_bits(keys_ + at + lane, join_halves(ranks, ascending_words_ + static_cast<std::uint32_t>(p + lane)));
         }
       }
-      to += block.to[r] - block.from[r];
+      to += range->to - range->from;
     }
-    constexpr Real kFar = Real(-1e18);  // not where removed particles are, which would find it
-    store(group_.x + to, P(kFar));  // fills the last pack
+    constexpr Real kFar = Real(1e36);
+    for (std::size_t at = to; at < to + kRowLanes; at += P::kLanes) {
+      for (Real* column : {x_, y_, z_}) store(column + at, P(Real(0)));
+      if constexpr (!kOneRadius) store(radius_ + at, P(Real(0)));
+      store(square_ + at, P(kFar));
+    }
     return to;
   }
 
@@ -66,27 +182,10 @@ class Search {
     const Real* record = rule_.records + 8 * std::size_t{i};
     return {P(record[0]), P(record[1]), P(record[2])};
   }
-
-  // The number of those near point i, itself perhaps included; their indices go to group_.found.
-  HOOKE_HD std::size_t find_near(std::uint32_t i, std::size_t count) const {
-    const Vec3<P> own = position(i);
-    P reach(rule_.reach);
-    if constexpr (!kOneRadius) reach = reach + P(rule_.radius[i]);
-    const P reach2 = reach * reach;
-    std::size_t found = 0;
-    for (std::size_t c = 0; c < count; c += P::kLanes) {
-      const Vec3<P> d{displacement(own.x, load(group_.x + c), 0), displacement(own.y, load(group_.y + c), 1),
-                      displacement(own.z, load(group_.z + c), 2)};
-      P limit2 = reach2;
-      if constexpr (!kOneRadius) {
-        const P sum = reach + load(group_.radius + c);
-        limit2 = sum * sum;
-      }
-      found += append_where_less(group_.found + found, group_.index + c, dot(d, d), limit2);
-    }
-    return found;
+  // Seen from the middle of the block, in the image nearest to it.
+  HOOKE_HD Vec3<P> from_middle(const Vec3<P>& x) const {
+    return {displacement(x.x, middle_.x, 0), displacement(x.y, middle_.y, 1), displacement(x.z, middle_.z, 2)};
   }
-
   HOOKE_HD P displacement(const P& x_i, const P& x_p, int axis) const {
     const P d = x_i - x_p;
     if (!kPeriodic || !rule_.periodic[axis]) return d;
@@ -95,57 +194,88 @@ class Search {
     return select(d > half, d - length, select(d < -half, d + length, d));
   }
 
-  HOOKE_HD void put_into_lane(std::uint32_t i, std::size_t found) {
-    const std::size_t lane = i - group_.first;
-    for (; cleared_ <= found; ++cleared_) {
-      for (std::size_t k = 0; k < kRowLanes; ++k) {
-        group_.ranks[cleared_ * kRowLanes + k] = kLastRank;
-        group_.entries[cleared_ * kRowLanes + k] = rule_.dummy;
+  // Finds who is near the points i to i + kPoints - 1, themselves included, and puts them into their lanes. With
+  // |x_p - x_i|^2 multiplied out, that is x_p^2 - 2 x_p x_i < reach^2 - x_i^2. Reaches are sums, and are multiplied out
+  // likewise.
+  template <std::size_t kPoints>
+  HOOKE_HD void list_near(std::uint32_t i, std::size_t count) {
+    Vec3<P> twice[kPoints];
+    P twice_reach[kPoints], limit[kPoints];
+    for (std::size_t k = 0; k < kPoints; ++k) {
+      const Vec3<P> own = from_middle(position(i + static_cast<std::uint32_t>(k)));
+      P reach(rule_.reach);
+      if constexpr (!kOneRadius) reach = reach + P(rule_.radius[i + k]);
+      limit[k] = reach * reach - dot(own, own);
+      twice[k] = P(Real(-2)) * own;
+      twice_reach[k] = P(Real(-2)) * reach;
+    }
+    std::size_t near[kPoints] = {};
+    Int32Vector numbers = ascending();
+    for (std::size_t c = 0; c < count; c += P::kLanes, numbers += static_cast<std::int32_t>(P::kLanes)) {
+      const Vec3<P> x{load(x_ + c), load(y_ + c), load(z_ + c)};
+      const P square = load(square_ + c);
+      for (std::size_t k = 0; k < kPoints; ++k) {
+        P excess = square + twice[k].x * x.x + twice[k].y * x.y + twice[k].z * x.z;
+        if constexpr (!kOneRadius) excess = excess + twice_reach[k] * load(radius_ + c);
+        near[k] += append_where_less(near_ + k * near_room_ + near[k], numbers, excess, limit[k]);
       }
     }
-    const std::int32_t self = rule_.list_self ? -1 : static_cast<std::int32_t>(i);
-    std::size_t row = 0;
-    for (std::size_t k = 0; k < found; ++k) {  // the point itself is written, and the next one over it
-      const std::int32_t index = group_.found[k];
-      group_.ranks[row * kRowLanes + lane] = static_cast<std::int32_t>(rule_.rank[index]);
-      group_.entries[row * kRowLanes + lane] = static_cast<std::uint32_t>(index) * rule_.stride;
-      row += index != self ? 1 : 0;
-    }
-    group_.ranks[row * kRowLanes + lane] = kLastRank;
-    group_.entries[row * kRowLanes + lane] = rule_.dummy;
-    if (row > rows_) rows_ = row;
-  }
-
-  // Batcher's merge exchange (Knuth, The Art of Computer Programming, 5.2.2, algorithm M), all lanes at once.
-  HOOKE_HD void sort_rows() const {
-    std::size_t top = 1;
-    while (2 * top < rows_) top *= 2;
-    for (std::size_t p = top; p > 0; p /= 2) {
-      std::size_t q = top, r = 0, d = p;
-      for (;;) {
-        for (std::size_t row = 0; row + d < rows_; ++row) {
-          if ((row & p) == r) sort_pair(row, row + d);
-        }
-        if (q == p) break;
-        d = q - p;
-        q /= 2;
-        r = p;
-      }
+    for (std::size_t k = 0; k < kPoints; ++k) {
+      put_into_lane(i + static_cast<std::uint32_t>(k), near_ + k * near_room_, near[k]);
     }
   }
 
-  HOOKE_HD void sort_pair(std::size_t a, std::size_t b) const {
-    for (std::size_t lane = 0; lane < kRowLanes; lane += kInt32Lanes) {
-      sort_lanes(group_.ranks + a * kRowLanes + lane, group_.ranks + b * kRowLanes + lane,
-                 group_.entries + a * kRowLanes + lane, group_.entries + b * kRowLanes + lane);
+  // Copies the keys of the candidates whose numbers are given, but for the point's own.
+  HOOKE_HD void put_into_lane(std::uint32_t i, const std::int32_t* near, std::size_t count) {
+    if (count == 0) return;
+    clear_rows(count);
+    std::uint64_t* const lane = rows_ + (i - group_.first);
+    std::uint64_t* own = lane;
+    const std::uint64_t own_key = row_key(rule_.rank[i], i);
+    for (std::size_t row = 0; row < count; ++row) {
+      const std::uint64_t key = keys_[near[row]];
+      lane[row * kRowLanes] = key;
+      own = key == own_key ? lane + row * kRowLanes : own;
+    }
+    if (!rule_.list_self) {
+      --count;
+      *own = lane[count * kRowLanes];
+      lane[count * kRowLanes] = last_key_;
+    }
+    if (count > row_count_) row_count_ = count;
+  }
+
+  HOOKE_HD void clear_rows(std::size_t count) {
+    for (; cleared_ < count; ++cleared_) {
+      for (std::size_t lane = 0; lane < kRowLanes; ++lane) rows_[cleared_ * kRowLanes + lane] = last_key_;
+    }
+  }
+
+  HOOKE_HD void write_rows() const {
+    sort_rows(rows_, row_count_);
+    for (std::size_t k = 0; k < row_count_ * kRowLanes; k += Pack<double>::kLanes) {
+      store(group_.entries + k, lower_half(load_bits(rows_ + k)) * rule_.stride);
     }
   }
 
   // Copies: the compiler need not read them again after every store.
   const NeighbourRule<Real> rule_;
   const GroupSearch<Real> group_;
+  Real* const x_ = group_.x;
+  Real* const y_ = group_.y;
+  Real* const z_ = group_.z;
+  Real* const square_ = group_.square;
+  Real* const radius_ = group_.radius;
+  std::uint64_t* const keys_ = group_.keys;
+  std::uint64_t* const rows_ = group_.rows;
+  std::int32_t* const near_ = group_.near;
+  const std::size_t near_room_ = group_.near_room;
+  const std::uint64_t last_key_ = row_key(0x3fffffffU, rule_.dummy);
+  const WordVector ascending_words_ = ascending_words();
+  const SearchRange* ranges_ = group_.ranges;  // the block's
+  Vec3<P> middle_;
   std::size_t cleared_ = 0;  // rows
-  std::size_t rows_ = 0;
+  std::size_t row_count_ = 0;
 };
 
 template <class Real, bool kOneRadius>

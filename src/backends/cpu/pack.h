@@ -248,22 +248,33 @@ HOOKE_HD void store(Real* to, const Pack<Real>& a) {
   __builtin_memcpy(to, &a.v, sizeof(a.v));
 }
 
-// append_where_less(to, from, a, b): copies those of the numbers from[lane] where a < b in that lane behind each other
-// and returns how many. May write as many numbers as a register holds.
+/// 0, 1, 2, ...: as many as a register holds.
+HOOKE_HD Int32Vector ascending() {
+  Int32Vector numbers;
+  for (std::size_t lane = 0; lane < kPackBytes / sizeof(std::int32_t); ++lane) {
+    numbers[lane] = static_cast<std::int32_t>(lane);
+  }
+  return numbers;
+}
+
+// append_where_less(to, numbers, a, b): writes those of the numbers where a < b in that lane behind each other and
+// returns how many. May write as many numbers as a register holds.
 
 #if defined(__AVX512F__)
 
-HOOKE_HD std::size_t append_where_less(std::int32_t* to, const std::int32_t* from, const Pack<float>& a,
+HOOKE_HD std::size_t append_where_less(std::int32_t* to, const Int32Vector& numbers, const Pack<float>& a,
                                        const Pack<float>& b) {
   const __mmask16 set = _mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ);
-  _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(set, _mm512_loadu_si512(from)));
-  return static_cast<std::size_t>(__builtin_popcount(set));
+  const auto count = static_cast<std::size_t>(__builtin_popcount(set));
+  const __m512i packed = _mm512_maskz_compress_epi32(set, (__m512i)numbers);
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm512_castsi512_si256(packed));  // most often all there is
+  if (count > 8) _mm512_storeu_si512(to, packed);
+  return count;
 }
-HOOKE_HD std::size_t append_where_less(std::int32_t* to, const std::int32_t* from, const Pack<double>& a,
+HOOKE_HD std::size_t append_where_less(std::int32_t* to, const Int32Vector& numbers, const Pack<double>& a,
                                        const Pack<double>& b) {
   const __mmask8 set = _mm512_cmp_pd_mask(a.v, b.v, _CMP_LT_OQ);
-  const __m512i low = _mm512_castsi256_si512(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
-  _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(set, low));
+  _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(set, (__m512i)numbers));
   return static_cast<std::size_t>(__builtin_popcount(set));
 }
 
@@ -284,32 +295,30 @@ constexpr LaneTable make_lane_table() {
 }
 static constexpr LaneTable kLaneTable = make_lane_table();
 
-HOOKE_HD std::size_t append(std::int32_t* to, __m256i from, unsigned set) {
+HOOKE_HD std::size_t append(std::int32_t* to, const Int32Vector& numbers, unsigned set) {
   const __m256i lanes = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(kLaneTable.lanes[set])));
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(from, lanes));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32((__m256i)numbers, lanes));
   return static_cast<std::size_t>(__builtin_popcount(set));
 }
-HOOKE_HD std::size_t append_where_less(std::int32_t* to, const std::int32_t* from, const Pack<float>& a,
+HOOKE_HD std::size_t append_where_less(std::int32_t* to, const Int32Vector& numbers, const Pack<float>& a,
                                        const Pack<float>& b) {
-  const auto set = static_cast<unsigned>(_mm256_movemask_ps((__m256)(a < b).v));
-  return append(to, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)), set);
+  return append(to, numbers, static_cast<unsigned>(_mm256_movemask_ps((__m256)(a < b).v)));
 }
-HOOKE_HD std::size_t append_where_less(std::int32_t* to, const std::int32_t* from, const Pack<double>& a,
+HOOKE_HD std::size_t append_where_less(std::int32_t* to, const Int32Vector& numbers, const Pack<double>& a,
                                        const Pack<double>& b) {
-  const auto set = static_cast<unsigned>(_mm256_movemask_pd((__m256d)(a < b).v));
-  return append(to, _mm256_castsi128_si256(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from))), set);
+  return append(to, numbers, static_cast<unsigned>(_mm256_movemask_pd((__m256d)(a < b).v)));
 }
 
 #else
 
 // Each is written, the next one over it if its lane is not set.
 template <class Real>
-HOOKE_HD std::size_t append_where_less(std::int32_t* to, const std::int32_t* from, const Pack<Real>& a,
+HOOKE_HD std::size_t append_where_less(std::int32_t* to, const Int32Vector& numbers, const Pack<Real>& a,
                                        const Pack<Real>& b) {
   const Mask<Real> less = a < b;
   std::size_t count = 0;
   for (std::size_t lane = 0; lane < Pack<Real>::kLanes; ++lane) {
-    to[count] = from[lane];
+    to[count] = numbers[lane];
     count += static_cast<std::size_t>(less.v[lane] & 1);
   }
   return count;
@@ -317,22 +326,62 @@ HOOKE_HD std::size_t append_where_less(std::int32_t* to, const std::int32_t* fro
 
 #endif
 
-inline constexpr std::size_t kInt32Lanes = kPackBytes / sizeof(std::int32_t);
+// min_of(a, b), max_of(a, b): lane by lane the smaller one, and the larger one, of numbers.
 
-/// Exchanges a and b, keys and values, in the lanes where b's key is the smaller one. kInt32Lanes lanes.
-HOOKE_HD void sort_lanes(std::int32_t* key_a, std::int32_t* key_b, std::uint32_t* value_a, std::uint32_t* value_b) {
-  Int32Vector ka, kb, va, vb;
-  __builtin_memcpy(&ka, key_a, sizeof(ka));
-  __builtin_memcpy(&kb, key_b, sizeof(kb));
-  __builtin_memcpy(&va, value_a, sizeof(va));
-  __builtin_memcpy(&vb, value_b, sizeof(vb));
-  const Int32Vector wrong = kb < ka;
-  const Int32Vector key_low = wrong ? kb : ka, key_high = wrong ? ka : kb;
-  const Int32Vector value_low = wrong ? vb : va, value_high = wrong ? va : vb;
-  __builtin_memcpy(key_a, &key_low, sizeof(ka));
-  __builtin_memcpy(key_b, &key_high, sizeof(kb));
-  __builtin_memcpy(value_a, &value_low, sizeof(va));
-  __builtin_memcpy(value_b, &value_high, sizeof(vb));
+#if defined(__AVX512F__)
+
+HOOKE_HD Pack<double> min_of(const Pack<double>& a, const Pack<double>& b) {
+  return Pack<double>(_mm512_min_pd(a.v, b.v));
 }
+HOOKE_HD Pack<double> max_of(const Pack<double>& a, const Pack<double>& b) {
+  return Pack<double>(_mm512_max_pd(a.v, b.v));
+}
+
+#elif defined(__AVX2__)
+
+HOOKE_HD Pack<double> min_of(const Pack<double>& a, const Pack<double>& b) {
+  return Pack<double>(_mm256_min_pd(a.v, b.v));
+}
+HOOKE_HD Pack<double> max_of(const Pack<double>& a, const Pack<double>& b) {
+  return Pack<double>(_mm256_max_pd(a.v, b.v));
+}
+
+#else
+
+HOOKE_HD Pack<double> min_of(const Pack<double>& a, const Pack<double>& b) {
+  return Pack<double>(_mm_min_pd(a.v, b.v));
+}
+HOOKE_HD Pack<double> max_of(const Pack<double>& a, const Pack<double>& b) {
+  return Pack<double>(_mm_max_pd(a.v, b.v));
+}
+
+#endif
+
+// Numbers of 32 and 64 bits, as many as a pack of doubles has lanes.
+typedef std::uint32_t WordVector __attribute__((vector_size(kPackBytes / 2)));
+typedef std::uint64_t LongVector __attribute__((vector_size(kPackBytes)));
+
+/// Doubles with these upper and lower halves.
+HOOKE_HD Pack<double> join_halves(const WordVector& upper, const WordVector& lower) {
+  const LongVector bits =
+      __builtin_convertvector(upper, LongVector) << 32 | __builtin_convertvector(lower, LongVector);
+  return Pack<double>((DoubleVector)bits);
+}
+HOOKE_HD Pack<double> load_bits(const std::uint64_t* from) {
+  Pack<double> a;
+  __builtin_memcpy(&a.v, from, sizeof(a.v));
+  return a;
+}
+HOOKE_HD void store_bits(std::uint64_t* to, const Pack<double>& a) { __builtin_memcpy(to, &a.v, sizeof(a.v)); }
+/// The lower 32 bits of each lane.
+HOOKE_HD WordVector lower_half(const Pack<double>& a) {
+  return __builtin_convertvector((LongVector)a.v, WordVector);
+}
+HOOKE_HD WordVector load_words(const std::uint32_t* from) {
+  WordVector a;
+  __builtin_memcpy(&a, from, sizeof(a));
+  return a;
+}
+HOOKE_HD void store(std::uint32_t* to, const WordVector& a) { __builtin_memcpy(to, &a, sizeof(a)); }
 
 }  // namespace hooke::HOOKE_ISA

@@ -10,6 +10,7 @@
 
 #include "hooke/backends/cpu/force_pass.h"
 #include "hooke/core/scene.h"
+#include "hooke/neighbours/cell_list.h"
 
 namespace hooke {
 
@@ -23,6 +24,7 @@ struct PassRules {
   double trusted_skin = 0;  ///< m, less what the rounding of distances may take
   double found_distance =
       0;  ///< m: a search in the cells up to two away finds whoever moved by less towards each other
+  std::vector<CellList::Level> levels;
   bool has_drag = false;
   ForcePass<Real> pass;  ///< all but the buffers
 
@@ -95,6 +97,7 @@ struct PassRules {
     }
     // A pair may just meet once its two have moved a skin towards each other; a thousandth covers rounding.
     skin = kSkin * 2 * smallest_radius;
+    levels = {{largest_radius, 2 * largest_radius + skin}};
     trusted_skin = std::max(0.0, 0.999 * skin - 2 * rounding);
     found_distance = std::max(0.0, 0.999 * (2 * largest_radius + 2 * skin) - 2 * rounding);
     pass.stale_distance2 = real(trusted_skin * trusted_skin / 4);

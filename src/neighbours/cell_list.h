@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hooke/base/parallel.h"
+#include "hooke/base/vec3.h"
+#include "hooke/neighbours/cell_grid.h"
+#include "hooke/neighbours/group_search.h"
+
+namespace hooke {
+
+/// Points in the order of their cells (the thesis's Algorithm 3), and which of them lie in a box. Each level of size
+/// has a grid of its own: points of one level are consecutive, and a large particle does not make the cells of small
+/// ones large.
+///
+/// Where a cell's points start is looked up in a directory that has at most a few entries a point. In a domain of more
+/// cells than that, an entry stands for several cells, and the cell is searched for among their points: a sparse cloud
+/// needs no more memory than a dense one.
+class CellList {
+ public:
+  /// Particles of similar size.
+  struct Level {
+    double largest_radius = 0;  ///< m
+    double cell = 1;  ///< m, > 0: what cells are wide, or a little more; half of it along x
+  };
+
+  /// Lays grids over the box [min, max] (m), for up to `most_points` points; those outside count to the cells at its
+  /// edge. A periodic axis covers its whole period.
+  void lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic)[3], std::span<const Level> levels,
+               std::size_t most_points);
+
+  /// Number of the cell of a finite point of a level.
+  std::uint64_t key_of(const Vec3d& x, std::size_t level) const {
+    return levels_[level].first_key + levels_[level].grid.key_of(x);
+  }
+  /// The key of points that take no part: they are sorted last.
+  std::uint64_t key_end() const { return key_end_; }
+
+  /// Sorts points 0 to count - 1 by key_of_point(i), stably: afterwards order[k] is the index that the k-th had before.
+  /// Works in `scratch` where that is aligned to 8 bytes and holds 24 for each point; else in memory of its own.
+  template <class KeyOfPoint>
+  void sort(std::size_t count, const KeyOfPoint& key_of_point, std::vector<std::uint32_t>& order,
+            std::span<std::byte> scratch = {}) {
+    constexpr std::size_t kGrain = 1024;
+    const Room room = make_room(count, scratch);
+    parallel_ranges(count, kGrain, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) room.keys[i] = key_of_point(i);
+    });
+    sort_keys(room, order);
+  }
+
+  std::size_t level_count() const { return levels_.size(); }
+  const CellGrid& grid(std::size_t level) const { return levels_[level].grid; }
+  double largest_radius(std::size_t level) const { return levels_[level].largest_radius; }
+
+  /// Sorted points that take part.
+  std::size_t point_count() const { return levels_.empty() ? 0 : level_end(levels_.size() - 1); }
+  /// One past the last sorted point of a level.
+  std::size_t level_end(std::size_t level) const {
+    return first_at(level + 1 < levels_.size() ? levels_[level + 1].first_key : key_end_);
+  }
+
+  /// Appends the points of a level in the cells that the box [min, max] meets, each once; around a periodic axis
+  /// too. Returns their number.
+  std::size_t find(std::size_t level, const Vec3d& min, const Vec3d& max, std::vector<SearchRange>& out) const;
+
+ private:
+  static constexpr double kCellsAlongX = 2;
+
+  struct LevelGrid {
+    CellGrid grid;
+    double largest_radius;  // m
+    std::uint64_t first_key;
+  };
+  struct KeyedPoint {
+    std::uint64_t key;
+    std::uint32_t index;
+  };
+  struct Room {
+    std::span<std::uint64_t> keys;
+    std::span<KeyedPoint> points;
+  };
+
+  Room make_room(std::size_t count, std::span<std::byte> scratch);
+  void sort_keys(const Room& room, std::vector<std::uint32_t>& order);
+  void sort_part(std::span<const KeyedPoint> points, std::size_t first_slot, std::uint32_t first_point,
+                 std::span<std::uint32_t> starts, std::vector<KeyedPoint>& sorted) const;
+
+  // Index of the first sorted point whose key is `key` or more.
+  std::uint32_t first_at(std::uint64_t key) const {
+    const std::uint64_t slot = key >> slot_bits_;
+    return slot_bits_ == 0 ? starts_[slot] : first_in_slot(slot, key);
+  }
+  std::uint32_t first_in_slot(std::uint64_t slot, std::uint64_t key) const;
+
+  std::vector<LevelGrid> levels_;
+  std::uint64_t key_end_ = 0;
+  unsigned slot_bits_ = 0;  // an entry of the directory stands for 2 to this keys
+  std::vector<std::uint32_t> starts_;  // of the points of an entry, and one past the last
+  std::vector<std::uint64_t> keys_;  // of the sorted points; empty where an entry is a cell
+  std::vector<std::uint64_t> own_room_;  // where no scratch is given
+};
+
+}  // namespace hooke
