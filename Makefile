@@ -10,7 +10,7 @@ RUN_ARGS ?=
 BENCH_ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help run gallery test soak build bench format lint install clean setup setup-test setup-lint
+.PHONY: help run gallery test soak build bench format lint install clean setup setup-test setup-lint setup-bench
 
 help:  ## this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
@@ -40,10 +40,8 @@ build: setup  ## release build: build/hooke
 	@cmake --preset release >/dev/null
 	@cmake --build --preset release -j $(JOBS)
 
-bench: build  ## speed of the dam break, of the engine's parts and of pictures
-	build/hooke bench scenes/water.json $(BENCH_ARGS)
-	build/bench/hooke_bench
-	build/bench/hooke_render_bench
+bench: build setup-bench  ## measure this machine, a quarter of an hour, for docs/performance.md; or BENCH_ARGS=--quick
+	bench/run_benchmarks $(BENCH_ARGS)
 
 format: setup-lint  ## format all sources
 	tools/lint.sh format
@@ -65,3 +63,6 @@ setup-test:
 
 setup-lint:
 	@tools/setup.sh lint
+
+setup-bench:
+	@tools/setup.sh bench

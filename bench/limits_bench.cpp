@@ -8,10 +8,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <thread>
 #include <vector>
 
 namespace hooke {
 namespace {
+
+// On one thread and on all.
+void with_threads(benchmark::internal::Benchmark* benchmark) {
+  const auto cores = static_cast<int>(std::thread::hardware_concurrency());
+  benchmark->UseRealTime()->Threads(1);
+  if (cores > 1) benchmark->Threads(cores);
+}
 
 // Reads and writes much more than caches hold, each thread its own part; bytes are those read and those written.
 void memory(benchmark::State& state) {
@@ -25,7 +33,7 @@ void memory(benchmark::State& state) {
   if (numbers.front() != right || numbers.back() != right) return state.SkipWithError("wrong numbers");
   state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(2 * kNumbers * sizeof(double)));
 }
-BENCHMARK(memory)->Threads(1)->Threads(2)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(memory)->Apply(with_threads)->Unit(benchmark::kMillisecond);
 
 constexpr std::size_t kChains = 6;  // of each kind: enough to hide the latency, and they fit into 16 registers
 constexpr std::int64_t kRounds = 1'000'000;
@@ -68,15 +76,9 @@ void arithmetic(benchmark::State& state, float (*chains)(float), std::size_t lan
   if (sum != static_cast<float>(kRounds)) return state.SkipWithError("wrong sum");
   state.SetItemsProcessed(state.iterations() * kRounds * static_cast<std::int64_t>(2 * kChains * lanes));
 }
-BENCHMARK_CAPTURE(arithmetic, portable, portable, 4, true)->Threads(1)->Threads(2)->UseRealTime();
-BENCHMARK_CAPTURE(arithmetic, avx2, avx2, 8, __builtin_cpu_supports("avx2") != 0)
-    ->Threads(1)
-    ->Threads(2)
-    ->UseRealTime();
-BENCHMARK_CAPTURE(arithmetic, avx512, avx512, 16, __builtin_cpu_supports("avx512f") != 0)
-    ->Threads(1)
-    ->Threads(2)
-    ->UseRealTime();
+BENCHMARK_CAPTURE(arithmetic, portable, portable, 4, true)->Apply(with_threads);
+BENCHMARK_CAPTURE(arithmetic, avx2, avx2, 8, __builtin_cpu_supports("avx2") != 0)->Apply(with_threads);
+BENCHMARK_CAPTURE(arithmetic, avx512, avx512, 16, __builtin_cpu_supports("avx512f") != 0)->Apply(with_threads);
 
 }  // namespace
 }  // namespace hooke

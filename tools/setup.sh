@@ -16,8 +16,8 @@ build_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev pkg-config
   libepoxy-dev libegl1 libgl1 libgl1-mesa-dri libpng-dev libcairo2-dev fonts-dejavu-core ffmpeg
   python3)
-test_packages=(clang-format-19 lammps python3-vtk9 python3-h5py python3-numpy)
 bench_packages=(lammps python3-numpy python3-matplotlib)
+test_packages=(clang-format-19 python3-vtk9 python3-h5py "${bench_packages[@]}")
 lint_packages=(clang-19 clang-tidy-19)
 
 packages=("${build_packages[@]}")
