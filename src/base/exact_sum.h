@@ -2,13 +2,31 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
+#include <type_traits>
 
 namespace hooke {
+
+/// A sum of floats without any rounding, for hot loops: one addition to the bin of the value's sign and exponent.
+/// ExactSum takes it over.
+class ExactFloatSum {
+ public:
+  /// Adds a value, at most 2^39 of them. NaN and infinities make the whole sum NaN.
+  void add(float value) {
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    const std::uint32_t bin = bits >> 23U;
+    const std::uint32_t leading_one = (bin & 0xffU) != 0 ? 1U << 23U : 0;
+    bins_[bin] += (bits & 0x7fffffU) | leading_one;
+  }
+
+ private:
+  friend class ExactSum;
+  std::array<std::uint64_t, 512> bins_{};  // by sign and exponent: sum of the mantissas
+};
 
 /// A sum of doubles without any rounding: the result depends on which values were added, never on
 /// their order, so threads, restarts and storage orders all report the same bits. A fixed-point
@@ -57,6 +75,19 @@ class ExactSum {
     ++pending_;
   }
 
+  /// Adds a sum of floats, without rounding.
+  void add(const ExactFloatSum& floats) {
+    for (std::size_t bin = 0; bin < floats.bins_.size(); ++bin) {
+      const std::uint64_t mantissas = floats.bins_[bin];
+      if (mantissas == 0) continue;
+      const int exponent = static_cast<int>(bin & 0xffU);
+      if (exponent == 0xff) not_finite_ = true;
+      const double unit = std::ldexp(bin < 256 ? 1.0 : -1.0, std::max(exponent, 1) - 150);
+      add(unit * static_cast<double>(mantissas & 0xffffffffU));
+      add(unit * 0x1p32 * static_cast<double>(mantissas >> 32U));
+    }
+  }
+
   /// The sum as a double, off by at most one unit in the last place.
   double value() const {
     if (not_finite_) return std::nan("");
@@ -97,5 +128,9 @@ class ExactSum {
   std::uint32_t pending_ = 0;
   bool not_finite_ = false;
 };
+
+/// The kind of exact sum that takes values of type Real.
+template <class Real>
+using ExactSumOf = std::conditional_t<std::is_same_v<Real, float>, ExactFloatSum, ExactSum>;
 
 }  // namespace hooke

@@ -89,6 +89,8 @@ struct BackendInfo {
 struct NeighbourStatistics {
   std::uint64_t rebuilds = 0;
   double slots_per_particle = 0;  ///< list entries read a particle and step, padding included
+  std::uint64_t missed_contacts =
+      0;  ///< contacts that a list lacked, a side each; counted only where that is asked for
 };
 
 /// Wall time by stage, s. Stages don't overlap; what of a step is in none of them is the rest.

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "hooke/base/vec3.h"
@@ -43,6 +45,14 @@ class CellGrid {
     return static_cast<std::uint64_t>(index_of(x.x, 0) + stride_y_ * index_of(x.y, 1) + stride_z_ * index_of(x.z, 2));
   }
 
+  /// The same, numbered along a path: every other row of cells, and every other layer of rows, is walked backwards, so
+  /// that cells with consecutive numbers are adjacent. Points sorted by it are never far from the next ones.
+  std::uint64_t path_key_of(const Vec3d& x) const {
+    const Row row = row_at(index_of(x.y, 1), index_of(x.z, 2));
+    const std::int64_t along = index_of(x.x, 0);
+    return static_cast<std::uint64_t>(row.start + (row.backwards ? axes_[0].count + 1 - along : along));
+  }
+
   /// One past the largest key: for points that take no part, sorted last.
   std::uint64_t key_end() const { return static_cast<std::uint64_t>(stride_z_ * (axes_[2].count + 2)); }
 
@@ -55,20 +65,25 @@ class CellGrid {
   static constexpr std::size_t kMostRanges = 18;
   std::size_t neighbour_ranges(std::uint64_t key, KeyRange (&out)[kMostRanges], int more = 0) const;
 
-  /// The cells that the box [min, max] meets, around periodic axes too, as disjoint ranges of numbers: body(range) for
-  /// each, in no order; each cell in one of them, once.
+  /// The cells that the box [min, max] meets, around periodic axes too, as disjoint ranges of numbers along the path:
+  /// body(range) for each, in no order; each cell in one of them, once.
   template <class Body>
-  void for_ranges(const Vec3d& min, const Vec3d& max, const Body& body) const {
+  void for_path_ranges(const Vec3d& min, const Vec3d& max, const Body& body) const {
     Stretches along[3];
     for (int axis = 0; axis < 3; ++axis) along[axis] = stretches(axis, component(min, axis), component(max, axis));
     for (int sz = 0; sz < along[2].count; ++sz) {
       for (std::int64_t z = along[2].of[sz].first; z <= along[2].of[sz].last; ++z) {
         for (int sy = 0; sy < along[1].count; ++sy) {
           for (std::int64_t y = along[1].of[sy].first; y <= along[1].of[sy].last; ++y) {
-            const std::int64_t start = y * stride_y_ + z * stride_z_;
+            const Row row = row_at(y, z);
             for (int sx = 0; sx < along[0].count; ++sx) {
-              body(KeyRange{static_cast<std::uint64_t>(start + along[0].of[sx].first),
-                            static_cast<std::uint64_t>(start + along[0].of[sx].last)});
+              auto [first, last] = along[0].of[sx];
+              if (row.backwards) {
+                const std::int64_t end = axes_[0].count + 1;
+                std::tie(first, last) = std::pair(end - last, end - first);
+              }
+              body(KeyRange{static_cast<std::uint64_t>(row.start + first),
+                            static_cast<std::uint64_t>(row.start + last)});
             }
           }
         }
@@ -90,6 +105,16 @@ class CellGrid {
     // Bounded before the conversion, which is undefined for what no int64 holds.
     const double inside = cell > 0 ? cell : 0;
     return static_cast<std::int64_t>(inside < last_cell_[i] ? inside : last_cell_[i]) + 1;
+  }
+
+  // A row of cells along x, on the path.
+  struct Row {
+    std::int64_t start;  // the key before its first
+    bool backwards;
+  };
+  Row row_at(std::int64_t y, std::int64_t z) const {
+    const std::int64_t on_path = z % 2 == 0 ? y : axes_[1].count + 1 - y;
+    return {on_path * stride_y_ + z * stride_z_, (z * axes_[1].count + on_path) % 2 != 0};
   }
 
   // Indices first to last of an axis as one stretch, or as two where they reach around a periodic axis.

@@ -36,7 +36,7 @@ class CellList {
 
   /// Number of the cell of a finite point of a level.
   std::uint64_t key_of(const Vec3d& x, std::size_t level) const {
-    return levels_[level].first_key + levels_[level].grid.key_of(x);
+    return levels_[level].first_key + levels_[level].grid.path_key_of(x);
   }
   /// The key of points that take no part: they are sorted last.
   std::uint64_t key_end() const { return key_end_; }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "hooke/base/huge_pages.h"
 #include "hooke/base/parallel.h"
 #include "hooke/base/vec3.h"
 #include "hooke/neighbours/cell_list.h"
@@ -54,50 +55,68 @@ class NeighbourList {
   void clear(std::size_t segment_count) {
     segments.assign(segment_count, Segment{});
     blocks_in_use_ = 0;
+    begun_.clear();
   }
 
   /// Writes the rows of one segment after the other, straight to where they stay until clear(). One thread each.
   class Writer {
    public:
-    explicit Writer(NeighbourList& list) : list_(list) {}
+    explicit Writer(NeighbourList& list) : list_(list), to_(list.begun_block()) {}
+    ~Writer() { list_.put_back(to_); }
+    Writer(const Writer&) = delete;
+    Writer& operator=(const Writer&) = delete;
 
     /// Room for so many more entries of the segment; what was written of it before may move.
     std::uint32_t* room(std::size_t entries) {
-      if (static_cast<std::size_t>(end_ - to_) < entries) {
-        const std::span<std::uint32_t> block = list_.new_block(static_cast<std::size_t>(to_ - segment_) + entries);
-        to_ = std::copy(segment_, to_, block.data());
+      if (to_.size() < entries) {
+        const std::size_t written = static_cast<std::size_t>(to_.data() - segment_);
+        const std::span<std::uint32_t> block = list_.new_block(written + entries);
+        std::copy_n(segment_, written, block.data());
+        to_ = block.subspan(written);
         segment_ = block.data();
-        end_ = block.data() + block.size();
       }
-      return to_;
+      return to_.data();
     }
     /// So many of them are filled.
-    void add(std::size_t entries) { to_ += entries; }
+    void add(std::size_t entries) { to_ = to_.subspan(entries); }
     /// Ends the segment; returns where it starts.
-    const std::uint32_t* finish_segment() { return std::exchange(segment_, to_); }
+    const std::uint32_t* finish_segment() { return std::exchange(segment_, to_.data()); }
 
    private:
     NeighbourList& list_;
-    std::uint32_t* segment_ = nullptr;
-    std::uint32_t* to_ = nullptr;
-    std::uint32_t* end_ = nullptr;
+    std::span<std::uint32_t> to_;  // room that is left
+    std::uint32_t* segment_ = to_.data();
   };
 
  private:
-  static constexpr std::size_t kBlock = std::size_t{1} << 18U;  // entries: 1 MiB
+  static constexpr std::size_t kBlock = std::size_t{1} << 19U;  // entries: 2 MiB, a huge page
 
   // Memory for at least so many entries. Any thread may call.
   std::span<std::uint32_t> new_block(std::size_t entries) {
     const std::lock_guard lock(mutex_);
     if (blocks_in_use_ == blocks_.size()) blocks_.emplace_back();
-    std::vector<std::uint32_t>& block = blocks_[blocks_in_use_++];
+    LargeVector<std::uint32_t>& block = blocks_[blocks_in_use_++];
     if (block.size() < entries) block.resize(std::max(kBlock, entries));
     return block;
   }
 
+  // What an earlier writer left of a block; empty where none did.
+  std::span<std::uint32_t> begun_block() {
+    const std::lock_guard lock(mutex_);
+    if (begun_.empty()) return {};
+    const std::span<std::uint32_t> block = begun_.back();
+    begun_.pop_back();
+    return block;
+  }
+  void put_back(std::span<std::uint32_t> rest) {
+    const std::lock_guard lock(mutex_);
+    if (!rest.empty()) begun_.push_back(rest);
+  }
+
   std::mutex mutex_;
-  std::vector<std::vector<std::uint32_t>> blocks_;
+  std::vector<LargeVector<std::uint32_t>> blocks_;
   std::size_t blocks_in_use_ = 0;
+  std::vector<std::span<std::uint32_t>> begun_;
 };
 
 /// What one thread searches with.

@@ -102,18 +102,15 @@ TEST_P(Motions, MissNoContact) {
   for (std::size_t i = 0; i < particles.size(); ++i) {
     particles.velocity[i] = motion.velocity(particles.position[i], particles.id[i]);
   }
-  // Figures need a list that can be trusted altogether, so the one that is measured does without searches beside it.
-  Simulation simulation = simulate(scene, particles, {"cpu", precision, 2, ""});
-  Simulation unmeasured = simulate(scene, particles, {"cpu", precision, 2, ""});
+  Simulation simulation = simulate(scene, particles, {"cpu", precision, 2, "", true});
   const int steps = 80;
   for (int step = 1; step <= steps; ++step) {
     if (step == steps / 2 && motion.halfway) motion.halfway(simulation);
-    if (step == steps / 2 && motion.halfway) motion.halfway(unmeasured);
     const auto taken = simulation.step();
-    ASSERT_EQ(unmeasured.step().has_value(), taken.has_value());
+    ASSERT_EQ(simulation.neighbour_statistics().missed_contacts, 0U) << "in step " << step;
     if (!taken) break;  // approaches too fast to be resolved are another test's affair
+    // Figures come from the rows that the force pass reads.
     ASSERT_EQ(measured(simulation).contacts, true_contacts(simulation)) << "after step " << step;
-    ASSERT_EQ(unmeasured.state_hash(), simulation.state_hash()) << "after step " << step;
   }
   EXPECT_GT(simulation.step_count(), 20);
   EXPECT_GT(simulation.neighbour_statistics().rebuilds, 1U);
@@ -130,9 +127,9 @@ INSTANTIATE_TEST_SUITE_P(All, Motions,
                                   (std::get<2>(instance.param) == Precision::single_precision ? "_single" : "_double");
                          });
 
-// Some grains shoot through a calm block, each straight at its neighbour. Only those around them are searched for anew
-// in each step: the list of all others is kept, and nothing is missed. The gaps are wider than the list's skin, so that
-// a fast grain meets somebody who is on no list, and is there before so many are searched for that a new list pays.
+// Some grains shoot through a calm block, each straight at its neighbour. They alone are looked after in each step: the
+// list is kept, and nothing is missed. The gaps are wider than the list's skin, so that a fast grain meets somebody who
+// is on no list.
 class Spray : public testing::TestWithParam<std::tuple<Integrator, Precision, Boundary, std::string>> {};
 
 TEST_P(Spray, MissesNoContactAndKeepsTheList) {
@@ -156,19 +153,15 @@ TEST_P(Spray, MissesNoContactAndKeepsTheList) {
     particles.velocity[i] = along + noise(particles.id[i], 0.2);
     if (particles.id[i] % 2500 == 7) particles.velocity[i].x = 20;
   }
-  Simulation simulation = simulate(scene, particles, {"cpu", precision, 2, isa});
-  Simulation unmeasured = simulate(scene, particles, {"cpu", precision, 2, isa});
+  Simulation simulation = simulate(scene, particles, {"cpu", precision, 2, isa, true});
   for (int step = 1; step <= 24; ++step) {
     ASSERT_TRUE(advance(simulation, 1));
-    ASSERT_TRUE(advance(unmeasured, 1));
-    if (step % 8 == 0) {
-      ASSERT_EQ(measured(simulation).contacts, true_contacts(simulation)) << "after step " << step;
-    } else {
-      measured(simulation);
-    }
-    ASSERT_EQ(unmeasured.state_hash(), simulation.state_hash()) << "after step " << step;
+    ASSERT_EQ(simulation.neighbour_statistics().missed_contacts, 0U) << "in step " << step;
+    if (step % 8 != 0) continue;
+    ASSERT_EQ(measured(simulation).contacts, true_contacts(simulation)) << "after step " << step;
   }
-  EXPECT_LT(unmeasured.neighbour_statistics().rebuilds, simulation.neighbour_statistics().rebuilds);
+  // The grains cross a diameter every three steps.
+  EXPECT_LE(simulation.neighbour_statistics().rebuilds, 3U);
 }
 
 std::string spray_name(const testing::TestParamInfo<Spray::ParamType>& instance) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -154,6 +155,52 @@ TEST(ExactSum, OfWhatIsNotFiniteIsNaN) {
 TEST(ExactSum, BeyondTheLargestNumberIsInfinite) {
   EXPECT_EQ(sum_of({Limits::max(), Limits::max()}), INFINITY);
   EXPECT_EQ(sum_of({Limits::lowest(), Limits::lowest()}), -INFINITY);
+}
+
+// Floats of either sign and every size, zeros and subnormal ones among them.
+std::vector<float> all_kinds_of_floats(std::size_t count) {
+  std::vector<float> values = {0.0F, -0.0F, std::numeric_limits<float>::denorm_min(), std::numeric_limits<float>::max(),
+                               -std::numeric_limits<float>::min()};
+  for (const double v : spread_numbers(count, 0, 240, 7)) values.push_back(static_cast<float>(v));
+  return values;
+}
+
+TEST(ExactFloatSum, IsTheSumOfTheSameNumbersAsDoubles) {
+  const std::vector<float> values = all_kinds_of_floats(20'000);
+  for (std::size_t count = 0; count <= values.size(); count = 2 * count + 1) {
+    ExactFloatSum floats;
+    ExactSum doubles, taken_over;
+    for (std::size_t i = 0; i < count; ++i) {
+      floats.add(values[i]);
+      doubles.add(values[i]);
+    }
+    taken_over.add(floats);
+    EXPECT_EQ(taken_over.value(), doubles.value()) << count;
+    taken_over.add(-doubles.value());
+    doubles.add(-doubles.value());
+    EXPECT_EQ(taken_over.value(), doubles.value()) << count;
+  }
+}
+
+TEST(ExactFloatSum, HoldsMoreThanFourBytesOfMantissas) {
+  ExactFloatSum floats;
+  for (int i = 0; i < 1000; ++i) floats.add(0x1.fffffep0F);
+  ExactSum sum;
+  sum.add(floats);
+  EXPECT_EQ(sum.value(), 1000 * 0x1.fffffep0);
+}
+
+TEST(ExactFloatSum, OfWhatIsNotFiniteIsNotANumber) {
+  using Floats = std::numeric_limits<float>;
+  for (const float bad : {Floats::quiet_NaN(), Floats::infinity(), -Floats::infinity()}) {
+    ExactFloatSum floats;
+    floats.add(1);
+    floats.add(bad);
+    floats.add(-bad);
+    ExactSum sum;
+    sum.add(floats);
+    EXPECT_TRUE(std::isnan(sum.value()));
+  }
 }
 
 }  // namespace

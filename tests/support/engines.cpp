@@ -31,7 +31,7 @@ std::string Engine::name() const {
 
 std::unique_ptr<Backend> make_backend(const Engine& engine) {
   if (engine.device == "reference") return make_reference_backend();
-  auto backend = make_cpu_backend({engine.precision, engine.threads, engine.isa});
+  auto backend = make_cpu_backend({engine.precision, engine.threads, engine.isa, engine.check_list});
   if (!backend) {
     ADD_FAILURE() << backend.error().text();
     throw std::runtime_error("no back end");

@@ -28,13 +28,14 @@ struct Engine {
   Precision precision = Precision::double_precision;
   int threads = 1;
   std::string isa;  ///< empty: the widest
+  bool check_list = false;  ///< count the contacts that the neighbour list misses
 
   std::string name() const;  ///< "cpu_double", for messages and names of tests
 };
 
-inline const Engine kReference{"reference", Precision::double_precision, 1, ""};
-inline const Engine kCpuDouble{"cpu", Precision::double_precision, 1, ""};
-inline const Engine kCpuSingle{"cpu", Precision::single_precision, 1, ""};
+inline const Engine kReference{"reference", Precision::double_precision, 1, "", false};
+inline const Engine kCpuDouble{"cpu", Precision::double_precision, 1, "", false};
+inline const Engine kCpuSingle{"cpu", Precision::single_precision, 1, "", false};
 
 inline void PrintTo(const Engine& engine, std::ostream* os) { *os << engine.name(); }
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
+#include "hooke/base/huge_pages.h"
 #include "hooke/base/vec3.h"
 #include "hooke/neighbours/group_search.h"
 
@@ -26,7 +26,7 @@ class ColumnStore {
   Columns<Real> columns() const { return {x_.data(), y_.data(), z_.data()}; }
 
  private:
-  std::vector<Real> x_, y_, z_;
+  LargeVector<Real> x_, y_, z_;
 };
 
 }  // namespace hooke

@@ -20,12 +20,12 @@
 #include "hooke/backends/cpu/isa.h"
 #include "hooke/backends/cpu/pass_rules.h"
 #include "hooke/backends/cpu/threads.h"
+#include "hooke/backends/cpu/verlet_list.h"
+#include "hooke/base/huge_pages.h"
 #include "hooke/base/parallel.h"
 #include "hooke/base/stopwatch.h"
 #include "hooke/core/state_hash.h"
 #include "hooke/core/sums.h"
-#include "hooke/neighbours/cell_list.h"
-#include "hooke/neighbours/motion_bounds.h"
 #include "hooke/neighbours/neighbour_list.h"
 #include "hooke/physics/drag.h"
 #include "hooke/physics/integrate.h"
@@ -37,20 +37,17 @@ constexpr std::size_t kLanes = NeighbourList::kLanes;
 constexpr std::size_t kGroups = NeighbourList::kGroups;
 constexpr std::size_t kSegment = NeighbourList::kSegment;
 
-// Positions beyond this are lost; records at kNowhere must stay further away from everything.
-constexpr double kFurthest = kNowhere / 16;
-
 // The state in one precision. Particles lie in cell order as of the last build; ranks lead back to ids.
 template <class Real>
 class CpuBackend final : public Backend {
   using Record = ParticleRecord<Real>;
-  using Searcher = GroupSearcher<Real>;
 
  public:
-  CpuBackend(const Isa& isa, const Loops<Real>& loops, int threads)
+  CpuBackend(const Isa& isa, const Loops<Real>& loops, int threads, bool check_list)
       : isa_name_(isa.name),
         loops_(loops),
-        threads_(threads) {}
+        threads_(threads),
+        check_list_(check_list) {}
 
   BackendInfo info() const override {
     const auto precision = sizeof(Real) == 4 ? Precision::single_precision : Precision::double_precision;
@@ -61,11 +58,7 @@ class CpuBackend final : public Backend {
     scene_ = scene;
     rules_.configure(scene);
     pass_ = rules_.pass;
-    motion_limits_.diameter = 2 * rules_.largest_radius;
-    motion_limits_.skin = rules_.trusted_skin;
-    motion_limits_.found = rules_.found_distance;
-    std::copy(std::begin(pass_.periodic), std::end(pass_.periodic), motion_limits_.periodic);
-    listed_ = false;
+    list_.configure(rules_, loops_.search_group);
   }
 
   Condition upload(const ParticleSet& particles, std::uint64_t first_new_id, const Ledger& ledger) override {
@@ -81,8 +74,8 @@ class CpuBackend final : public Backend {
       wrap_periodic(pass_, records_[i]);  // a coordinate may have been rounded up to the upper face
       if (verlet() && !particles.acceleration.empty()) acceleration_[i] = vec_cast<Real>(particles.acceleration[i]);
     }
-    std::fill(records_.begin() + static_cast<std::ptrdiff_t>(count_), records_.end(), nowhere_record<Real>(Real(0)));
-    listed_ = false;
+    fill_unused(records_);
+    list_.forget();
     count_alive();
     const bool any_new = count_ > 0 && ids_[count_ - 1] >= first_new_id;
     return verlet() && any_new ? evaluate_accelerations(first_new_id) : Condition{};
@@ -113,27 +106,29 @@ class CpuBackend final : public Backend {
   void half_kick_and_drift() override {
     Stopwatch drifting(times_.drift);
     RemovalSums removed;
-    std::atomic<bool> moved_far{false};
     for_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
       RemovalSums left;
-      bool far = false;
-      for (std::size_t i = first; i < last; ++i) {
-        Record& p = records_[i];
-        if (is_nowhere(p)) continue;
-        p.v = kick(p.v, acceleration_[i], Real(0.5) * pass_.dt);
-        p.x = drift(p.x, p.v, pass_.dt);
-        far = has_moved_far(p, i) || far;  // asked of all: a removal must not hide a NaN
-        apply_boundaries(p, left);
+      for (std::size_t start = first; start < last; start += kLanes) {
+        unsigned far = 0;
+        for (std::size_t i = start; i < std::min(start + kLanes, last); ++i) {
+          Record& p = records_[i];
+          if (is_nowhere(p)) continue;
+          p.v = kick(p.v, acceleration_[i], Real(0.5) * pass_.dt);
+          p.x = drift(p.x, p.v, pass_.dt);
+          if (list_.good() && list_.is_far(p, i))
+            far |= 1U << i % kLanes;  // asked of all: a removal must not hide a NaN
+          apply_boundaries(p, left);
+        }
+        if (far != 0) list_.note_far(start / kLanes, far);
       }
-      if (far) moved_far = true;
       collect(removed, left);
     });
     drifting.stop();
-    if (moved_far && listed_) judge_list();
+    follow_motion();
     book(removed);
   }
 
-  bool neighbours_stale() const override { return !listed_; }
+  bool neighbours_stale() const override { return !list_.good(); }
 
   Condition build_neighbours() override {
     Condition condition;
@@ -149,38 +144,33 @@ class CpuBackend final : public Backend {
     StepSums sums;
     RemovalSums removed;
     Condition condition;
-    std::atomic<bool> moved_far{false};
     aim_pass(verlet() ? acceleration_.data() : nullptr);
-    const NeighbourRule<Real> touching = touching_rule();
-    for_ranges(list_.segments.size(), 1, [&](std::size_t first, std::size_t last) {
-      Searcher searcher(cells_, listed_at_.columns(), touching, loops_.search_group, rules_.found_distance);
+    for_ranges(list_.segment_count(), 1, [&](std::size_t first, std::size_t last) {
       SegmentReport report;
       StepSums part;
+      ExactSumOf<Real> dissipated;
       RemovalSums left;
       Condition found;
-      bool far = false;
       for (std::size_t s = first; s < last; ++s) {
-        run_segment(s, searcher, report);
-        add_up(s, report, part);
+        run_segment(s, report);
+        add_up(s, report, part, dissipated);
         for (std::size_t g = 0; g < kGroups; ++g) {
+          if (report.far[g] != 0) list_.note_far(s * kGroups + g, report.far[g]);
           if (report.notes[g] == 0) continue;
-          if ((report.notes[g] & kApproachTooFast) != 0) {
-            found = Condition::first(found, look_closely(s, g, searcher));
-          }
+          if ((report.notes[g] & kApproachTooFast) != 0) found = Condition::first(found, look_closely(s, g));
           if ((report.notes[g] & kLeftDomain) != 0) apply_boundaries_to_group(s, g, left);
-          far = far || (report.notes[g] & kMovedFar) != 0;
         }
       }
-      if (far) moved_far = true;
       collect(removed, left);
+      part.dissipated_power.add(dissipated);
       const std::lock_guard lock(mutex_);
       sums.add(part);
       condition = Condition::first(condition, found);
     });
     book_step(ledger_, sums.rates(scene_.gravity, total_mass_), scene_.time_step, scene_.integrator);
-    forcing.stop();
     records_.swap(next_);
-    if (moved_far) judge_list();
+    forcing.stop();
+    if (!verlet()) follow_motion();
     book(removed);
     return condition;
   }
@@ -202,7 +192,7 @@ class CpuBackend final : public Backend {
   }
 
   Expected<Measurements> measure() override {
-    if (!listed_ || !restless_.empty()) {
+    if (!list_.good()) {
       if (const Condition found = build_neighbours(); !found.good()) {
         return fail(Error::Kind::run_failed, fmt::format("particle {}", found.particle), "is at no finite position");
       }
@@ -219,7 +209,7 @@ class CpuBackend final : public Backend {
 
   NeighbourStatistics neighbour_statistics() const override {
     const auto n = static_cast<double>(std::max<std::size_t>(count_, 1));
-    return {rebuilds_, static_cast<double>(list_.entry_count()) / n};
+    return {list_.build_count(), static_cast<double>(list_.entry_count()) / n, missed_contacts_};
   }
 
   StageTimes stage_times() const override { return times_; }
@@ -228,9 +218,15 @@ class CpuBackend final : public Backend {
   // Where the groups of one segment report.
   struct SegmentReport {
     std::array<unsigned char, kGroups> notes;
+    std::array<std::uint16_t, kGroups> far;
     std::array<Real, kSegment> dissipated, wall_power;
     std::array<std::array<Real, kSegment>, 3> wall_force;
   };
+
+  void fill_unused(LargeVector<Record>& records) const {
+    std::fill(records.begin() + static_cast<std::ptrdiff_t>(count_), records.end() - 1, nowhere_record<Real>(Real(0)));
+    records.back() = filling_record<Real>();
+  }
 
   static std::size_t padded(std::size_t n) { return (n + kLanes - 1) / kLanes * kLanes; }
   bool verlet() const { return scene_.integrator == Integrator::velocity_verlet; }
@@ -245,7 +241,9 @@ class CpuBackend final : public Backend {
     pass_.in = records_.data();
     pass_.out = next_.data();
     pass_.acceleration = acceleration;
-    pass_.listed_at = listed_at_.columns();
+    pass_.listed_at = list_.listed_at();
+    pass_.anchors = list_.anchors();
+    pass_.next_step = list_.next_step();
   }
 
   // Neighbours -------------------------------------------------------------------------------------------------------
@@ -290,27 +288,21 @@ class CpuBackend final : public Backend {
       component(min, axis) = component(pass_.min, axis);
       component(max, axis) = component(pass_.max, axis);
     }
-    motion_limits_.min = min;
-    motion_limits_.max = max;
-    cells_.lay_out(min, max, pass_.periodic, rules_.levels, count_);
-    const auto key_of = [&](std::size_t i) {
-      return is_nowhere(records_[i]) ? cells_.key_end() : cells_.key_of(vec_cast<double>(records_[i].x), 0);
-    };
     // The buffer for the next state is free until the records are permuted into it.
-    cells_.sort(count_, key_of, order_, std::as_writable_bytes(std::span(next_)));
+    order_ = list_.sort(records_.data(), count_, min, max, std::as_writable_bytes(std::span(next_)));
     count_ = alive_;
     permute(records_, next_);
-    std::fill(records_.begin() + static_cast<std::ptrdiff_t>(count_), records_.end(), nowhere_record<Real>(Real(0)));
-    std::fill(next_.begin() + static_cast<std::ptrdiff_t>(count_), next_.end(), nowhere_record<Real>(Real(0)));
+    fill_unused(records_);
+    fill_unused(next_);
     if (verlet()) {
-      std::vector<Vec3<Real>> sorted(acceleration_.size());
+      LargeVector<Vec3<Real>> sorted(acceleration_.size());
       permute(acceleration_, sorted);
     }
     return {};
   }
 
   template <class T>
-  void permute(std::vector<T>& column, std::vector<T>& scratch) const {
+  void permute(LargeVector<T>& column, LargeVector<T>& scratch) const {
     parallel_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) scratch[i] = column[order_[i]];
     });
@@ -319,118 +311,30 @@ class CpuBackend final : public Backend {
 
   void list_neighbours() {
     const Stopwatch listing(times_.list);
-    // A pack more than there are particles, for searches to read.
-    listed_at_.resize(padded(count_) + kLanes);
-    std::vector<std::uint32_t>& ranks = order_;  // of no use any more as the order of the sort
-    ranks.reserve(padded(count_) + kLanes);  // a growing vector would take twice that
-    ranks.resize(padded(count_) + kLanes);
-    radii_.resize(rules_.largest_radius > rules_.smallest_radius ? padded(count_) + kLanes : 0);
-    parallel_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        listed_at_.put(i, records_[i].x);
-        ranks[i] = rank_of(records_[i].rank);
-        if (!radii_.empty()) radii_[i] = rules_.materials[static_cast<std::size_t>(records_[i].material)].radius;
-      }
-    });
-
-    NeighbourRule<Real> rule = touching_rule();
-    rule.at = listed_at_.columns();
-    rule.reach += static_cast<Real>(rules_.skin);
-    build_neighbour_list(cells_, rule, loops_.search_group, list_);
-
-    listed_ = true;
-    restless_.clear();
-    motion_laid_out_ = false;
-    ++rebuilds_;
+    list_.build(records_.data(), count_, records_.size());
   }
 
-  // Finds who touches where the records are now.
-  NeighbourRule<Real> touching_rule() const {
-    constexpr double kRounding = 1e-3;
-    NeighbourRule<Real> rule;
-    rule.records = &records_.data()->x.x;
-    rule.radius = radii_.empty() ? nullptr : radii_.data();
-    rule.rank = order_.data();
-    rule.reach =
-        static_cast<Real>(kRounding * rules_.smallest_radius + (radii_.empty() ? 2 * rules_.largest_radius : 0));
-    std::copy(std::begin(pass_.periodic), std::end(pass_.periodic), rule.periodic);
-    rule.length = pass_.length;
-    rule.list_self = pass_.periodic_kind == PeriodicKind::images;
-    rule.stride = record_offset<Real>(1);
-    rule.dummy = static_cast<std::uint32_t>(records_.size() - 1);
-    return rule;
-  }
-
-  bool is_restless(std::size_t s, std::size_t g) const {
-    const std::size_t group = s * kGroups + g;
-    return group < restless_.size() && restless_[group] != 0;
-  }
-
-  // The rows of group g of segment s: the list's, or where that may miss a contact those of whoever touches now.
-  std::span<const std::uint32_t> rows_of(std::size_t s, std::size_t g, Searcher& searcher) const {
-    if (!is_restless(s, g)) return list_.rows(s, g);
-    const std::size_t first = s * kSegment + g * kLanes;
-    return searcher.rows(first, std::min(first + kLanes, count_));
-  }
-
-  // How far a record has moved since its neighbours were listed, m.
-  Vec3<Real> displacement(const Record& p, std::size_t i) const {
-    const Vec3<Real> from = listed_at_[i];
-    Vec3<Real> moved = p.x - from;
-    if (pass_.periodic_kind == PeriodicKind::none) return moved;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!pass_.periodic[axis]) continue;
-      const Real now = component(p.x, axis), then = component(from, axis);
-      const Real length = component(pass_.length, axis);
-      component(moved, axis) = image_displacement(now, then, nearest_image(now, then, length), length);
-    }
-    return moved;
-  }
-
-  bool has_moved_far(const Record& p, std::size_t i) const {
-    if (!listed_) return false;
-    const Vec3<Real> moved = displacement(p, i);
-    return !(dot(moved, moved) <= pass_.stale_distance2);
-  }
-
-  // How much of the list can be trusted, now that some particle has moved by more than half a skin: all of it where its
-  // surroundings have moved along.
-  void judge_list() {
-    const Stopwatch judging(times_.motion);
-    threads_.run([&] {
-      if (!motion_laid_out_) {
-        motion_.lay_out(listed_at_.columns(), count_, motion_limits_);
-        motion_laid_out_ = true;
-      }
-      const Trust trust = motion_.judge(
-          [&](std::size_t i, Vec3<Real>& u) {
-            if (is_nowhere(records_[i])) return false;
-            u = displacement(records_[i], i);
-            return true;
-          },
-          kLanes, restless_, std::as_writable_bytes(std::span(next_).first(count_)));
-      if (trust != Trust::some) restless_.clear();
-      // A search of its own takes a group some three times as long as its share of a new list.
-      constexpr std::size_t kFewOf = 8;
-      const auto restless = static_cast<std::size_t>(std::count(restless_.begin(), restless_.end(), 1));
-      listed_ = trust != Trust::none && restless * kFewOf < padded(count_) / kLanes;
-    });
+  void follow_motion() {
+    const Stopwatch following(times_.motion);
+    threads_.run([&] { list_.moved(records_.data()); });
+    if (check_list_ && list_.good()) missed_contacts_ += list_.count_missed(records_.data());
   }
 
   // The force pass and what it reports -------------------------------------------------------------------------------
 
-  void run_segment(std::size_t s, Searcher& searcher, SegmentReport& report) const {
+  void run_segment(std::size_t s, SegmentReport& report) const {
     const std::size_t groups = std::min(kGroups, (count_ - s * kSegment + kLanes - 1) / kLanes);
     report.notes.fill(0);
+    report.far.fill(0);
     for (std::size_t g = 0; g < groups;) {
       std::size_t end = g + 1;
-      if (is_restless(s, g)) {
-        const auto rows = rows_of(s, g, searcher);
+      if (list_.is_mended(s, g)) {
+        const auto rows = list_.rows(s, g);
         const std::uint32_t first_row[2] = {0, static_cast<std::uint32_t>(rows.size() / kLanes)};
         run_groups(s, g, end, rows.data(), first_row, report);
       } else {
-        while (end < groups && !is_restless(s, end)) ++end;
-        run_groups(s, g, end, list_.segments[s].entries, list_.segments[s].first_row.data() + g, report);
+        while (end < groups && !list_.is_mended(s, end)) ++end;
+        run_groups(s, g, end, list_.segment(s).entries, list_.segment(s).first_row.data() + g, report);
       }
       g = end;
     }
@@ -444,17 +348,19 @@ class CpuBackend final : public Backend {
     work.rows = rows;
     work.first_row = first_row;
     work.notes = report.notes.data() + g;
+    work.far = report.far.data() + g;
     work.dissipated = report.dissipated.data() + g * kLanes;
     work.wall_power = report.wall_power.data() + g * kLanes;
     for (std::size_t axis = 0; axis < 3; ++axis) work.wall_force[axis] = report.wall_force[axis].data() + g * kLanes;
     loops_.force_pass(pass_, work);
   }
 
-  void add_up(std::size_t s, const SegmentReport& report, StepSums& sums) const {
+  // `dissipated` takes the dashpots' part, which every particle has, apart from the other sums.
+  void add_up(std::size_t s, const SegmentReport& report, StepSums& sums, ExactSumOf<Real>& dissipated) const {
     const std::size_t first = s * kSegment;
     const std::size_t n = std::min(kSegment, count_ - first);
     for (std::size_t k = 0; k < n; ++k) {
-      sums.dissipated_power.add(report.dissipated[k]);
+      dissipated.add(report.dissipated[k]);
       if ((report.notes[k / kLanes] & kTouchesWall) != 0) {
         sums.wall_power.add(report.wall_power[k]);
         sums.wall_force.add({report.wall_force[0][k], report.wall_force[1][k], report.wall_force[2][k]});
@@ -468,9 +374,9 @@ class CpuBackend final : public Backend {
   }
 
   // The approach that was too fast, if one was: in double precision, each pair by its own limit.
-  Condition look_closely(std::size_t s, std::size_t g, Searcher& searcher) const {
+  Condition look_closely(std::size_t s, std::size_t g) const {
     const ContactScan<Real> scan(pass_, records_.data());
-    const auto rows = rows_of(s, g, searcher);
+    const auto rows = list_.rows(s, g);
     Condition found;
     const std::size_t first = s * kSegment + g * kLanes;
     for (std::size_t i = first; i < std::min(first + kLanes, count_); ++i) {
@@ -515,18 +421,18 @@ class CpuBackend final : public Backend {
   // Accelerations a(x, v) of the particles that have none of a last step.
   Condition evaluate_accelerations(std::uint64_t first_new_id) {
     if (const Condition found = build_neighbours(); !found.good()) return found;
-    std::vector<Vec3<Real>> evaluated(acceleration_.size());
+    LargeVector<Vec3<Real>> evaluated(acceleration_.size());
     StepSums sums;
     aim_pass(evaluated.data());
-    const NeighbourRule<Real> touching = touching_rule();
-    for_ranges(list_.segments.size(), 1, [&](std::size_t first, std::size_t last) {
-      Searcher searcher(cells_, listed_at_.columns(), touching, loops_.search_group, rules_.found_distance);
+    for_ranges(list_.segment_count(), 1, [&](std::size_t first, std::size_t last) {
       SegmentReport report;
       StepSums part;
+      ExactSumOf<Real> dissipated;
       for (std::size_t s = first; s < last; ++s) {
-        run_segment(s, searcher, report);
-        add_up(s, report, part);
+        run_segment(s, report);
+        add_up(s, report, part, dissipated);
       }
+      part.dissipated_power.add(dissipated);
       const std::lock_guard lock(mutex_);
       sums.add(part);
     });
@@ -585,6 +491,7 @@ class CpuBackend final : public Backend {
   std::string isa_name_;
   Loops<Real> loops_;
   mutable Threads threads_;
+  bool check_list_;
   mutable std::mutex mutex_;  // around the totals of a pass
 
   Scene scene_;
@@ -595,21 +502,13 @@ class CpuBackend final : public Backend {
   std::size_t count_ = 0;  // records in use, those gone since the last sort included
   std::size_t alive_ = 0;
   double total_mass_ = 0;  // kg, of those alive
-  std::vector<Record> records_, next_;  // the state, and where a pass writes the next; both end with a dummy
-  std::vector<Vec3<Real>> acceleration_;  // velocity Verlet only, m/s^2
+  LargeVector<Record> records_, next_;  // the state, and where a pass writes the next; both end with a dummy
+  LargeVector<Vec3<Real>> acceleration_;  // velocity Verlet only, m/s^2
   Ledger ledger_;
 
-  CellList cells_;
-  std::vector<std::uint32_t> order_;  // while sorting: where each was before; then: ranks
-  NeighbourList list_;
-  std::vector<Real> radii_;  // m, likewise; empty where all are the same
-  ColumnStore<Real> listed_at_;  // positions, m
-  bool listed_ = false;
-  std::vector<unsigned char> restless_;  // by group: 1 where the list may miss a contact; empty where it misses none
-  MotionBounds<Real> motion_;  // since the list was built
-  typename MotionBounds<Real>::Limits motion_limits_;
-  bool motion_laid_out_ = false;
-  std::uint64_t rebuilds_ = 0;
+  VerletList<Real> list_;
+  std::span<const std::uint32_t> order_;  // of the last sort, while it is in use
+  std::uint64_t missed_contacts_ = 0;
   StageTimes times_;
 };
 
@@ -625,9 +524,9 @@ Expected<std::unique_ptr<Backend>> make_cpu_backend(const CpuOptions& options) {
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int threads = options.threads > 0 ? options.threads : cores;
   if (options.precision == Precision::single_precision) {
-    return std::make_unique<CpuBackend<float>>(*isa, isa->single_loops, threads);
+    return std::make_unique<CpuBackend<float>>(*isa, isa->single_loops, threads, options.check_list);
   }
-  return std::make_unique<CpuBackend<double>>(*isa, isa->double_loops, threads);
+  return std::make_unique<CpuBackend<double>>(*isa, isa->double_loops, threads, options.check_list);
 }
 
 }  // namespace hooke

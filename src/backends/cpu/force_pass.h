@@ -7,6 +7,7 @@
 
 #include "hooke/backends/cpu/particle_record.h"
 #include "hooke/base/vec3.h"
+#include "hooke/neighbours/group_anchor.h"
 #include "hooke/neighbours/group_search.h"
 
 namespace hooke {
@@ -56,7 +57,8 @@ struct ForcePass {
   int images[3]{};                            // PeriodicKind::images: -n to n are looked at
   PeriodicKind periodic_kind = PeriodicKind::none;
   Real speed_limit{};                         // m/s: contacts that approach faster are looked at closely
-  Real stale_distance2{};                     // m^2: the list may miss a contact once a particle moved further
+  const GroupAnchor<Real>* anchors = nullptr; // a group each: where its particles are expected
+  Real next_step{};                           // steps of the anchors, this pass's drift included
 };
 
 /// What a group has to say beside its new state.
@@ -64,7 +66,6 @@ enum GroupNote : unsigned char {
   kTouchesWall = 1,     // wall_force and wall_power hold something
   kLeftDomain = 2,      // a particle is outside an open or periodic face, or at no number
   kApproachTooFast = 4, // perhaps: look closely
-  kMovedFar = 8,        // the list is stale
 };
 
 /// The part of a pass that one thread does at a time: consecutive groups of 16 particles, their rows of the neighbour
@@ -76,9 +77,10 @@ struct SegmentWork {
   const std::uint32_t* rows = nullptr;
   const std::uint32_t* first_row = nullptr;  // group_count + 1
   unsigned char* notes = nullptr;            // GroupNote bits, one entry a group
-  Real* dissipated = nullptr;                // W, one entry a particle: half of its contacts', and its drag's
-  Real* wall_power = nullptr;                // W, one entry a particle, where kTouchesWall
-  Real* wall_force[3] = {};                  // N, likewise
+  std::uint16_t* far = nullptr;  // a bit a particle, one entry a group: further from its anchor than allowed
+  Real* dissipated = nullptr;  // W, one entry a particle: half of its contacts', and its drag's
+  Real* wall_power = nullptr;  // W, one entry a particle, where kTouchesWall
+  Real* wall_force[3] = {};  // N, likewise
 };
 
 template <class Real>

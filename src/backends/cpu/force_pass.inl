@@ -16,6 +16,8 @@
 namespace hooke::HOOKE_ISA {
 namespace {
 
+constexpr std::size_t kGroupLanes = 16;  // of the list: whole packs at every width
+
 // Some particles, one a lane.
 template <class Real>
 struct Lanes {
@@ -27,8 +29,7 @@ struct Lanes {
 
 template <class Real, class At>
 HOOKE_HD Lanes<Real> load_lanes(const At& at) {
-  const Quad<Real> position = load_quads(Real{}, at);
-  const Quad<Real> velocity = load_quads(Real{}, [&](int lane) { return at(lane) + 4; });
+  const auto [position, velocity] = load_two_quads(Real{}, at);
   return {{position.a, position.b, position.c}, position.d, {velocity.a, velocity.b, velocity.c}, velocity.d};
 }
 
@@ -52,18 +53,18 @@ template <class Real>
 struct Acting {
   Vec3<Pack<Real>> force{Pack<Real>(0), Pack<Real>(0), Pack<Real>(0)};
   Pack<Real> dissipated{Real(0)};
-  Mask<Real> too_fast{};
+  Mask<Real> too_fast{};  // or on the very same spot as another
 
   HOOKE_HD void add(const Mask<Real>& touching, const ContactForce<Pack<Real>>& contact) {
-    const Pack<Real> zero(Real(0));
-    force += Vec3<Pack<Real>>{select(touching, contact.force.x, zero), select(touching, contact.force.y, zero),
-                              select(touching, contact.force.z, zero)};
-    dissipated = dissipated + select(touching, contact.dissipation, zero);
+    force = {add_where(touching, force.x, contact.force.x), add_where(touching, force.y, contact.force.y),
+             add_where(touching, force.z, contact.force.z)};
+    dissipated = add_where(touching, dissipated, contact.dissipation);
   }
 };
 
-// Contacts with particles in ascending order of id. The two template flags drop what a scene does not need.
-template <class Real, bool kOneMaterial, PeriodicKind kPeriodic>
+// Contacts with particles in ascending order of id. The first two flags drop what a scene does not need, the third what
+// only coincident centres need.
+template <class Real, bool kOneMaterial, PeriodicKind kPeriodic, bool kTies>
 struct ContactLoop {
   using P = Pack<Real>;
   const ForcePass<Real>& pass;
@@ -74,11 +75,16 @@ struct ContactLoop {
     const P distance = sqrt_of(dot(x_ip, x_ip));
     const P overlap = reach - distance;
     const Mask<Real> touching = counts & (overlap > P(Real(0)));
-    const P tie = select(own.rank > other.rank, P(Real(1)), P(Real(-1)));
-    const Vec3<P> normal = contact_normal(x_ip, distance, tie);
+    Vec3<P> normal;
+    if constexpr (kTies) {
+      normal = contact_normal(x_ip, distance, select(own.rank > other.rank, P(Real(1)), P(Real(-1))));
+    } else {
+      normal = contact_normal(x_ip, distance);
+    }
     const Vec3<P> w = other.v - own.v;
     acting.add(touching, contact_force(overlap, normal, w, coefficients));
-    acting.too_fast = acting.too_fast | (touching & (dot(w, normal) > P(pass.speed_limit)));
+    // What is not a number, where centres coincide, counts.
+    acting.too_fast = acting.too_fast | (touching & !(dot(w, normal) <= P(pass.speed_limit)));
   }
 
   HOOKE_HD void neighbour(const Lanes<Real>& other, const ContactCoefficients<P>& coefficients, const P& reach,
@@ -117,10 +123,11 @@ struct ContactLoop {
     if constexpr (kOneMaterial) {
       const PairRow<Real>& only = pass.pairs[0];
       const ContactCoefficients<P> coefficients{P(only.stiffness), P(only.shear), P(only.damping)};
-      for (; row != end; row += 16) neighbour(load_neighbours(pass.in, row), coefficients, P(only.reach), acting);
+      for (; row != end; row += kGroupLanes)
+        neighbour(load_neighbours(pass.in, row), coefficients, P(only.reach), acting);
     } else {
       const P row_start = own.material * P(static_cast<Real>(pass.material_count));
-      for (; row != end; row += 16) {
+      for (; row != end; row += kGroupLanes) {
         const Lanes<Real> other = load_neighbours(pass.in, row);
         const Quad<Real> pair = load_rows(pass.pairs, row_start + other.material, 0);
         neighbour(other, coefficients_of(pair), pair.d, acting);
@@ -184,34 +191,38 @@ HOOKE_HD Mask<Real> left_domain(const ForcePass<Real>& pass, const Vec3<Pack<Rea
   return out;
 }
 
-// Mask of lanes further than half a skin from where the list was built; NaN counts as far.
+// Mask of lanes further from where they are expected than their group allows; NaN counts as far.
 template <class Real, PeriodicKind kPeriodic>
-HOOKE_HD Mask<Real> moved_far(const ForcePass<Real>& pass, const Vec3<Pack<Real>>& x, std::size_t first) {
+HOOKE_HD Mask<Real> is_far(const ForcePass<Real>& pass, const Vec3<Pack<Real>>& x, std::size_t first) {
   using P = Pack<Real>;
-  const Vec3<P> from{load(pass.listed_at.x + first), load(pass.listed_at.y + first), load(pass.listed_at.z + first)};
-  Vec3<P> moved = x - from;
+  const GroupAnchor<Real>& anchor = pass.anchors[first / kGroupLanes];
+  const Vec3<Real> moved = anchor.at(pass.next_step);
+  const Vec3<P> expected{load(pass.listed_at.x + first) + P(moved.x), load(pass.listed_at.y + first) + P(moved.y),
+                         load(pass.listed_at.z + first) + P(moved.z)};
+  Vec3<P> off = x - expected;
   if constexpr (kPeriodic != PeriodicKind::none) {
     const auto displacement = [&](const P& now, const P& then, bool periodic, Real length) {
       if (!periodic) return now - then;
       return image_displacement(now, then, nearest_image(now, then, P(length)), P(length));
     };
-    moved = {displacement(x.x, from.x, pass.periodic[0], pass.length.x),
-             displacement(x.y, from.y, pass.periodic[1], pass.length.y),
-             displacement(x.z, from.z, pass.periodic[2], pass.length.z)};
+    off = {displacement(x.x, expected.x, pass.periodic[0], pass.length.x),
+           displacement(x.y, expected.y, pass.periodic[1], pass.length.y),
+           displacement(x.z, expected.z, pass.periodic[2], pass.length.z)};
   }
-  return !(dot(moved, moved) <= P(pass.stale_distance2));
+  return !(dot(off, off) <= P(anchor.limit2(pass.next_step)));
 }
 
 template <class Real, bool kOneMaterial, PeriodicKind kPeriodic>
 HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& work, std::size_t slot,
-                       const std::uint32_t* row, const std::uint32_t* end, unsigned char& notes) {
+                       const std::uint32_t* row, const std::uint32_t* end, unsigned char& notes, unsigned& far) {
   using P = Pack<Real>;
   const std::size_t first = work.first + slot;
   const Real* own_record = reinterpret_cast<const Real*>(pass.in + first);
   const Lanes<Real> own = load_lanes<Real>([=](int lane) { return own_record + 8 * lane; });
   const Mask<Real> present = own.x.x < P(static_cast<Real>(kNowhere));
 
-  Acting<Real> acting = ContactLoop<Real, kOneMaterial, kPeriodic>{pass, own}.run(row, end);
+  Acting<Real> acting = ContactLoop<Real, kOneMaterial, kPeriodic, false>{pass, own}.run(row, end);
+  if (any(acting.too_fast)) acting = ContactLoop<Real, kOneMaterial, kPeriodic, true>{pass, own}.run(row, end);
   acting.dissipated = P(Real(0.5)) * acting.dissipated;
 
   Quad<Real> wall_row, body_row;
@@ -242,7 +253,7 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
     v = kick(own.v, a, dt);
     x = drift(own.x, v, dt);
     if (any(present & left_domain(pass, x))) notes |= kLeftDomain;
-    if (any(present & moved_far<Real, kPeriodic>(pass, x, first))) notes |= kMovedFar;
+    far |= bits(present & is_far<Real, kPeriodic>(pass, x, first)) << slot % kGroupLanes;
   }
   if (any(acting.too_fast)) notes |= kApproachTooFast;
 
@@ -257,15 +268,16 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
 
 template <class Real, bool kOneMaterial, PeriodicKind kPeriodic>
 void run_segment(const ForcePass<Real>& pass, const SegmentWork<Real>& work) {
-  constexpr std::size_t kLanes = 16;  // of the list: whole packs at every width
   for (std::size_t g = 0; g < work.group_count; ++g) {
     unsigned char notes = 0;
-    for (std::size_t half = 0; half < kLanes; half += Pack<Real>::kLanes) {
-      const std::uint32_t* row = work.rows + std::size_t{work.first_row[g]} * kLanes + half;
-      const std::uint32_t* end = work.rows + std::size_t{work.first_row[g + 1]} * kLanes + half;
-      run_pack<Real, kOneMaterial, kPeriodic>(pass, work, g * kLanes + half, row, end, notes);
+    unsigned far = 0;
+    for (std::size_t half = 0; half < kGroupLanes; half += Pack<Real>::kLanes) {
+      const std::uint32_t* row = work.rows + std::size_t{work.first_row[g]} * kGroupLanes + half;
+      const std::uint32_t* end = work.rows + std::size_t{work.first_row[g + 1]} * kGroupLanes + half;
+      run_pack<Real, kOneMaterial, kPeriodic>(pass, work, g * kGroupLanes + half, row, end, notes, far);
     }
     work.notes[g] = notes;
+    work.far[g] = static_cast<std::uint16_t>(far);
   }
 }
 

@@ -33,23 +33,31 @@ struct Registers;
 template <>
 struct Registers<float> {
   using Numbers = FloatVector;
+#if defined(__AVX512F__)
+  using Truths = __mmask16;
+#else
   using Truths = Int32Vector;
+#endif
 };
 template <>
 struct Registers<double> {
   using Numbers = DoubleVector;
+#if defined(__AVX512F__)
+  using Truths = __mmask8;
+#else
   using Truths = Int64Vector;
+#endif
 };
 
-/// One truth value a lane: all bits set or none.
+/// One truth value a lane: a bit, or all bits set or none.
 template <class Real>
 struct Mask {
-  using Vector = typename Registers<Real>::Truths;
-  Vector v;
+  using Bits = typename Registers<Real>::Truths;
+  Bits v;
 
-  friend HOOKE_HD Mask operator&(const Mask& a, const Mask& b) { return {a.v & b.v}; }
-  friend HOOKE_HD Mask operator|(const Mask& a, const Mask& b) { return {a.v | b.v}; }
-  friend HOOKE_HD Mask operator!(const Mask& a) { return {~a.v}; }
+  friend HOOKE_HD Mask operator&(const Mask& a, const Mask& b) { return {static_cast<Bits>(a.v & b.v)}; }
+  friend HOOKE_HD Mask operator|(const Mask& a, const Mask& b) { return {static_cast<Bits>(a.v | b.v)}; }
+  friend HOOKE_HD Mask operator!(const Mask& a) { return {static_cast<Bits>(~a.v)}; }
 };
 
 /// As many Reals as a register holds, one a lane. Behaves like one number in the laws.
@@ -69,36 +77,117 @@ struct Pack {
   friend HOOKE_HD Pack operator*(const Pack& a, const Pack& b) { return Pack(a.v * b.v); }
   friend HOOKE_HD Pack operator/(const Pack& a, const Pack& b) { return Pack(a.v / b.v); }
   friend HOOKE_HD Pack operator-(const Pack& a) { return Pack(-a.v); }
-  friend HOOKE_HD Mask<Real> operator<(const Pack& a, const Pack& b) { return {a.v < b.v}; }
-  friend HOOKE_HD Mask<Real> operator>(const Pack& a, const Pack& b) { return {a.v > b.v}; }
-  friend HOOKE_HD Mask<Real> operator<=(const Pack& a, const Pack& b) { return {a.v <= b.v}; }
-  friend HOOKE_HD Mask<Real> operator>=(const Pack& a, const Pack& b) { return {a.v >= b.v}; }
-  friend HOOKE_HD Mask<Real> operator==(const Pack& a, const Pack& b) { return {a.v == b.v}; }
-  friend HOOKE_HD Pack select(const Mask<Real>& m, const Pack& a, const Pack& b) { return Pack(m.v ? a.v : b.v); }
 };
+
+#if defined(__AVX512F__)
+
+// compare(a, b, how): a truth value a lane; `how` is one of the instruction set's predicates.
+template <int kHow>
+HOOKE_HD Mask<float> compare(const Pack<float>& a, const Pack<float>& b) {
+  return {_mm512_cmp_ps_mask(a.v, b.v, kHow)};
+}
+template <int kHow>
+HOOKE_HD Mask<double> compare(const Pack<double>& a, const Pack<double>& b) {
+  return {_mm512_cmp_pd_mask(a.v, b.v, kHow)};
+}
+template <class Real>
+HOOKE_HD Mask<Real> operator<(const Pack<Real>& a, const Pack<Real>& b) {
+  return compare<_CMP_LT_OQ>(a, b);
+}
+template <class Real>
+HOOKE_HD Mask<Real> operator>(const Pack<Real>& a, const Pack<Real>& b) {
+  return compare<_CMP_GT_OQ>(a, b);
+}
+template <class Real>
+HOOKE_HD Mask<Real> operator<=(const Pack<Real>& a, const Pack<Real>& b) {
+  return compare<_CMP_LE_OQ>(a, b);
+}
+template <class Real>
+HOOKE_HD Mask<Real> operator>=(const Pack<Real>& a, const Pack<Real>& b) {
+  return compare<_CMP_GE_OQ>(a, b);
+}
+template <class Real>
+HOOKE_HD Mask<Real> operator==(const Pack<Real>& a, const Pack<Real>& b) {
+  return compare<_CMP_EQ_OQ>(a, b);
+}
+HOOKE_HD Pack<float> select(const Mask<float>& m, const Pack<float>& a, const Pack<float>& b) {
+  return Pack<float>(_mm512_mask_blend_ps(m.v, b.v, a.v));
+}
+HOOKE_HD Pack<double> select(const Mask<double>& m, const Pack<double>& a, const Pack<double>& b) {
+  return Pack<double>(_mm512_mask_blend_pd(m.v, b.v, a.v));
+}
+
+/// a + b where m holds, else a.
+HOOKE_HD Pack<float> add_where(const Mask<float>& m, const Pack<float>& a, const Pack<float>& b) {
+  return Pack<float>(_mm512_mask_add_ps(a.v, m.v, a.v, b.v));
+}
+HOOKE_HD Pack<double> add_where(const Mask<double>& m, const Pack<double>& a, const Pack<double>& b) {
+  return Pack<double>(_mm512_mask_add_pd(a.v, m.v, a.v, b.v));
+}
+
+#else
+
+template <class Real>
+HOOKE_HD Mask<Real> operator<(const Pack<Real>& a, const Pack<Real>& b) {
+  return {a.v < b.v};
+}
+template <class Real>
+HOOKE_HD Mask<Real> operator>(const Pack<Real>& a, const Pack<Real>& b) {
+  return {a.v > b.v};
+}
+template <class Real>
+HOOKE_HD Mask<Real> operator<=(const Pack<Real>& a, const Pack<Real>& b) {
+  return {a.v <= b.v};
+}
+template <class Real>
+HOOKE_HD Mask<Real> operator>=(const Pack<Real>& a, const Pack<Real>& b) {
+  return {a.v >= b.v};
+}
+template <class Real>
+HOOKE_HD Mask<Real> operator==(const Pack<Real>& a, const Pack<Real>& b) {
+  return {a.v == b.v};
+}
+template <class Real>
+HOOKE_HD Pack<Real> select(const Mask<Real>& m, const Pack<Real>& a, const Pack<Real>& b) {
+  return Pack<Real>(m.v ? a.v : b.v);
+}
+
+/// a + b where m holds, else a: of what is not -0, so that adding 0 does not alter it.
+template <class Real>
+HOOKE_HD Pack<Real> add_where(const Mask<Real>& m, const Pack<Real>& a, const Pack<Real>& b) {
+  return a + select(m, b, Pack<Real>(Real(0)));
+}
+
+#endif
 
 #if defined(__AVX512F__)
 
 HOOKE_HD Pack<float> sqrt_of(const Pack<float>& a) { return Pack<float>(_mm512_sqrt_ps(a.v)); }
 HOOKE_HD Pack<double> sqrt_of(const Pack<double>& a) { return Pack<double>(_mm512_sqrt_pd(a.v)); }
-HOOKE_HD bool any(const Mask<float>& m) { return _mm512_test_epi32_mask((__m512i)m.v, (__m512i)m.v) != 0; }
-HOOKE_HD bool any(const Mask<double>& m) { return _mm512_test_epi64_mask((__m512i)m.v, (__m512i)m.v) != 0; }
+HOOKE_HD unsigned bits(const Mask<float>& m) { return m.v; }
+HOOKE_HD unsigned bits(const Mask<double>& m) { return m.v; }
 
 #elif defined(__AVX2__)
 
 HOOKE_HD Pack<float> sqrt_of(const Pack<float>& a) { return Pack<float>(_mm256_sqrt_ps(a.v)); }
 HOOKE_HD Pack<double> sqrt_of(const Pack<double>& a) { return Pack<double>(_mm256_sqrt_pd(a.v)); }
-HOOKE_HD bool any(const Mask<float>& m) { return _mm256_movemask_ps((__m256)m.v) != 0; }
-HOOKE_HD bool any(const Mask<double>& m) { return _mm256_movemask_pd((__m256d)m.v) != 0; }
+HOOKE_HD unsigned bits(const Mask<float>& m) { return static_cast<unsigned>(_mm256_movemask_ps((__m256)m.v)); }
+HOOKE_HD unsigned bits(const Mask<double>& m) { return static_cast<unsigned>(_mm256_movemask_pd((__m256d)m.v)); }
 
 #else
 
 HOOKE_HD Pack<float> sqrt_of(const Pack<float>& a) { return Pack<float>(_mm_sqrt_ps(a.v)); }
 HOOKE_HD Pack<double> sqrt_of(const Pack<double>& a) { return Pack<double>(_mm_sqrt_pd(a.v)); }
-HOOKE_HD bool any(const Mask<float>& m) { return _mm_movemask_ps((__m128)m.v) != 0; }
-HOOKE_HD bool any(const Mask<double>& m) { return _mm_movemask_pd((__m128d)m.v) != 0; }
+HOOKE_HD unsigned bits(const Mask<float>& m) { return static_cast<unsigned>(_mm_movemask_ps((__m128)m.v)); }
+HOOKE_HD unsigned bits(const Mask<double>& m) { return static_cast<unsigned>(_mm_movemask_pd((__m128d)m.v)); }
 
 #endif
+
+// bits() has a bit a lane.
+template <class Real>
+HOOKE_HD bool any(const Mask<Real>& m) {
+  return bits(m) != 0;
+}
 
 /// Four packs: what a 4 x 4 transpose of quads gives, and takes.
 template <class Real>
@@ -236,6 +325,47 @@ HOOKE_HD void store_quads(const Quad<double>& q, const At& at) {
   }
 }
 
+/// Two quads behind each other, e.g. a particle's record: `at(lane)` is the address of the lane's eight numbers.
+template <class Real>
+struct TwoQuads {
+  Quad<Real> first, second;
+};
+
+#if defined(__AVX512F__)
+
+// A register holds the records of lanes k and k + 4: quads first, second, first, second. What four such registers give
+// when transposed is put together with what the other four give.
+template <class At>
+HOOKE_HD TwoQuads<float> load_two_quads(float, const At& at) {
+  const auto two = [&](int low, int high) {
+    const __m512d part = _mm512_castpd256_pd512(_mm256_castps_pd(_mm256_load_ps(at(low))));
+    return _mm512_castpd_ps(_mm512_insertf64x4(part, _mm256_castps_pd(_mm256_load_ps(at(high))), 1));
+  };
+  const Quad<float> low = transpose(two(0, 4), two(1, 5), two(2, 6), two(3, 7));
+  const Quad<float> high = transpose(two(8, 12), two(9, 13), two(10, 14), two(11, 15));
+  const auto first = [](const Pack<float>& a, const Pack<float>& b) {
+    return Pack<float>(_mm512_shuffle_f32x4(a.v, b.v, 0x88));
+  };
+  const auto second = [](const Pack<float>& a, const Pack<float>& b) {
+    return Pack<float>(_mm512_shuffle_f32x4(a.v, b.v, 0xdd));
+  };
+  return {{first(low.a, high.a), first(low.b, high.b), first(low.c, high.c), first(low.d, high.d)},
+          {second(low.a, high.a), second(low.b, high.b), second(low.c, high.c), second(low.d, high.d)}};
+}
+template <class At>
+HOOKE_HD TwoQuads<double> load_two_quads(double, const At& at) {
+  return {load_quads(double{}, at), load_quads(double{}, [&](int lane) { return at(lane) + 4; })};
+}
+
+#else
+
+template <class Real, class At>
+HOOKE_HD TwoQuads<Real> load_two_quads(Real, const At& at) {
+  return {load_quads(Real{}, at), load_quads(Real{}, [&](int lane) { return at(lane) + 4; })};
+}
+
+#endif
+
 /// Consecutive numbers, one a lane, at any address.
 template <class Real>
 HOOKE_HD Pack<Real> load(const Real* from) {
@@ -363,8 +493,7 @@ typedef std::uint64_t LongVector __attribute__((vector_size(kPackBytes)));
 
 /// Doubles with these upper and lower halves.
 HOOKE_HD Pack<double> join_halves(const WordVector& upper, const WordVector& lower) {
-  const LongVector bits =
-      __builtin_convertvector(upper, LongVector) << 32 | __builtin_convertvector(lower, LongVector);
+  const LongVector bits = __builtin_convertvector(upper, LongVector) << 32 | __builtin_convertvector(lower, LongVector);
   return Pack<double>((DoubleVector)bits);
 }
 HOOKE_HD Pack<double> load_bits(const std::uint64_t* from) {
@@ -374,9 +503,7 @@ HOOKE_HD Pack<double> load_bits(const std::uint64_t* from) {
 }
 HOOKE_HD void store_bits(std::uint64_t* to, const Pack<double>& a) { __builtin_memcpy(to, &a.v, sizeof(a.v)); }
 /// The lower 32 bits of each lane.
-HOOKE_HD WordVector lower_half(const Pack<double>& a) {
-  return __builtin_convertvector((LongVector)a.v, WordVector);
-}
+HOOKE_HD WordVector lower_half(const Pack<double>& a) { return __builtin_convertvector((LongVector)a.v, WordVector); }
 HOOKE_HD WordVector load_words(const std::uint32_t* from) {
   WordVector a;
   __builtin_memcpy(&a, from, sizeof(a));

@@ -10,7 +10,6 @@
 
 #include "hooke/backends/cpu/force_pass.h"
 #include "hooke/core/scene.h"
-#include "hooke/neighbours/cell_list.h"
 
 namespace hooke {
 
@@ -20,11 +19,7 @@ struct PassRules {
   std::vector<PairRow<Real>> pairs;  ///< materials squared
   std::vector<MaterialRow<Real>> materials;
   double largest_radius = 0, smallest_radius = 1;  ///< m
-  double skin = 0;          ///< m, of the neighbour list
-  double trusted_skin = 0;  ///< m, less what the rounding of distances may take
-  double found_distance =
-      0;  ///< m: a search in the cells up to two away finds whoever moved by less towards each other
-  std::vector<CellList::Level> levels;
+  double rounding = 0;  ///< m, of displacements across a periodic axis
   bool has_drag = false;
   ForcePass<Real> pass;  ///< all but the buffers
 
@@ -38,9 +33,6 @@ struct PassRules {
   }
 
  private:
-  // Skin as a part of the smallest diameter. Larger: fewer rebuilds, longer rows.
-  static constexpr double kSkin = 0.35;
-
   static Real real(double value) { return static_cast<Real>(value); }
 
   void configure_materials(const Scene& scene) {
@@ -76,7 +68,7 @@ struct PassRules {
   }
 
   void configure_domain(const Domain& domain) {
-    double rounding = 0;  // of displacements across a periodic axis, m
+    rounding = 0;
     pass.min = vec_cast<Real>(domain.min);
     pass.max = vec_cast<Real>(domain.max);
     pass.length = pass.max - pass.min;
@@ -95,12 +87,6 @@ struct PassRules {
       if (pass.periodic_kind == PeriodicKind::none) pass.periodic_kind = PeriodicKind::nearest;
       rounding = std::max(rounding, 4 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * length);
     }
-    // A pair may just meet once its two have moved a skin towards each other; a thousandth covers rounding.
-    skin = kSkin * 2 * smallest_radius;
-    levels = {{largest_radius, 2 * largest_radius + skin}};
-    trusted_skin = std::max(0.0, 0.999 * skin - 2 * rounding);
-    found_distance = std::max(0.0, 0.999 * (2 * largest_radius + 2 * skin) - 2 * rounding);
-    pass.stale_distance2 = real(trusted_skin * trusted_skin / 4);
   }
 };
 

@@ -1,0 +1,360 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "hooke/backends/cpu/column_store.h"
+#include "hooke/backends/cpu/pass_rules.h"
+#include "hooke/backends/cpu/stray_pairs.h"
+#include "hooke/base/huge_pages.h"
+#include "hooke/base/parallel.h"
+#include "hooke/neighbours/cell_list.h"
+#include "hooke/neighbours/motion_bounds.h"
+#include "hooke/neighbours/neighbour_list.h"
+
+namespace hooke {
+
+/// A neighbour list with a skin (Verlet, "Computer experiments on classical fluids", Phys. Rev. 159, 98, 1967), and
+/// what it takes to trust it for many steps. While every particle stays near its group's anchor (motion_bounds.h) the
+/// list misses nothing. Particles that stray are looked after one by one: in every step each looks for whoever touches
+/// it, and rows that lack the pair are mended. A new list is built when strays have become too many to be worth it.
+///
+/// Which pairs are listed when changes no result: those that don't touch add an exact zero.
+template <class Real>
+class VerletList {
+  using Record = ParticleRecord<Real>;
+  static constexpr std::size_t kLanes = NeighbourList::kLanes;
+  static constexpr std::size_t kGroups = NeighbourList::kGroups;
+
+ public:
+  using Anchor = GroupAnchor<Real>;
+
+  void configure(const PassRules<Real>& rules, GroupSearchFunction<Real> search) {
+    rules_ = &rules;
+    search_ = search;
+    skin_ratio_ = kFirstSkin;
+    listed_ = false;
+  }
+
+  /// Whether it holds every pair that touches where particles are now.
+  bool good() const { return listed_; }
+  void forget() { listed_ = false; }
+
+  /// Sorts `count` particles inside the box [min, max] (m) into cells; those that are nowhere come last. Returns the
+  /// order: which particle is to be the k-th. Until build(), works in `scratch`.
+  std::span<const std::uint32_t> sort(const Record* records, std::size_t count, Vec3d min, Vec3d max,
+                                      std::span<std::byte> scratch) {
+    choose_skin();
+    limits_.min = min;
+    limits_.max = max;
+    lay_out_cells(cells_, 2 * rules_->largest_radius + skin_, count);
+    cells_.sort(count, key_of(cells_, records), order_, scratch);
+    return order_;
+  }
+
+  /// Lists the neighbours of the first `count` particles, which lie in the order that sort() gave. `records` ends with
+  /// the one that fills short lanes, the last of `size`.
+  void build(const Record* records, std::size_t count, std::size_t size) {
+    count_ = count;
+    filling_ = record_offset<Real>(static_cast<std::uint32_t>(size - 1));
+    // A pack more than there are particles, for searches to read.
+    const std::size_t room = (count + kLanes - 1) / kLanes * kLanes + kLanes;
+    listed_at_.resize(room);
+    std::vector<std::uint32_t>& ranks = order_;  // of no use any more as the order of the sort
+    ranks.reserve(room);  // a growing vector would take twice that
+    ranks.resize(room);
+    radii_.resize(rules_->largest_radius > rules_->smallest_radius ? room : 0);
+    parallel_ranges(count, NeighbourList::kSegment, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        listed_at_.put(i, records[i].x);
+        ranks[i] = rank_of(records[i].rank);
+        if (!radii_.empty()) radii_[i] = radius_of(records[i]);
+      }
+    });
+    build_neighbour_list(cells_, neighbour_rule(), search_, list_);
+
+    limits_.diameter = 2 * rules_->largest_radius;
+    limits_.skin = std::max(0.0, 0.999 * skin_ - 2 * rules_->rounding);  // a thousandth covers rounding
+    std::copy(std::begin(rules_->pass.periodic), std::end(rules_->pass.periodic), limits_.periodic);
+    motion_.lay_out(listed_at_.columns(), count, kLanes, limits_);
+    const std::size_t groups = (count + kLanes - 1) / kLanes;
+    anchors_.resize(groups);
+    moved_.resize(groups);
+    strayed_.resize(groups);
+    mended_.clear(groups);
+    const std::size_t many = count / kStrayCost + kLanes;  // a list with more strays does not last
+    strays_.reserve(many);
+    room_.reserve(many);
+    mended_.reserve(many);
+    age_ = 0;
+    spent_ = 0;
+    follow_helps_ = true;
+    listed_ = true;
+    ++builds_;
+    follow(records);
+  }
+
+  /// The rows of group g of segment s, as good as the list is.
+  std::span<const std::uint32_t> rows(std::size_t s, std::size_t g) const {
+    return is_mended(s, g) ? mended_.rows(s * kGroups + g) : list_.rows(s, g);
+  }
+  bool is_mended(std::size_t s, std::size_t g) const { return mended_.holds(s * kGroups + g); }
+  const NeighbourList::Segment& segment(std::size_t s) const { return list_.segments[s]; }
+  std::size_t segment_count() const { return list_.segments.size(); }
+  std::size_t entry_count() const { return list_.entry_count(); }
+  std::uint64_t build_count() const { return builds_; }
+
+  // Moving ----------------------------------------------------------------------------------------------------------
+
+  const Anchor* anchors() const { return anchors_.data(); }
+  Columns<Real> listed_at() const { return listed_at_.columns(); }
+  /// Steps that anchors will have gone once particles have moved by one step more.
+  Real next_step() const { return static_cast<Real>(steps_ + 1); }
+
+  /// Takes the lanes of a group that are further from its anchor than it allows: `far` has a bit a lane. Any thread may
+  /// call, one a group.
+  void note_far(std::size_t group, unsigned far) {
+    const unsigned news = far & ~unsigned{strayed_[group]};
+    if (news == 0) return;
+    strayed_[group] = static_cast<std::uint16_t>(strayed_[group] | far);
+    const std::lock_guard lock(mutex_);
+    for (unsigned left = news; left != 0; left &= left - 1) {
+      strays_.push_back(static_cast<std::uint32_t>(group * kLanes) +
+                        static_cast<std::uint32_t>(std::countr_zero(left)));
+    }
+  }
+  /// Whether particle i has moved, in its next step, further from its anchor than its group allows.
+  bool is_far(const Record& p, std::size_t i) const { return is_off(p, i, anchors_[i / kLanes], next_step()); }
+  /// All particles have moved by a step, and those that strayed are noted. Says in good() whether the list goes on.
+  void moved(const Record* records) {
+    if (!listed_) return;
+    ++steps_;
+    ++age_;
+    if (rules_->pass.periodic_kind == PeriodicKind::images && !strays_.empty()) return forget();
+    since_followed_ += kStrayCost * strays_.size();
+    if (steps_ > horizon_ || (follow_helps_ && since_followed_ * kFollowShare > count_)) {
+      const std::size_t before = strays_.size();
+      follow(records);
+      follow_helps_ = 2 * strays_.size() < before;
+    }
+    const std::size_t cost = kStrayCost * strays_.size();
+    spent_ += cost;
+    // What a step costs falls with the age of a list and rises with its strays: where both meet it has served best.
+    if (cost * age_ > count_ + spent_) return forget();
+    mend(records);
+  }
+
+  /// Pairs that touch and are not on the list, counted the long way; for tests of all this.
+  std::uint64_t count_missed(const Record* records) const {
+    CellList cells;
+    std::vector<std::uint32_t> order;
+    lay_out_cells(cells, 2 * rules_->largest_radius, count_);
+    cells.sort(count_, key_of(cells, records), order);
+    const StrayPairs<Real> pairs = stray_pairs(records);
+    std::atomic<std::uint64_t> missed{0};
+    parallel_ranges(count_, kLanes, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        if (is_nowhere(records[i])) continue;
+        const auto rows = this->rows(i / NeighbourList::kSegment, i % NeighbourList::kSegment / kLanes);
+        const Vec3d at = vec_cast<double>(records[i].x), reach = 2 * rules_->largest_radius * Vec3d{1, 1, 1};
+        std::vector<SearchRange> ranges;
+        cells.find(0, at - reach, at + reach, ranges);
+        for (const SearchRange& range : ranges) {
+          for (std::size_t k = range.from; k < range.to; ++k) {
+            const std::uint32_t p = order[k];
+            if (p != i && pairs.overlap(i, p) && !is_in_lane(rows, i % kLanes, record_offset<Real>(p))) ++missed;
+          }
+        }
+      }
+    });
+    return missed;
+  }
+
+ private:
+  // Costs, in units of what listing one particle takes.
+  static constexpr std::size_t kStrayCost = 6;  // looking after one stray for one step
+  static constexpr std::size_t kFollowShare = 9;  // following the particles takes this part of a build
+
+  // Skins as a part of the smallest diameter.
+  static constexpr double kFirstSkin = 0.25, kThinnestSkin = 0.12, kThickestSkin = 0.4;
+
+  Real radius_of(const Record& p) const { return rules_->materials[static_cast<std::size_t>(p.material)].radius; }
+
+  // The wider the skin, the longer a list lasts, and the longer are its rows. With rows as (1 + s)^3 and a force pass
+  // over rows without a skin at about a ninth of a build, the cost of a step is least where 1/3 s^2 (1 + s)^2 is the
+  // part of a diameter that neighbours move away from each other in a step: what the last list's skin allowed for as
+  // long as it lasted.
+  void choose_skin() {
+    if (age_ > 0) {
+      const double rate = skin_ratio_ / static_cast<double>(age_);
+      const double best = 0.5 * (std::sqrt(1 + 4 * std::sqrt(3 * rate)) - 1);
+      skin_ratio_ = std::clamp(0.5 * (skin_ratio_ + best), kThinnestSkin, kThickestSkin);
+      age_ = 0;
+    }
+    skin_ = skin_ratio_ * 2 * rules_->smallest_radius;
+  }
+
+  // Cells of one level, no narrower than `width` (m).
+  void lay_out_cells(CellList& cells, double width, std::size_t count) const {
+    const CellList::Level level{rules_->largest_radius, width};
+    cells.lay_out(limits_.min, limits_.max, rules_->pass.periodic, {&level, 1}, count);
+  }
+  static auto key_of(const CellList& cells, const Record* records) {
+    return [&cells, records](std::size_t i) {
+      return is_nowhere(records[i]) ? cells.key_end() : cells.key_of(vec_cast<double>(records[i].x), 0);
+    };
+  }
+
+  NeighbourRule<Real> neighbour_rule() const {
+    constexpr double kRounding = 1e-3;
+    NeighbourRule<Real> rule;
+    rule.at = listed_at_.columns();
+    rule.radius = radii_.empty() ? nullptr : radii_.data();
+    rule.rank = order_.data();
+    rule.reach = static_cast<Real>(kRounding * rules_->smallest_radius +
+                                   (radii_.empty() ? 2 * rules_->largest_radius : 0) + skin_);
+    std::copy(std::begin(rules_->pass.periodic), std::end(rules_->pass.periodic), rule.periodic);
+    rule.length = rules_->pass.length;
+    rule.list_self = rules_->pass.periodic_kind == PeriodicKind::images;
+    rule.stride = record_offset<Real>(1);
+    rule.dummy = filling_ / rule.stride;
+    return rule;
+  }
+
+  // How far a record has moved since its neighbours were listed, beyond `expected`, m.
+  Vec3<Real> displacement(const Record& p, std::size_t i, const Vec3<Real>& expected) const {
+    const ForcePass<Real>& pass = rules_->pass;
+    const Vec3<Real> from = listed_at_[i] + expected;
+    Vec3<Real> moved = p.x - from;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!pass.periodic[axis]) continue;
+      const Real now = component(p.x, axis), then = component(from, axis);
+      const Real length = component(pass.length, axis);
+      component(moved, axis) = image_displacement(now, then, nearest_image(now, then, length), length);
+    }
+    return moved;
+  }
+  bool is_off(const Record& p, std::size_t i, const Anchor& anchor, Real steps) const {
+    const Vec3<Real> off = displacement(p, i, anchor.at(steps));
+    return !(dot(off, off) <= anchor.limit2(steps));
+  }
+
+  // Makes anchors follow the particles, and finds out who strays from where they are now.
+  void follow(const Record* records) {
+    using GroupMotion = typename MotionBounds<Real>::GroupMotion;
+    const Real dt = rules_->pass.dt;
+    horizon_ = motion_.follow(
+        [&](std::size_t g) {
+          GroupMotion motion;
+          Extent extent;
+          for (std::size_t i = g * kLanes; i < std::min((g + 1) * kLanes, count_); ++i) {
+            if (is_nowhere(records[i])) continue;
+            const Vec3<Real> u = displacement(records[i], i, {Real(0), Real(0), Real(0)});
+            extent.add(u);
+            motion.moved += u;
+            motion.step += dt * records[i].v;
+            motion.count = motion.count + Real(1);
+          }
+          moved_[g] = extent;
+          return motion;
+        },
+        anchors_);
+    steps_ = 0;
+    since_followed_ = 0;
+    strays_.clear();
+    if (horizon_ < 0) return forget();
+    parallel_ranges(anchors_.size(), kGroups, [&](std::size_t first, std::size_t last) {
+      for (std::size_t g = first; g < last; ++g) {
+        strayed_[g] = 0;
+        const Anchor& anchor = anchors_[g];
+        if (moved_[g].furthest2(anchor.offset) <= anchor.limit2(Real(0))) continue;
+        unsigned far = 0;
+        for (std::size_t i = g * kLanes; i < std::min((g + 1) * kLanes, count_); ++i) {
+          if (!is_nowhere(records[i]) && is_off(records[i], i, anchor, Real(0))) far |= 1U << i % kLanes;
+        }
+        note_far(g, far);
+      }
+    });
+  }
+
+  StrayPairs<Real> stray_pairs(const Record* records) const { return {*rules_, records, cells_, order_.data(), list_}; }
+
+  // Finds the pairs of strays that touch and rows that lack them.
+  void mend(const Record* records) {
+    mended_.clear(anchors_.size());
+    if (strays_.empty()) return;
+    const auto steps = static_cast<Real>(steps_);
+    const double mild = MotionBounds<Real>::kMild * limits_.skin, half = 0.5 * skin_;
+    const Vec3<Real> middle = motion_.middle(steps);
+    const double anywhere = half + motion_.furthest_from_middle(static_cast<double>(steps_));
+    const auto place_of = [&](std::size_t i) -> typename StrayPairs<Real>::Place {
+      const Anchor& anchor = anchors_[i / kLanes];
+      const Vec3<Real> off = displacement(records[i], i, anchor.at(steps));
+      if (static_cast<double>(dot(off, off)) < mild * mild) {
+        return {vec_cast<double>(records[i].x - anchor.at(steps)), half + motion_.anchors_apart(anchor, steps)};
+      }
+      return {vec_cast<double>(records[i].x - middle), anywhere};
+    };
+    if (!stray_pairs(records).find(strays_, strayed_, place_of, filling_, room_, mended_)) forget();
+  }
+
+  // Bounds of the displacements of a group, m.
+  struct Extent {
+    static constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
+    Vec3<Real> low{kInfinite, kInfinite, kInfinite}, high{-kInfinite, -kInfinite, -kInfinite};
+
+    void add(const Vec3<Real>& u) {
+      low = {std::min(low.x, u.x), std::min(low.y, u.y), std::min(low.z, u.z)};
+      high = {std::max(high.x, u.x), std::max(high.y, u.y), std::max(high.z, u.z)};
+    }
+    // No point of it is further from `from`; NaN where there is doubt.
+    Real furthest2(const Vec3<Real>& from) const {
+      if (low.x > high.x) return Real(0);
+      const auto most = [](Real a, Real b) { return a < b ? b : a; };
+      const Vec3<Real> off{most(high.x - from.x, from.x - low.x), most(high.y - from.y, from.y - low.y),
+                           most(high.z - from.z, from.z - low.z)};
+      return dot(off, off);
+    }
+  };
+
+  const PassRules<Real>* rules_ = nullptr;
+  GroupSearchFunction<Real> search_ = nullptr;
+  double skin_ratio_ = kFirstSkin, skin_ = 0;  // of the smallest diameter; m
+
+  std::size_t count_ = 0;
+  std::uint32_t filling_ = 0;  // of short lanes: an entry
+  CellList cells_;
+  std::vector<std::uint32_t> order_;  // while sorting: where each was before; then: ranks
+  NeighbourList list_;
+  std::vector<Real> radii_;  // m; empty where all are the same
+  ColumnStore<Real> listed_at_;  // m
+  bool listed_ = false;
+  std::uint64_t builds_ = 0;
+
+  typename MotionBounds<Real>::Limits limits_;
+  MotionBounds<Real> motion_;
+  std::vector<Anchor> anchors_;  // by group, as the next three
+  std::vector<Extent> moved_;
+  std::vector<std::uint16_t> strayed_;  // a bit a lane
+  MendedRows mended_;
+  std::vector<std::uint32_t> strays_;
+  typename StrayPairs<Real>::Room room_;
+  std::mutex mutex_;  // around strays_
+  std::int64_t steps_ = 0, horizon_ = 0;  // since anchors followed last; how many they are good for
+  bool follow_helps_ = true;  // against strays, as far as is known
+  std::size_t age_ = 0;  // steps since the last build
+  std::size_t since_followed_ = 0, spent_ = 0;  // on strays, since anchors followed and since the last build
+};
+
+}  // namespace hooke
