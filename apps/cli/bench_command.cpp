@@ -100,9 +100,11 @@ Scene without_walls(Scene scene) {
 }
 
 // The share of the force pass that walls take. They are fused into it: so a few passes go on from where the run has
-// ended, with walls and without, in turns. Nothing where such a pass can't be had.
+// ended, with walls and without, in turns. Nothing where such a pass can't be had, or would need much memory.
 std::optional<double> share_of_walls(Simulation& simulation, const DeviceArguments& device) {
   constexpr std::size_t kPasses = 9;
+  constexpr std::uint64_t kMostParticles = 10'000'000;
+  if (simulation.particle_count() > kMostParticles) return {};
   Scene open = without_walls(simulation.scene());
   if (open.domain.boundary == simulation.scene().domain.boundary) return 0;
   auto backend = make_backend(device, open.precision);
