@@ -97,7 +97,7 @@ struct NeighbourStatistics {
 struct StageTimes {
   double sort = 0;    ///< numbering the cells, sorting particles into them
   double list = 0;    ///< listing who may touch whom
-  double motion = 0;  ///< judging how far the list can be trusted
+  double motion = 0;  ///< following who moves too far for the list, and mending it
   double force = 0;   ///< the pass: contacts, walls, drag, gravity, the integrator, and the step's sums
   double drift = 0;   ///< velocity Verlet's first half
 
