@@ -24,8 +24,7 @@ struct Columns {
 /// Who is whose neighbour. Columns are in cell order, and 16 numbers after their last one can be read.
 template <class Real>
 struct NeighbourRule {
-  Columns<Real> at;  // positions, m; where x is null, they are in records
-  const Real* records = nullptr;  // eight numbers a point, the first three its position, m; aligned like a pack
+  Columns<Real> at;  // positions, m
   const Real* radius = nullptr;  // m; null where all are the same
   const std::uint32_t* rank = nullptr;  // unique, below 2^30: the order of a row
   Real reach{};  // m; p is listed when nearer to i than this, and r_i + r_p where radii differ

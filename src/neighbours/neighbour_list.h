@@ -123,33 +123,21 @@ class NeighbourList {
 template <class Real>
 class GroupSearcher {
  public:
-  /// Finds the neighbours that `rule` asks for, of points that lay at `sorted_at` (m) when they were sorted into cells.
-  /// Since then, points that are nearer to each other than the rule's reach moved by less than `moved` (m) relative to
-  /// each other.
-  GroupSearcher(const CellList& cells, const Columns<Real>& sorted_at, const NeighbourRule<Real>& rule,
-                GroupSearchFunction<Real> search, double moved)
+  /// Finds the neighbours that `rule` asks for, of points in the order of `cells`.
+  GroupSearcher(const CellList& cells, const NeighbourRule<Real>& rule, GroupSearchFunction<Real> search)
       : cells_(cells),
-        sorted_at_(sorted_at),
         rule_(rule),
         search_(search) {
     for (std::size_t level = 0; level < cells.level_count(); ++level) {
-      levels_.push_back({cells.level_end(level), largest_block(level, moved), {}});
+      levels_.push_back({cells.level_end(level), largest_block(level), {}});
       for (std::size_t other = 0; other < cells.level_count(); ++other) {
-        levels_.back().reach.push_back(reach(level, other) + moved);
+        levels_.back().reach.push_back(reach(level, other));
       }
     }
   }
 
-  /// The rows of the points first to end - 1, at most 16, until the next call.
-  std::span<const std::uint32_t> rows(std::size_t first, std::size_t end) {
-    const std::size_t rows = write_rows(first, end, [this](std::size_t most) {
-      row_buffer_.resize(std::max(row_buffer_.size(), most));
-      return row_buffer_.data();
-    });
-    return {row_buffer_.data(), rows * NeighbourList::kLanes};
-  }
-
-  /// Writes these rows to room(n), where there has to be room for n entries; returns their number.
+  /// Writes the rows of the points first to end - 1, at most 16, to room(n), where there has to be room for n entries;
+  /// returns their number.
   template <class Room>
   std::size_t write_rows(std::size_t first, std::size_t end, const Room& room) {
     ranges_.clear();
@@ -179,7 +167,7 @@ class GroupSearcher {
   struct Level {
     std::size_t end;  // one past its last point
     Vec3<Real> block;  // m: its blocks are no larger
-    std::vector<double> reach;  // m: its neighbours of each level were no further when sorted
+    std::vector<double> reach;  // m: its neighbours of each level are no further
   };
 
   // Cuts off the points from `first` on, before `end`, that lie close together, and finds the ranges that they are
@@ -189,10 +177,10 @@ class GroupSearcher {
     while (first >= levels_[l].end) ++l;
     const Level& level = levels_[l];
     end = std::min(end, level.end);
-    Vec3<Real> min = sorted_at(first), max = min;
+    Vec3<Real> min = position(first), max = min;
     std::size_t last = first + 1;
     for (; last < end; ++last) {
-      const Vec3<Real> x = sorted_at(last);
+      const Vec3<Real> x = position(last);
       const Vec3<Real> low{std::min(min.x, x.x), std::min(min.y, x.y), std::min(min.z, x.z)};
       const Vec3<Real> high{std::max(max.x, x.x), std::max(max.y, x.y), std::max(max.z, x.z)};
       if (high.x - low.x > level.block.x || high.y - low.y > level.block.y || high.z - low.z > level.block.z) break;
@@ -200,7 +188,7 @@ class GroupSearcher {
       max = high;
     }
     block.last = static_cast<std::uint32_t>(last);
-    block.middle = rule_.at.x == sorted_at_.x ? min : lowest(first, last);
+    block.middle = min;
 
     const std::size_t before = ranges_.size();
     std::size_t points = 0;
@@ -212,16 +200,6 @@ class GroupSearcher {
     return points;
   }
 
-  // Where some points are now. Departed ones are above all others, and don't count as long as there are others.
-  Vec3<Real> lowest(std::size_t first, std::size_t last) const {
-    Vec3<Real> min = position(first);
-    for (std::size_t i = first + 1; i < last; ++i) {
-      const Vec3<Real> x = position(i);
-      min = {std::min(min.x, x.x), std::min(min.y, x.y), std::min(min.z, x.z)};
-    }
-    return min;
-  }
-
   // How far neighbours of two levels may be from each other, m. A millionth more for rounding.
   double reach(std::size_t a, std::size_t b) const {
     const double radii = rule_.radius == nullptr ? 0 : cells_.largest_radius(a) + cells_.largest_radius(b);
@@ -230,25 +208,19 @@ class GroupSearcher {
 
   // How large a block of a level may be, m: long enough that many points share a search; across a periodic axis so
   // small that whoever is near has one image only that is.
-  Vec3<Real> largest_block(std::size_t level, double moved) const {
+  Vec3<Real> largest_block(std::size_t level) const {
     constexpr double kLong = 3;  // cells
     const CellGrid& grid = cells_.grid(level);
     Vec3d most{kLong * grid.axis(1).cell, grid.axis(1).cell, grid.axis(2).cell};
     for (int axis = 0; axis < 3; ++axis) {
       if (!rule_.periodic[axis]) continue;
       const double half = 0.499 * static_cast<double>(component(rule_.length, axis));
-      component(most, axis) =
-          std::min(component(most, axis), half - reach(level, cells_.level_count() - 1) - 2 * moved);
+      component(most, axis) = std::min(component(most, axis), half - reach(level, cells_.level_count() - 1));
     }
     return vec_cast<Real>(most);
   }
 
-  Vec3<Real> sorted_at(std::size_t i) const { return {sorted_at_.x[i], sorted_at_.y[i], sorted_at_.z[i]}; }
-  Vec3<Real> position(std::size_t i) const {
-    if (rule_.at.x != nullptr) return {rule_.at.x[i], rule_.at.y[i], rule_.at.z[i]};
-    const Real* record = rule_.records + 8 * i;
-    return {record[0], record[1], record[2]};
-  }
+  Vec3<Real> position(std::size_t i) const { return {rule_.at.x[i], rule_.at.y[i], rule_.at.z[i]}; }
 
   // For a group whose blocks' ranges hold `most` points.
   void make_room(std::size_t most) {
@@ -261,7 +233,6 @@ class GroupSearcher {
   }
 
   const CellList& cells_;
-  const Columns<Real> sorted_at_;
   const NeighbourRule<Real>& rule_;
   const GroupSearchFunction<Real> search_;
   std::vector<Level> levels_;
@@ -270,7 +241,6 @@ class GroupSearcher {
   std::vector<std::uint64_t> rows_, keys_;
   std::vector<std::int32_t> near_;
   std::vector<Real> x_, y_, z_, square_, radius_;
-  std::vector<std::uint32_t> row_buffer_;
 };
 
 /// Builds `list` anew, over the sorted points, of which `rule` has columns.
@@ -282,7 +252,7 @@ void build_neighbour_list(const CellList& cells, const NeighbourRule<Real>& rule
   list.clear((count + NeighbourList::kSegment - 1) / NeighbourList::kSegment);
 
   parallel_ranges(list.segments.size(), 1, [&](std::size_t first_segment, std::size_t last_segment) {
-    GroupSearcher<Real> searcher(cells, rule.at, rule, search_group, 0);
+    GroupSearcher<Real> searcher(cells, rule, search_group);
     NeighbourList::Writer writer(list);
     for (std::size_t s = first_segment; s < last_segment; ++s) {
       NeighbourList::Segment& segment = list.segments[s];

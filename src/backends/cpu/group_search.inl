@@ -172,16 +172,9 @@ class Search {
   }
 
   HOOKE_HD Vec3<P> positions(std::size_t first) const {
-    if (rule_.at.x != nullptr) return {load(rule_.at.x + first), load(rule_.at.y + first), load(rule_.at.z + first)};
-    const Quad<Real> q = load_quads(
-        Real{}, [=, this](int lane) { return rule_.records + 8 * (first + static_cast<std::size_t>(lane)); });
-    return {q.a, q.b, q.c};
+    return {load(rule_.at.x + first), load(rule_.at.y + first), load(rule_.at.z + first)};
   }
-  HOOKE_HD Vec3<P> position(std::uint32_t i) const {
-    if (rule_.at.x != nullptr) return {P(rule_.at.x[i]), P(rule_.at.y[i]), P(rule_.at.z[i])};
-    const Real* record = rule_.records + 8 * std::size_t{i};
-    return {P(record[0]), P(record[1]), P(record[2])};
-  }
+  HOOKE_HD Vec3<P> position(std::uint32_t i) const { return {P(rule_.at.x[i]), P(rule_.at.y[i]), P(rule_.at.z[i])}; }
   // Seen from the middle of the block, in the image nearest to it.
   HOOKE_HD Vec3<P> from_middle(const Vec3<P>& x) const {
     return {displacement(x.x, middle_.x, 0), displacement(x.y, middle_.y, 1), displacement(x.z, middle_.z, 2)};

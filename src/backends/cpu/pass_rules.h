@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "hooke/backends/cpu/force_pass.h"
@@ -20,6 +21,8 @@ struct PassRules {
   std::vector<MaterialRow<Real>> materials;
   double largest_radius = 0, smallest_radius = 1;  ///< m
   double rounding = 0;  ///< m, of displacements across a periodic axis
+  std::vector<double> level_radius;  ///< m: materials of similar radius share a level; the largest of each, ascending
+  std::vector<std::size_t> level_of;  ///< by material
   bool has_drag = false;
   ForcePass<Real> pass;  ///< all but the buffers
 
@@ -62,9 +65,30 @@ struct PassRules {
             real(c.stiffness), real(c.shear), real(c.damping), real(m.radius) + real(scene.materials[b].radius), {}};
       }
     }
+    configure_levels();
     pass.pairs = pairs.data();
     pass.materials = materials.data();
     pass.material_count = n;
+  }
+
+  // The largest radius of a level is no more than twice the smallest.
+  void configure_levels() {
+    std::vector<std::size_t> by_radius(materials.size());
+    std::iota(by_radius.begin(), by_radius.end(), std::size_t{0});
+    std::sort(by_radius.begin(), by_radius.end(),
+              [&](std::size_t a, std::size_t b) { return materials[a].radius < materials[b].radius; });
+    level_radius.clear();
+    level_of.assign(materials.size(), 0);
+    double smallest = 0;  // of the level
+    for (const std::size_t m : by_radius) {
+      const auto radius = static_cast<double>(materials[m].radius);
+      if (level_radius.empty() || radius > 2 * smallest) {
+        level_radius.push_back(radius);
+        smallest = radius;
+      }
+      level_radius.back() = radius;
+      level_of[m] = level_radius.size() - 1;
+    }
   }
 
   void configure_domain(const Domain& domain) {

@@ -58,7 +58,7 @@ class VerletList {
     choose_skin();
     limits_.min = min;
     limits_.max = max;
-    lay_out_cells(cells_, 2 * rules_->largest_radius + skin_, count);
+    lay_out_cells(cells_, skin_, count);
     cells_.sort(count, key_of(cells_, records), order_, scratch);
     return order_;
   }
@@ -159,7 +159,7 @@ class VerletList {
   std::uint64_t count_missed(const Record* records) const {
     CellList cells;
     std::vector<std::uint32_t> order;
-    lay_out_cells(cells, 2 * rules_->largest_radius, count_);
+    lay_out_cells(cells, 0, count_);
     cells.sort(count_, key_of(cells, records), order);
     const StrayPairs<Real> pairs = stray_pairs(records);
     std::atomic<std::uint64_t> missed{0};
@@ -167,9 +167,12 @@ class VerletList {
       for (std::size_t i = first; i < last; ++i) {
         if (is_nowhere(records[i])) continue;
         const auto rows = this->rows(i / NeighbourList::kSegment, i % NeighbourList::kSegment / kLanes);
-        const Vec3d at = vec_cast<double>(records[i].x), reach = 2 * rules_->largest_radius * Vec3d{1, 1, 1};
+        const Vec3d at = vec_cast<double>(records[i].x);
         std::vector<SearchRange> ranges;
-        cells.find(0, at - reach, at + reach, ranges);
+        for (std::size_t level = 0; level < cells.level_count(); ++level) {
+          const double reach = radius_of(records[i]) + cells.largest_radius(level);
+          cells.find(level, at - Vec3d{reach, reach, reach}, at + Vec3d{reach, reach, reach}, ranges);
+        }
         for (const SearchRange& range : ranges) {
           for (std::size_t k = range.from; k < range.to; ++k) {
             const std::uint32_t p = order[k];
@@ -205,14 +208,16 @@ class VerletList {
     skin_ = skin_ratio_ * 2 * rules_->smallest_radius;
   }
 
-  // Cells of one level, no narrower than `width` (m).
-  void lay_out_cells(CellList& cells, double width, std::size_t count) const {
-    const CellList::Level level{rules_->largest_radius, width};
-    cells.lay_out(limits_.min, limits_.max, rules_->pass.periodic, {&level, 1}, count);
+  void lay_out_cells(CellList& cells, double skin, std::size_t count) const {
+    std::vector<CellList::Level> levels;
+    for (const double radius : rules_->level_radius) levels.push_back({radius, 2 * radius + skin});
+    cells.lay_out(limits_.min, limits_.max, rules_->pass.periodic, levels, count);
   }
-  static auto key_of(const CellList& cells, const Record* records) {
-    return [&cells, records](std::size_t i) {
-      return is_nowhere(records[i]) ? cells.key_end() : cells.key_of(vec_cast<double>(records[i].x), 0);
+  auto key_of(const CellList& cells, const Record* records) const {
+    return [&cells, records, &level_of = rules_->level_of](std::size_t i) {
+      const Record& p = records[i];
+      if (is_nowhere(p)) return cells.key_end();
+      return cells.key_of(vec_cast<double>(p.x), level_of[static_cast<std::size_t>(p.material)]);
     };
   }
 
