@@ -176,5 +176,50 @@ INSTANTIATE_TEST_SUITE_P(All, Spray,
                                           testing::Values("portable", "avx2", "avx512")),
                          spray_name);
 
+// Large balls shot through a cloud of small ones, the radii one to ten: each size has a grid of its own.
+class Mixture : public testing::TestWithParam<std::tuple<Precision, Boundary, std::string>> {};
+
+TEST_P(Mixture, MissesNoContact) {
+  const auto& [precision, boundary, isa] = GetParam();
+  if (const auto isas = available_isas();
+      std::none_of(isas.begin(), isas.end(), [&](const Isa& has) { return has.name == isa; })) {
+    GTEST_SKIP() << "this processor has no " << isa;
+  }
+  Scene scene = open_scene();
+  mix_materials(scene, 0.0625);
+  scene.materials[1].radius = 0.625;  // sums of radii that single precision holds exactly
+  scene.materials[1].mass = 400;
+  scene.materials[2].radius = 0.125;
+  scene.domain.min = {-3, -3, -3};
+  scene.domain.max = {3, 3, 3};
+  scene.domain.boundary = {boundary, Boundary::spring, boundary};
+  ParticleSet particles = lattice(scene, {20, 20, 20}, {-2.8, -2.8, -2.8}, 0.29, 0.05, 24);
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const bool large = particles.id[i] % 400 == 7;
+    particles.material[i] = large ? 1 : particles.id[i] % 5 == 0 ? 2 : 0;
+    particles.velocity[i] = noise(particles.id[i], large ? 2.0 : 0.5);
+  }
+  Simulation simulation = simulate(scene, particles, {"cpu", precision, 2, isa, true});
+  for (int step = 1; step <= 24; ++step) {
+    const auto taken = simulation.step();
+    ASSERT_EQ(simulation.neighbour_statistics().missed_contacts, 0U) << "in step " << step;
+    ASSERT_TRUE(taken) << step;
+    if (step % 8 != 0) continue;
+    ASSERT_EQ(measured(simulation).contacts, true_contacts(simulation)) << "after step " << step;
+  }
+  EXPECT_GT(measured(simulation).contacts, 300U);
+}
+
+std::string mixture_name(const testing::TestParamInfo<Mixture::ParamType>& instance) {
+  const auto& [precision, boundary, isa] = instance.param;
+  return BusyKind{boundary, Integrator::symplectic_euler, precision}.name() + "_" + isa;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Mixture,
+                         testing::Combine(testing::Values(Precision::single_precision, Precision::double_precision),
+                                          testing::Values(Boundary::spring, Boundary::periodic, Boundary::open),
+                                          testing::Values("portable", "avx2", "avx512")),
+                         mixture_name);
+
 }  // namespace
 }  // namespace hooke::test

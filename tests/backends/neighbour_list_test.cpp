@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <ostream>
 
 #include "hooke/backends/cpu/isa.h"
@@ -34,6 +35,9 @@ const Setting kSettings[] = {
     {"a_segment", 1024, {0, 0, 0}, {9, 9, 9}, {false, false, false}, {1, 1, 1}, 0.5, 1},
     {"many", 3001, {0, 0, 0}, {12, 14, 16}, {false, false, false}, {1, 1, 1}, 0.5, 1},
     {"mixed_radii", 2001, {0, 0, 0}, {12, 14, 16}, {false, false, false}, {1, 1, 1}, 0.2, 4},
+    {"one_to_ten", 3001, {0, 0, 0}, {12, 14, 16}, {false, false, false}, {1, 1, 1}, 0.1, 10},
+    {"one_to_forty_periodic", 1501, {0, 0, 0}, {12, 14, 11}, {true, true, false}, {1, 1, 1}, 0.05, 40},
+    {"one_to_ten_in_a_short_period", 501, {-1, 0, 0}, {2.6, 4.6, 4}, {true, false, true}, {1, 1, 1}, 0.1, 10},
     {"negative", 2001, {-1012, -14, -160}, {-1000, -1, -144}, {false, false, false}, {1, 1, 1}, 0.5, 1.5},
     {"sparse", 500, {-5e5, -5e5, -5e5}, {5e5, 5e5, 5e5}, {false, false, false}, {1, 1, 1}, 0.5, 1},
     {"one_cell", 300, {0, 0, 0}, {100, 100, 100}, {false, false, false}, {0.005, 0.005, 0.005}, 0.5, 1},
@@ -64,11 +68,22 @@ class Lists {
       x.push_back(vec_cast<Real>(setting.min + Vec3d{setting.spread.x * u[0] * size.x, setting.spread.y * u[1] * size.y,
                                                      setting.spread.z * u[2] * size.z}));
     }
-    const double largest = setting.radius * setting.ratio;
-    const CellList::Level level{largest, 2 * largest + kSkin * setting.radius};
-    cells_.lay_out(setting.min, setting.max, setting.periodic, {&level, 1}, setting.count);
+    // Many small ones and few large ones, a level for each doubling of the radius.
+    const auto radius_of = [&](std::size_t i) {
+      return setting.radius * std::pow(setting.ratio, std::pow(uniform4(12, i, 0)[0], 3));
+    };
+    const auto level_of = [&](std::size_t i) {
+      return static_cast<std::size_t>(std::log2(radius_of(i) / setting.radius));
+    };
+    std::vector<CellList::Level> levels;
+    for (double radius = setting.radius; levels.empty() || radius < setting.radius * setting.ratio; radius *= 2) {
+      const double largest = std::min(2 * radius, setting.radius * setting.ratio);
+      levels.push_back({largest, 2 * largest + kSkin * setting.radius});
+    }
+    cells_.lay_out(setting.min, setting.max, setting.periodic, levels, setting.count);
     std::vector<std::uint32_t> order;
-    cells_.sort(setting.count, [&](std::size_t i) { return cells_.key_of(vec_cast<double>(x[i]), 0); }, order);
+    cells_.sort(
+        setting.count, [&](std::size_t i) { return cells_.key_of(vec_cast<double>(x[i]), level_of(i)); }, order);
     constexpr std::size_t kReadable = 16;
     for (auto* column : {&x_, &y_, &z_, &radii_}) column->resize(setting.count + kReadable);
     ranks_.resize(setting.count + kReadable);
@@ -77,8 +92,7 @@ class Lists {
       y_[i] = x[order[i]].y;
       z_[i] = x[order[i]].z;
       ranks_[i] = order[i];
-      const double part = uniform4(12, order[i], 0)[0];
-      radii_[i] = static_cast<Real>(setting.radius * (1 + (setting.ratio - 1) * part));
+      radii_[i] = static_cast<Real>(radius_of(order[i]));
     }
     rule_.at = {x_.data(), y_.data(), z_.data()};
     rule_.radius = setting.ratio == 1 ? nullptr : radii_.data();

@@ -122,6 +122,18 @@ void add_tight(Collection& out) {
   box("thin_open", {0.25, 6, 6}, {O, S, S}, 60);
 }
 
+// Radii one to ten and more: each size has cells of its own.
+void add_sizes(Collection& out) {
+  for (std::size_t b = 0; b < std::size(kBoundaries); ++b) {
+    Scene scene = mixed_scene({0, 0, 0}, {6, 7, 5});
+    scene.materials[0].radius = 0.0625;
+    scene.materials[1].radius = 0.75;
+    scene.domain.boundary = {kBoundaries[b], Boundary::spring, kBoundaries[b]};
+    scene.time_step = 5e-4;
+    out.add_cloud(std::string("one_to_twelve_") + kBoundaryNames[b], scene, 200, 20);
+  }
+}
+
 }  // namespace
 
 std::vector<Scenario> scenarios() {
@@ -131,6 +143,7 @@ std::vector<Scenario> scenarios() {
   add_places(out);
   add_degenerate(out);
   add_tight(out);
+  add_sizes(out);
   return std::move(out.all);
 }
 
