@@ -16,16 +16,31 @@ namespace hooke {
 class ExactFloatSum {
  public:
   /// Adds a value, at most 2^39 of them. NaN and infinities make the whole sum NaN.
-  void add(float value) {
-    const auto bits = std::bit_cast<std::uint32_t>(value);
-    const std::uint32_t bin = bits >> 23U;
-    const std::uint32_t leading_one = (bin & 0xffU) != 0 ? 1U << 23U : 0;
-    bins_[bin] += (bits & 0x7fffffU) | leading_one;
+  void add(float value) { add(value, bins_[0]); }
+
+  /// Adds `count` values. Neighbours are often of a size: each goes to other bins than the one before, whose addition
+  /// it would have to wait for.
+  void add(const float* values, std::size_t count) {
+    std::size_t i = 0;
+    for (; i + kSets <= count; i += kSets) {
+      for (std::size_t set = 0; set < kSets; ++set) add(values[i + set], bins_[set]);
+    }
+    for (; i < count; ++i) add(values[i]);
   }
 
  private:
   friend class ExactSum;
-  std::array<std::uint64_t, 512> bins_{};  // by sign and exponent: sum of the mantissas
+  static constexpr std::size_t kSets = 4, kBins = 512;
+  using Bins = std::array<std::uint64_t, kBins>;  // by sign and exponent: sum of the mantissas
+
+  static void add(float value, Bins& bins) {
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    const std::uint32_t bin = bits >> 23U;
+    const std::uint32_t leading_one = (bin & 0xffU) != 0 ? 1U << 23U : 0;
+    bins[bin] += (bits & 0x7fffffU) | leading_one;
+  }
+
+  std::array<Bins, kSets> bins_{};
 };
 
 /// A sum of doubles without any rounding: the result depends on which values were added, never on
@@ -65,6 +80,11 @@ class ExactSum {
     if (++pending_ == kMaxPending) carry();
   }
 
+  /// Adds `count` values.
+  void add(const double* values, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) add(values[i]);
+  }
+
   /// Adds another sum, again without rounding.
   void add(const ExactSum& other) {
     ExactSum rest = other;
@@ -77,8 +97,9 @@ class ExactSum {
 
   /// Adds a sum of floats, without rounding.
   void add(const ExactFloatSum& floats) {
-    for (std::size_t bin = 0; bin < floats.bins_.size(); ++bin) {
-      const std::uint64_t mantissas = floats.bins_[bin];
+    for (std::size_t bin = 0; bin < ExactFloatSum::kBins; ++bin) {
+      std::uint64_t mantissas = 0;
+      for (const auto& bins : floats.bins_) mantissas += bins[bin];
       if (mantissas == 0) continue;
       const int exponent = static_cast<int>(bin & 0xffU);
       if (exponent == 0xff) not_finite_ = true;

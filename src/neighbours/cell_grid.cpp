@@ -25,6 +25,7 @@ void CellGrid::lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic
     inverse_cell_[i] = 1 / a.cell;
     last_cell_[i] = static_cast<double>(a.count - 1);
   }
+  path_ = path_axes(min, max);
   stride_y_ = axes_[0].count + 2;
   stride_z_ = stride_y_ * (axes_[1].count + 2);
 }

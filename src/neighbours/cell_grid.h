@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -45,12 +46,22 @@ class CellGrid {
     return static_cast<std::uint64_t>(index_of(x.x, 0) + stride_y_ * index_of(x.y, 1) + stride_z_ * index_of(x.z, 2));
   }
 
-  /// The same, numbered along a path: every other row of cells, and every other layer of rows, is walked backwards, so
-  /// that cells with consecutive numbers are adjacent. Points sorted by it are never far from the next ones.
+  /// The same, numbered along a path: rows along one axis, side by side in layers, every other row and every other
+  /// layer walked backwards, so that cells with consecutive numbers are adjacent. Layers lie across the longest axis:
+  /// they are the smallest, and adjacent ones are close to each other in memory.
   std::uint64_t path_key_of(const Vec3d& x) const {
-    const Row row = row_at(index_of(x.y, 1), index_of(x.z, 2));
-    const std::int64_t along = index_of(x.x, 0);
-    return static_cast<std::uint64_t>(row.start + (row.backwards ? axes_[0].count + 1 - along : along));
+    const auto index = [&](int axis) { return index_of(component(x, axis), axis); };
+    const Row row = row_at(index(path_[1]), index(path_[2]));
+    const std::int64_t along = index(path_[0]);
+    return static_cast<std::uint64_t>(row.start + (row.backwards ? axes_[path_[0]].count + 1 - along : along));
+  }
+  /// The axes of the path through the box [min, max]: along rows, across the rows of a layer, across layers.
+  static std::array<int, 3> path_axes(const Vec3d& min, const Vec3d& max) {
+    std::array<int, 3> axes{0, 1, 2};
+    const Vec3d length = max - min;
+    std::stable_sort(axes.begin(), axes.end(),
+                     [&](int a, int b) { return component(length, a) > component(length, b); });
+    return {axes[1], axes[2], axes[0]};
   }
 
   /// One past the largest key: for points that take no part, sorted last.
@@ -70,18 +81,18 @@ class CellGrid {
   template <class Body>
   void for_path_ranges(const Vec3d& min, const Vec3d& max, const Body& body) const {
     Stretches along[3];
-    for (int axis = 0; axis < 3; ++axis) along[axis] = stretches(axis, component(min, axis), component(max, axis));
-    for (int sz = 0; sz < along[2].count; ++sz) {
-      for (std::int64_t z = along[2].of[sz].first; z <= along[2].of[sz].last; ++z) {
-        for (int sy = 0; sy < along[1].count; ++sy) {
-          for (std::int64_t y = along[1].of[sy].first; y <= along[1].of[sy].last; ++y) {
-            const Row row = row_at(y, z);
-            for (int sx = 0; sx < along[0].count; ++sx) {
-              auto [first, last] = along[0].of[sx];
-              if (row.backwards) {
-                const std::int64_t end = axes_[0].count + 1;
-                std::tie(first, last) = std::pair(end - last, end - first);
-              }
+    for (std::size_t k = 0; k < 3; ++k) {
+      along[k] = stretches(path_[k], component(min, path_[k]), component(max, path_[k]));
+    }
+    const std::int64_t end = axes_[path_[0]].count + 1;
+    for (int sl = 0; sl < along[2].count; ++sl) {
+      for (std::int64_t layer = along[2].of[sl].first; layer <= along[2].of[sl].last; ++layer) {
+        for (int sr = 0; sr < along[1].count; ++sr) {
+          for (std::int64_t r = along[1].of[sr].first; r <= along[1].of[sr].last; ++r) {
+            const Row row = row_at(r, layer);
+            for (int s = 0; s < along[0].count; ++s) {
+              auto [first, last] = along[0].of[s];
+              if (row.backwards) std::tie(first, last) = std::pair(end - last, end - first);
               body(KeyRange{static_cast<std::uint64_t>(row.start + first),
                             static_cast<std::uint64_t>(row.start + last)});
             }
@@ -91,13 +102,9 @@ class CellGrid {
     }
   }
 
-  /// Key of the last cell of the row that `key` is in.
-  std::uint64_t row_end(std::uint64_t key) const {
-    const auto stride = static_cast<std::uint64_t>(stride_y_);
-    return key - key % stride + stride - 2;
-  }
-
   const Axis& axis(int i) const { return axes_[i]; }
+  /// The axes of the path.
+  const std::array<int, 3>& path() const { return path_; }
 
  private:
   std::int64_t index_of(double x, int i) const {
@@ -107,14 +114,15 @@ class CellGrid {
     return static_cast<std::int64_t>(inside < last_cell_[i] ? inside : last_cell_[i]) + 1;
   }
 
-  // A row of cells along x, on the path.
+  // A row of cells of the path.
   struct Row {
     std::int64_t start;  // the key before its first
     bool backwards;
   };
-  Row row_at(std::int64_t y, std::int64_t z) const {
-    const std::int64_t on_path = z % 2 == 0 ? y : axes_[1].count + 1 - y;
-    return {on_path * stride_y_ + z * stride_z_, (z * axes_[1].count + on_path) % 2 != 0};
+  Row row_at(std::int64_t row, std::int64_t layer) const {
+    const std::int64_t rows = axes_[path_[1]].count, stride = axes_[path_[0]].count + 2;
+    const std::int64_t on_path = layer % 2 == 0 ? row : rows + 1 - row;
+    return {(layer * (rows + 2) + on_path) * stride, (layer * rows + on_path) % 2 != 0};
   }
 
   // Indices first to last of an axis as one stretch, or as two where they reach around a periodic axis.
@@ -140,6 +148,7 @@ class CellGrid {
   Axis axes_[3];
   double inverse_cell_[3] = {1, 1, 1};
   double last_cell_[3] = {0, 0, 0};  // their number less one
+  std::array<int, 3> path_{0, 1, 2};  // axes
   std::int64_t stride_y_ = 3, stride_z_ = 9;  // with one empty cell on both sides of every axis
 };
 

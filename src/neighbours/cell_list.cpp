@@ -15,7 +15,9 @@ void CellList::lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic
   key_end_ = 0;
   for (const Level& level : levels) {
     levels_.push_back({CellGrid{}, level.largest_radius, key_end_});
-    levels_.back().grid.lay_out(min, max, periodic, {level.cell / kCellsAlongX, level.cell, level.cell});
+    Vec3d reach{level.cell, level.cell, level.cell};
+    component(reach, CellGrid::path_axes(min, max)[0]) /= kCellsAlongRow;
+    levels_.back().grid.lay_out(min, max, periodic, reach);
     key_end_ += levels_.back().grid.key_end();
   }
   const std::uint64_t most_slots = std::max<std::uint64_t>(4096, 2 * most_points);

@@ -26,7 +26,7 @@ class CellList {
   /// Particles of similar size.
   struct Level {
     double largest_radius = 0;  ///< m
-    double cell = 1;  ///< m, > 0: what cells are wide, or a little more; half of it along x
+    double cell = 1;  ///< m, > 0: what cells are wide, or a little more; half of it along rows
   };
 
   /// Lays grids over the box [min, max] (m), for up to `most_points` points; those outside count to the cells at its
@@ -70,7 +70,7 @@ class CellList {
   std::size_t find(std::size_t level, const Vec3d& min, const Vec3d& max, std::vector<SearchRange>& out) const;
 
  private:
-  static constexpr double kCellsAlongX = 2;
+  static constexpr double kCellsAlongRow = 2;
 
   struct LevelGrid {
     CellGrid grid;

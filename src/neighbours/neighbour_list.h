@@ -211,7 +211,8 @@ class GroupSearcher {
   Vec3<Real> largest_block(std::size_t level) const {
     constexpr double kLong = 3;  // cells
     const CellGrid& grid = cells_.grid(level);
-    Vec3d most{kLong * grid.axis(1).cell, grid.axis(1).cell, grid.axis(2).cell};
+    Vec3d most{grid.axis(0).cell, grid.axis(1).cell, grid.axis(2).cell};
+    component(most, grid.path()[0]) = kLong * component(most, grid.path()[1]);
     for (int axis = 0; axis < 3; ++axis) {
       if (!rule_.periodic[axis]) continue;
       const double half = 0.499 * static_cast<double>(component(rule_.length, axis));

@@ -168,12 +168,16 @@ std::vector<float> all_kinds_of_floats(std::size_t count) {
 TEST(ExactFloatSum, IsTheSumOfTheSameNumbersAsDoubles) {
   const std::vector<float> values = all_kinds_of_floats(20'000);
   for (std::size_t count = 0; count <= values.size(); count = 2 * count + 1) {
-    ExactFloatSum floats;
+    ExactFloatSum floats, at_once;
     ExactSum doubles, taken_over;
     for (std::size_t i = 0; i < count; ++i) {
       floats.add(values[i]);
       doubles.add(values[i]);
     }
+    at_once.add(values.data(), count);
+    taken_over.add(at_once);
+    EXPECT_EQ(taken_over.value(), doubles.value()) << count;
+    taken_over = {};
     taken_over.add(floats);
     EXPECT_EQ(taken_over.value(), doubles.value()) << count;
     taken_over.add(-doubles.value());

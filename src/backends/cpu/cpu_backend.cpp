@@ -359,17 +359,19 @@ class CpuBackend final : public Backend {
   void add_up(std::size_t s, const SegmentReport& report, StepSums& sums, ExactSumOf<Real>& dissipated) const {
     const std::size_t first = s * kSegment;
     const std::size_t n = std::min(kSegment, count_ - first);
-    for (std::size_t k = 0; k < n; ++k) {
-      dissipated.add(report.dissipated[k]);
-      if ((report.notes[k / kLanes] & kTouchesWall) != 0) {
+    dissipated.add(report.dissipated.data(), n);
+    for (std::size_t g = 0; g * kLanes < n; ++g) {
+      if ((report.notes[g] & kTouchesWall) == 0) continue;
+      for (std::size_t k = g * kLanes; k < std::min((g + 1) * kLanes, n); ++k) {
         sums.wall_power.add(report.wall_power[k]);
         sums.wall_force.add({report.wall_force[0][k], report.wall_force[1][k], report.wall_force[2][k]});
       }
-      if (rules_.has_drag) {
-        const Record& p = records_[first + k];
-        const Real drag = rules_.materials[static_cast<std::size_t>(p.material)].drag;
-        sums.drag_force.add(vec_cast<double>(drag_force(p.v, drag)));
-      }
+    }
+    if (!rules_.has_drag) return;
+    for (std::size_t k = 0; k < n; ++k) {
+      const Record& p = records_[first + k];
+      const Real drag = rules_.materials[static_cast<std::size_t>(p.material)].drag;
+      sums.drag_force.add(vec_cast<double>(drag_force(p.v, drag)));
     }
   }
 

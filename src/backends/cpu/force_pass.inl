@@ -117,23 +117,34 @@ struct ContactLoop {
     }
   }
 
-  HOOKE_HD Acting<Real> run(const std::uint32_t* row, const std::uint32_t* end) const {
+  HOOKE_HD Acting<Real> run(const std::uint32_t* row, const std::uint32_t* end, const std::uint32_t* last_row) const {
     Acting<Real> acting;
-    const auto coefficients_of = [](const Quad<Real>& q) { return ContactCoefficients<P>{q.a, q.b, q.c}; };
-    if constexpr (kOneMaterial) {
-      const PairRow<Real>& only = pass.pairs[0];
-      const ContactCoefficients<P> coefficients{P(only.stiffness), P(only.shear), P(only.damping)};
-      for (; row != end; row += kGroupLanes)
-        neighbour(load_neighbours(pass.in, row), coefficients, P(only.reach), acting);
-    } else {
-      const P row_start = own.material * P(static_cast<Real>(pass.material_count));
-      for (; row != end; row += kGroupLanes) {
-        const Lanes<Real> other = load_neighbours(pass.in, row);
-        const Quad<Real> pair = load_rows(pass.pairs, row_start + other.material, 0);
-        neighbour(other, coefficients_of(pair), pair.d, acting);
-      }
+    for (; row != end; row += kGroupLanes) {
+      prefetch_row(row, last_row);
+      contact(load_neighbours(pass.in, row), acting);
     }
     return acting;
+  }
+
+  // Neighbours come in the order of their ids, which no processor foresees: those of about the next group are asked for
+  // now.
+  HOOKE_HD void prefetch_row(const std::uint32_t* row, const std::uint32_t* last_row) const {
+    constexpr std::ptrdiff_t kAhead = 14 * kGroupLanes;
+    row = last_row - row > kAhead ? row + kAhead : last_row;
+    for (std::size_t lane = 0; lane < P::kLanes; ++lane) {
+      prefetch(reinterpret_cast<const char*>(pass.in) + std::size_t{row[lane]} * 8);
+    }
+  }
+
+  HOOKE_HD void contact(const Lanes<Real>& other, Acting<Real>& acting) const {
+    if constexpr (kOneMaterial) {
+      const PairRow<Real>& only = pass.pairs[0];
+      neighbour(other, {P(only.stiffness), P(only.shear), P(only.damping)}, P(only.reach), acting);
+    } else {
+      const P row = own.material * P(static_cast<Real>(pass.material_count)) + other.material;
+      const Quad<Real> pair = load_rows(pass.pairs, row, 0);
+      neighbour(other, {pair.a, pair.b, pair.c}, pair.d, acting);
+    }
   }
 };
 
@@ -214,15 +225,21 @@ HOOKE_HD Mask<Real> is_far(const ForcePass<Real>& pass, const Vec3<Pack<Real>>& 
 
 template <class Real, bool kOneMaterial, PeriodicKind kPeriodic>
 HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& work, std::size_t slot,
-                       const std::uint32_t* row, const std::uint32_t* end, unsigned char& notes, unsigned& far) {
+                       unsigned char& notes, unsigned& far) {
   using P = Pack<Real>;
   const std::size_t first = work.first + slot;
+  const std::size_t group = slot / kGroupLanes, half = slot % kGroupLanes;
+  const std::uint32_t* rows = work.rows + half;
+  const std::uint32_t* row = rows + std::size_t{work.first_row[group]} * kGroupLanes;
+  const std::uint32_t* end = rows + std::size_t{work.first_row[group + 1]} * kGroupLanes;
+  const std::uint32_t* last_row = rows + (std::size_t{work.first_row[work.group_count]} - 1) * kGroupLanes;
   const Real* own_record = reinterpret_cast<const Real*>(pass.in + first);
   const Lanes<Real> own = load_lanes<Real>([=](int lane) { return own_record + 8 * lane; });
   const Mask<Real> present = own.x.x < P(static_cast<Real>(kNowhere));
 
-  Acting<Real> acting = ContactLoop<Real, kOneMaterial, kPeriodic, false>{pass, own}.run(row, end);
-  if (any(acting.too_fast)) acting = ContactLoop<Real, kOneMaterial, kPeriodic, true>{pass, own}.run(row, end);
+  Acting<Real> acting = ContactLoop<Real, kOneMaterial, kPeriodic, false>{pass, own}.run(row, end, last_row);
+  if (any(acting.too_fast))
+    acting = ContactLoop<Real, kOneMaterial, kPeriodic, true>{pass, own}.run(row, end, last_row);
   acting.dissipated = P(Real(0.5)) * acting.dissipated;
 
   Quad<Real> wall_row, body_row;
@@ -253,7 +270,7 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
     v = kick(own.v, a, dt);
     x = drift(own.x, v, dt);
     if (any(present & left_domain(pass, x))) notes |= kLeftDomain;
-    far |= bits(present & is_far<Real, kPeriodic>(pass, x, first)) << slot % kGroupLanes;
+    far |= bits(present & is_far<Real, kPeriodic>(pass, x, first)) << half;
   }
   if (any(acting.too_fast)) notes |= kApproachTooFast;
 
@@ -272,9 +289,7 @@ void run_segment(const ForcePass<Real>& pass, const SegmentWork<Real>& work) {
     unsigned char notes = 0;
     unsigned far = 0;
     for (std::size_t half = 0; half < kGroupLanes; half += Pack<Real>::kLanes) {
-      const std::uint32_t* row = work.rows + std::size_t{work.first_row[g]} * kGroupLanes + half;
-      const std::uint32_t* end = work.rows + std::size_t{work.first_row[g + 1]} * kGroupLanes + half;
-      run_pack<Real, kOneMaterial, kPeriodic>(pass, work, g * kGroupLanes + half, row, end, notes, far);
+      run_pack<Real, kOneMaterial, kPeriodic>(pass, work, g * kGroupLanes + half, notes, far);
     }
     work.notes[g] = notes;
     work.far[g] = static_cast<std::uint16_t>(far);

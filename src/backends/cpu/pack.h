@@ -366,6 +366,9 @@ HOOKE_HD TwoQuads<Real> load_two_quads(Real, const At& at) {
 
 #endif
 
+/// Asks for the cache line of an address ahead of time.
+HOOKE_HD void prefetch(const void* at) { __builtin_prefetch(at); }
+
 /// Consecutive numbers, one a lane, at any address.
 template <class Real>
 HOOKE_HD Pack<Real> load(const Real* from) {
