@@ -30,7 +30,7 @@ class ExactFloatSum {
 
  private:
   friend class ExactSum;
-  static constexpr std::size_t kSets = 4, kBins = 512;
+  static constexpr std::size_t kSets = 2, kBins = 512;
   using Bins = std::array<std::uint64_t, kBins>;  // by sign and exponent: sum of the mantissas
 
   static void add(float value, Bins& bins) {

@@ -147,13 +147,12 @@ class CpuBackend final : public Backend {
     aim_pass(verlet() ? acceleration_.data() : nullptr);
     for_ranges(list_.segment_count(), 1, [&](std::size_t first, std::size_t last) {
       SegmentReport report;
-      StepSums part;
-      ExactSumOf<Real> dissipated;
+      PassSums part;
       RemovalSums left;
       Condition found;
       for (std::size_t s = first; s < last; ++s) {
         run_segment(s, report);
-        add_up(s, report, part, dissipated);
+        add_up(s, report, part);
         for (std::size_t g = 0; g < kGroups; ++g) {
           if (report.far[g] != 0) list_.note_far(s * kGroups + g, report.far[g]);
           if (report.notes[g] == 0) continue;
@@ -162,9 +161,8 @@ class CpuBackend final : public Backend {
         }
       }
       collect(removed, left);
-      part.dissipated_power.add(dissipated);
       const std::lock_guard lock(mutex_);
-      sums.add(part);
+      part.add_to(sums);
       condition = Condition::first(condition, found);
     });
     book_step(ledger_, sums.rates(scene_.gravity, total_mass_), scene_.time_step, scene_.integrator);
@@ -227,6 +225,20 @@ class CpuBackend final : public Backend {
     std::fill(records.begin() + static_cast<std::ptrdiff_t>(count_), records.end() - 1, nowhere_record<Real>(Real(0)));
     records.back() = filling_record<Real>();
   }
+
+  // The sums of a pass over some segments.
+  struct PassSums {
+    ExactSumOf<Real> dissipated, wall_power;
+    std::array<ExactSumOf<Real>, 3> wall_force;
+    StepSums others;
+
+    void add_to(StepSums& sums) {
+      others.dissipated_power.add(dissipated);
+      others.wall_power.add(wall_power);
+      others.wall_force.add(wall_force);
+      sums.add(others);
+    }
+  };
 
   static std::size_t padded(std::size_t n) { return (n + kLanes - 1) / kLanes * kLanes; }
   bool verlet() const { return scene_.integrator == Integrator::velocity_verlet; }
@@ -355,23 +367,23 @@ class CpuBackend final : public Backend {
     loops_.force_pass(pass_, work);
   }
 
-  // `dissipated` takes the dashpots' part, which every particle has, apart from the other sums.
-  void add_up(std::size_t s, const SegmentReport& report, StepSums& sums, ExactSumOf<Real>& dissipated) const {
+  void add_up(std::size_t s, const SegmentReport& report, PassSums& sums) const {
     const std::size_t first = s * kSegment;
     const std::size_t n = std::min(kSegment, count_ - first);
-    dissipated.add(report.dissipated.data(), n);
+    sums.dissipated.add(report.dissipated.data(), n);
     for (std::size_t g = 0; g * kLanes < n; ++g) {
       if ((report.notes[g] & kTouchesWall) == 0) continue;
-      for (std::size_t k = g * kLanes; k < std::min((g + 1) * kLanes, n); ++k) {
-        sums.wall_power.add(report.wall_power[k]);
-        sums.wall_force.add({report.wall_force[0][k], report.wall_force[1][k], report.wall_force[2][k]});
+      const std::size_t k = g * kLanes, lanes = std::min(kLanes, n - k);
+      sums.wall_power.add(report.wall_power.data() + k, lanes);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        sums.wall_force[axis].add(report.wall_force[axis].data() + k, lanes);
       }
     }
     if (!rules_.has_drag) return;
     for (std::size_t k = 0; k < n; ++k) {
       const Record& p = records_[first + k];
       const Real drag = rules_.materials[static_cast<std::size_t>(p.material)].drag;
-      sums.drag_force.add(vec_cast<double>(drag_force(p.v, drag)));
+      sums.others.drag_force.add(vec_cast<double>(drag_force(p.v, drag)));
     }
   }
 
@@ -428,15 +440,13 @@ class CpuBackend final : public Backend {
     aim_pass(evaluated.data());
     for_ranges(list_.segment_count(), 1, [&](std::size_t first, std::size_t last) {
       SegmentReport report;
-      StepSums part;
-      ExactSumOf<Real> dissipated;
+      PassSums part;
       for (std::size_t s = first; s < last; ++s) {
         run_segment(s, report);
-        add_up(s, report, part, dissipated);
+        add_up(s, report, part);
       }
-      part.dissipated_power.add(dissipated);
       const std::lock_guard lock(mutex_);
-      sums.add(part);
+      part.add_to(sums);
     });
     ledger_.last = sums.rates(scene_.gravity, total_mass_);
     for (std::size_t i = 0; i < count_; ++i) {
