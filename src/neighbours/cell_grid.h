@@ -52,8 +52,7 @@ class CellGrid {
   std::uint64_t path_key_of(const Vec3d& x) const {
     const auto index = [&](int axis) { return index_of(component(x, axis), axis); };
     const Row row = row_at(index(path_[1]), index(path_[2]));
-    const std::int64_t along = index(path_[0]);
-    return static_cast<std::uint64_t>(row.start + (row.backwards ? axes_[path_[0]].count + 1 - along : along));
+    return static_cast<std::uint64_t>(row.start + mirrored(index(path_[0]), path_[0], row.backwards));
   }
   /// The axes of the path through the box [min, max]: along rows, across the rows of a layer, across layers.
   static std::array<int, 3> path_axes(const Vec3d& min, const Vec3d& max) {
@@ -121,8 +120,12 @@ class CellGrid {
   };
   Row row_at(std::int64_t row, std::int64_t layer) const {
     const std::int64_t rows = axes_[path_[1]].count, stride = axes_[path_[0]].count + 2;
-    const std::int64_t on_path = layer % 2 == 0 ? row : rows + 1 - row;
-    return {(layer * (rows + 2) + on_path) * stride, (layer * rows + on_path) % 2 != 0};
+    const std::int64_t on_path = mirrored(row, path_[1], (layer & 1) != 0);
+    return {(layer * (rows + 2) + on_path) * stride, (((layer & rows) ^ on_path) & 1) != 0};
+  }
+  // The index counted from the other end, if `yes`. Without a branch: which way points lie nobody can foretell.
+  std::int64_t mirrored(std::int64_t index, int axis, bool yes) const {
+    return index + static_cast<std::int64_t>(yes) * (axes_[axis].count + 1 - 2 * index);
   }
 
   // Indices first to last of an axis as one stretch, or as two where they reach around a periodic axis.

@@ -209,7 +209,7 @@ class GroupSearcher {
   // How large a block of a level may be, m: long enough that many points share a search; across a periodic axis so
   // small that whoever is near has one image only that is.
   Vec3<Real> largest_block(std::size_t level) const {
-    constexpr double kLong = 3;  // cells
+    constexpr double kLong = 5;  // cells
     const CellGrid& grid = cells_.grid(level);
     Vec3d most{grid.axis(0).cell, grid.axis(1).cell, grid.axis(2).cell};
     component(most, grid.path()[0]) = kLong * component(most, grid.path()[1]);
