@@ -6,42 +6,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <type_traits>
 
 namespace hooke {
-
-/// A sum of floats without any rounding, for hot loops: one addition to the bin of the value's sign and exponent.
-/// ExactSum takes it over.
-class ExactFloatSum {
- public:
-  /// Adds a value, at most 2^39 of them. NaN and infinities make the whole sum NaN.
-  void add(float value) { add(value, bins_[0]); }
-
-  /// Adds `count` values. Neighbours are often of a size: each goes to other bins than the one before, whose addition
-  /// it would have to wait for.
-  void add(const float* values, std::size_t count) {
-    std::size_t i = 0;
-    for (; i + kSets <= count; i += kSets) {
-      for (std::size_t set = 0; set < kSets; ++set) add(values[i + set], bins_[set]);
-    }
-    for (; i < count; ++i) add(values[i]);
-  }
-
- private:
-  friend class ExactSum;
-  static constexpr std::size_t kSets = 2, kBins = 512;
-  using Bins = std::array<std::uint64_t, kBins>;  // by sign and exponent: sum of the mantissas
-
-  static void add(float value, Bins& bins) {
-    const auto bits = std::bit_cast<std::uint32_t>(value);
-    const std::uint32_t bin = bits >> 23U;
-    const std::uint32_t leading_one = (bin & 0xffU) != 0 ? 1U << 23U : 0;
-    bins[bin] += (bits & 0x7fffffU) | leading_one;
-  }
-
-  std::array<Bins, kSets> bins_{};
-};
 
 /// A sum of doubles without any rounding: the result depends on which values were added, never on
 /// their order, so threads, restarts and storage orders all report the same bits. A fixed-point
@@ -85,6 +53,13 @@ class ExactSum {
     for (std::size_t i = 0; i < count; ++i) add(values[i]);
   }
 
+  /// Adds `count` values, some at a time: floats of not too different size have a sum that a double holds exactly.
+  void add(const float* values, std::size_t count) {
+    constexpr std::size_t kAtOnce = 64;
+    for (; count > kAtOnce; count -= kAtOnce, values += kAtOnce) add_few(values, kAtOnce);
+    add_few(values, count);
+  }
+
   /// Adds another sum, again without rounding.
   void add(const ExactSum& other) {
     ExactSum rest = other;
@@ -93,20 +68,6 @@ class ExactSum {
     for (std::size_t i = 0; i < kLimbs; ++i) limbs_[i] += rest.limbs_[i];
     not_finite_ = not_finite_ || other.not_finite_;
     ++pending_;
-  }
-
-  /// Adds a sum of floats, without rounding.
-  void add(const ExactFloatSum& floats) {
-    for (std::size_t bin = 0; bin < ExactFloatSum::kBins; ++bin) {
-      std::uint64_t mantissas = 0;
-      for (const auto& bins : floats.bins_) mantissas += bins[bin];
-      if (mantissas == 0) continue;
-      const int exponent = static_cast<int>(bin & 0xffU);
-      if (exponent == 0xff) not_finite_ = true;
-      const double unit = std::ldexp(bin < 256 ? 1.0 : -1.0, std::max(exponent, 1) - 150);
-      add(unit * static_cast<double>(mantissas & 0xffffffffU));
-      add(unit * 0x1p32 * static_cast<double>(mantissas >> 32U));
-    }
   }
 
   /// The sum as a double, off by at most one unit in the last place.
@@ -130,6 +91,22 @@ class ExactSum {
   }
 
  private:
+  // At most 64 values.
+  void add_few(const float* values, std::size_t count) {
+    // Whole multiples of the smallest one's unit, 24 bits long, 64 of them: 23 binary orders of size leave room.
+    constexpr std::uint32_t kOrders = 23U << 23U, kExponent = 0xffU << 23U;
+    std::uint32_t largest = 0, smallest = kExponent;
+    double sum = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t exponent = std::bit_cast<std::uint32_t>(values[i]) & kExponent;
+      largest = std::max(largest, exponent);
+      smallest = std::min(smallest, values[i] != 0 ? exponent : kExponent);
+      sum += static_cast<double>(values[i]);
+    }
+    if (largest < kExponent && smallest > 0 && largest <= smallest + kOrders) return add(sum);
+    for (std::size_t i = 0; i < count; ++i) add(static_cast<double>(values[i]));
+  }
+
   static constexpr std::size_t kLimbs = 70;  // 2098 bits of double, two limbs of room for carries
   static constexpr std::uint32_t kMaxPending = 1U << 29U;
 
@@ -149,9 +126,5 @@ class ExactSum {
   std::uint32_t pending_ = 0;
   bool not_finite_ = false;
 };
-
-/// The kind of exact sum that takes values of type Real.
-template <class Real>
-using ExactSumOf = std::conditional_t<std::is_same_v<Real, float>, ExactFloatSum, ExactSum>;
 
 }  // namespace hooke

@@ -20,10 +20,10 @@ class ExactVectorSum {
   void add(const ExactVectorSum& other) {
     for (std::size_t axis = 0; axis < 3; ++axis) sums_[axis].add(other.sums_[axis]);
   }
-  /// Adds sums of the components.
-  template <class Sum>
-  void add(const std::array<Sum, 3>& components) {
-    for (std::size_t axis = 0; axis < 3; ++axis) sums_[axis].add(components[axis]);
+  /// Adds `count` values of one component.
+  template <class Real>
+  void add(std::size_t axis, const Real* values, std::size_t count) {
+    sums_[axis].add(values, count);
   }
   Vec3d value() const { return {sums_[0].value(), sums_[1].value(), sums_[2].value()}; }
 

@@ -147,7 +147,7 @@ class CpuBackend final : public Backend {
     aim_pass(verlet() ? acceleration_.data() : nullptr);
     for_ranges(list_.segment_count(), 1, [&](std::size_t first, std::size_t last) {
       SegmentReport report;
-      PassSums part;
+      StepSums part;
       RemovalSums left;
       Condition found;
       for (std::size_t s = first; s < last; ++s) {
@@ -162,7 +162,7 @@ class CpuBackend final : public Backend {
       }
       collect(removed, left);
       const std::lock_guard lock(mutex_);
-      part.add_to(sums);
+      sums.add(part);
       condition = Condition::first(condition, found);
     });
     book_step(ledger_, sums.rates(scene_.gravity, total_mass_), scene_.time_step, scene_.integrator);
@@ -225,20 +225,6 @@ class CpuBackend final : public Backend {
     std::fill(records.begin() + static_cast<std::ptrdiff_t>(count_), records.end() - 1, nowhere_record<Real>(Real(0)));
     records.back() = filling_record<Real>();
   }
-
-  // The sums of a pass over some segments.
-  struct PassSums {
-    ExactSumOf<Real> dissipated, wall_power;
-    std::array<ExactSumOf<Real>, 3> wall_force;
-    StepSums others;
-
-    void add_to(StepSums& sums) {
-      others.dissipated_power.add(dissipated);
-      others.wall_power.add(wall_power);
-      others.wall_force.add(wall_force);
-      sums.add(others);
-    }
-  };
 
   static std::size_t padded(std::size_t n) { return (n + kLanes - 1) / kLanes * kLanes; }
   bool verlet() const { return scene_.integrator == Integrator::velocity_verlet; }
@@ -367,23 +353,23 @@ class CpuBackend final : public Backend {
     loops_.force_pass(pass_, work);
   }
 
-  void add_up(std::size_t s, const SegmentReport& report, PassSums& sums) const {
+  void add_up(std::size_t s, const SegmentReport& report, StepSums& sums) const {
     const std::size_t first = s * kSegment;
     const std::size_t n = std::min(kSegment, count_ - first);
-    sums.dissipated.add(report.dissipated.data(), n);
+    sums.dissipated_power.add(report.dissipated.data(), n);
     for (std::size_t g = 0; g * kLanes < n; ++g) {
       if ((report.notes[g] & kTouchesWall) == 0) continue;
       const std::size_t k = g * kLanes, lanes = std::min(kLanes, n - k);
       sums.wall_power.add(report.wall_power.data() + k, lanes);
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        sums.wall_force[axis].add(report.wall_force[axis].data() + k, lanes);
+        sums.wall_force.add(axis, report.wall_force[axis].data() + k, lanes);
       }
     }
-    if (!rules_.has_drag) return;
+    if (!pass_.has_drag) return;
     for (std::size_t k = 0; k < n; ++k) {
       const Record& p = records_[first + k];
       const Real drag = rules_.materials[static_cast<std::size_t>(p.material)].drag;
-      sums.others.drag_force.add(vec_cast<double>(drag_force(p.v, drag)));
+      sums.drag_force.add(vec_cast<double>(drag_force(p.v, drag)));
     }
   }
 
@@ -440,13 +426,13 @@ class CpuBackend final : public Backend {
     aim_pass(evaluated.data());
     for_ranges(list_.segment_count(), 1, [&](std::size_t first, std::size_t last) {
       SegmentReport report;
-      PassSums part;
+      StepSums part;
       for (std::size_t s = first; s < last; ++s) {
         run_segment(s, report);
         add_up(s, report, part);
       }
       const std::lock_guard lock(mutex_);
-      part.add_to(sums);
+      sums.add(part);
     });
     ledger_.last = sums.rates(scene_.gravity, total_mass_);
     for (std::size_t i = 0; i < count_; ++i) {

@@ -51,6 +51,7 @@ struct ForcePass {
   Real dt{};                                  // s
   Vec3<Real> gravity{};                       // m/s^2
   Vec3<Real> min{}, max{}, length{};          // domain, m
+  bool has_drag = false;                      // some material's is not 0
   bool wall[3]{};                             // spring walls across this axis
   bool open_or_periodic[3]{};
   bool periodic[3]{};

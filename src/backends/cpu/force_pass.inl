@@ -181,6 +181,7 @@ struct WallLoop {
       face(axis, Real(1), lower_wall_overlap(x, P(component(pass.min, axis)), material.d));
       face(axis, Real(-1), upper_wall_overlap(x, P(component(pass.max, axis)), material.d));
     }
+    if (!touched && P::kLanes == kGroupLanes) return;  // else the rest of the group may touch
     store(work.wall_force[0] + slot, force.x);
     store(work.wall_force[1] + slot, force.y);
     store(work.wall_force[2] + slot, force.z);
@@ -253,9 +254,11 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
   }
   WallLoop<Real>{pass, own, present, wall_row}.run(acting, work, slot, notes);
 
-  const Vec3<P> drag = drag_force(own.v, body_row.b);
-  acting.force += drag;
-  acting.dissipated = acting.dissipated - dot(drag, own.v);
+  if (pass.has_drag) {
+    const Vec3<P> drag = drag_force(own.v, body_row.b);
+    acting.force += drag;
+    acting.dissipated = acting.dissipated - dot(drag, own.v);
+  }
 
   const Vec3<P> gravity{P(pass.gravity.x), P(pass.gravity.y), P(pass.gravity.z)};
   const Vec3<P> a = body_row.a * acting.force + gravity;
@@ -279,8 +282,8 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
   v = {select(present, v.x, zero), select(present, v.y, zero), select(present, v.z, zero)};
   store(work.dissipated + slot, select(present, acting.dissipated, zero));
   Real* out_record = reinterpret_cast<Real*>(pass.out + first);
-  store_quads(Quad<Real>{x.x, x.y, x.z, own.material}, [=](int lane) { return out_record + 8 * lane; });
-  store_quads(Quad<Real>{v.x, v.y, v.z, own.rank}, [=](int lane) { return out_record + 8 * lane + 4; });
+  const TwoQuads<Real> after{{x.x, x.y, x.z, own.material}, {v.x, v.y, v.z, own.rank}};
+  store_two_quads(after, [=](int lane) { return out_record + 8 * lane; });
 }
 
 template <class Real, bool kOneMaterial, PeriodicKind kPeriodic>

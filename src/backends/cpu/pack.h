@@ -353,6 +353,26 @@ HOOKE_HD TwoQuads<float> load_two_quads(float, const At& at) {
           {second(low.a, high.a), second(low.b, high.b), second(low.c, high.c), second(low.d, high.d)}};
 }
 template <class At>
+HOOKE_HD void store_two_quads(const TwoQuads<float>& q, const At& at) {
+  // Parts of two registers: first's, second's, first's, second's.
+  const auto woven = [](const Pack<float>& first, const Pack<float>& second, int part) {
+    const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11),
+                  high = _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15);
+    return _mm512_castpd_ps(
+        _mm512_permutex2var_pd(_mm512_castps_pd(first.v), part == 0 ? low : high, _mm512_castps_pd(second.v)));
+  };
+  for (int part = 0; part < 2; ++part) {
+    const Quad<float> t = transpose(woven(q.first.a, q.second.a, part), woven(q.first.b, q.second.b, part),
+                                    woven(q.first.c, q.second.c, part), woven(q.first.d, q.second.d, part));
+    const __m512 r[4] = {t.a.v, t.b.v, t.c.v, t.d.v};
+    for (int k = 0; k < 4; ++k) {
+      const __m512d both = _mm512_castps_pd(r[k]);
+      _mm256_store_pd(reinterpret_cast<double*>(at(8 * part + k)), _mm512_castpd512_pd256(both));
+      _mm256_store_pd(reinterpret_cast<double*>(at(8 * part + k + 4)), _mm512_extractf64x4_pd(both, 1));
+    }
+  }
+}
+template <class At>
 HOOKE_HD TwoQuads<double> load_two_quads(double, const At& at) {
   return {load_quads(double{}, at), load_quads(double{}, [&](int lane) { return at(lane) + 4; })};
 }
@@ -365,6 +385,12 @@ HOOKE_HD TwoQuads<Real> load_two_quads(Real, const At& at) {
 }
 
 #endif
+
+template <class Real, class At>
+HOOKE_HD void store_two_quads(const TwoQuads<Real>& q, const At& at) {
+  store_quads(q.first, at);
+  store_quads(q.second, [&](int lane) { return at(lane) + 4; });
+}
 
 /// Asks for the cache line of an address ahead of time.
 HOOKE_HD void prefetch(const void* at) { __builtin_prefetch(at); }

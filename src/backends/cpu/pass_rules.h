@@ -23,7 +23,6 @@ struct PassRules {
   double rounding = 0;  ///< m, of displacements across a periodic axis
   std::vector<double> level_radius;  ///< m: materials of similar radius share a level; the largest of each, ascending
   std::vector<std::size_t> level_of;  ///< by material
-  bool has_drag = false;
   ForcePass<Real> pass;  ///< all but the buffers
 
   void configure(const Scene& scene) {
@@ -45,7 +44,7 @@ struct PassRules {
     materials.assign(n, MaterialRow<Real>{});
     largest_radius = 0;
     smallest_radius = n == 0 ? 1 : std::numeric_limits<double>::infinity();
-    has_drag = false;
+    pass.has_drag = false;
     for (std::size_t a = 0; a < n; ++a) {
       const Material& m = scene.materials[a];
       const ContactCoefficients<double>& wall = table.wall(a);
@@ -56,7 +55,7 @@ struct PassRules {
                       Real(1) / real(m.mass),
                       real(m.drag),
                       {}};
-      has_drag = has_drag || m.drag > 0;
+      pass.has_drag = pass.has_drag || m.drag > 0;
       largest_radius = std::max(largest_radius, m.radius);
       smallest_radius = std::min(smallest_radius, m.radius);
       for (std::size_t b = 0; b < n; ++b) {
