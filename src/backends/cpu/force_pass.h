@@ -53,6 +53,7 @@ struct ForcePass {
   Vec3<Real> min{}, max{}, length{};          // domain, m
   bool has_drag = false;                      // some material's is not 0
   bool wall[3]{};                             // spring walls across this axis
+  Vec3<Real> clear_of_walls_from{}, clear_of_walls_to{};  // m: the largest particles between these touch no wall
   bool open_or_periodic[3]{};
   bool periodic[3]{};
   int images[3]{};                            // PeriodicKind::images: -n to n are looked at

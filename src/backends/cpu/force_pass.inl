@@ -175,7 +175,7 @@ struct WallLoop {
       force += on_touching;
       acting.too_fast = acting.too_fast | (touching & (dot(w, normal) > P(pass.speed_limit)));
     };
-    for (int axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < 3 && any(is_near()); ++axis) {
       if (!pass.wall[axis]) continue;
       const P& x = component(own.x, axis);
       face(axis, Real(1), lower_wall_overlap(x, P(component(pass.min, axis)), material.d));
@@ -187,6 +187,15 @@ struct WallLoop {
     store(work.wall_force[2] + slot, force.z);
     store(work.wall_power + slot, dot(force, own.v));
     if (touched) notes |= kTouchesWall;
+  }
+
+  // Mask of lanes that may touch a wall.
+  HOOKE_HD Mask<Real> is_near() const {
+    const auto outside = [&](int axis) {
+      const P& x = component(own.x, axis);
+      return (x < P(component(pass.clear_of_walls_from, axis))) | (x > P(component(pass.clear_of_walls_to, axis)));
+    };
+    return present & (outside(0) | outside(1) | outside(2));
   }
 };
 

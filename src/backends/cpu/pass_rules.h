@@ -99,6 +99,7 @@ struct PassRules {
     for (int axis = 0; axis < 3; ++axis) {
       const Boundary boundary = domain.boundary[static_cast<std::size_t>(axis)];
       pass.wall[axis] = boundary == Boundary::spring;
+      find_clear_range(axis);
       pass.periodic[axis] = boundary == Boundary::periodic;
       pass.open_or_periodic[axis] = boundary != Boundary::spring;
       pass.images[axis] = 0;
@@ -110,6 +111,19 @@ struct PassRules {
       if (pass.periodic_kind == PeriodicKind::none) pass.periodic_kind = PeriodicKind::nearest;
       rounding = std::max(rounding, 4 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * length);
     }
+  }
+
+  // What rounding a bound, or the distance from a wall, may take is far less than two steps outwards.
+  void find_clear_range(int axis) {
+    constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
+    Real from = -kInfinite, to = kInfinite;
+    if (pass.wall[axis]) {
+      const double radius = largest_radius;
+      from = std::nextafter(std::nextafter(real(component(pass.min, axis) + radius), kInfinite), kInfinite);
+      to = std::nextafter(std::nextafter(real(component(pass.max, axis) - radius), -kInfinite), -kInfinite);
+    }
+    component(pass.clear_of_walls_from, axis) = from;
+    component(pass.clear_of_walls_to, axis) = to;
   }
 };
 
