@@ -13,6 +13,7 @@ namespace hooke::HOOKE_ISA {
 namespace {
 
 constexpr std::size_t kRowLanes = 16;
+constexpr std::size_t kTogether = kPackBytes == 64 ? 4 : kPackBytes == 32 ? 2 : 1;  // points that registers hold
 
 // A neighbour's rank and index in one number that sorts like the rank: the bits of doubles of 1 and above.
 constexpr std::uint32_t kOne = 0x3ff00000U;
@@ -124,12 +125,11 @@ class Search {
       const SearchBlock<Real>& block = group_.blocks[b];
       middle_ = {P(block.middle.x), P(block.middle.y), P(block.middle.z)};
       const std::size_t count = gather(ranges_, ranges_ + block.range_count);
-      for (; i + 4 <= block.last; i += 4) list_near<4>(i, count);
-      if (i + 2 <= block.last) {
-        list_near<2>(i, count);
-        i += 2;
+      for (; i + kTogether <= block.last; i += kTogether) list_near<kTogether>(i, count);
+      if constexpr (kTogether > 2) {
+        for (; i + 2 <= block.last; i += 2) list_near<2>(i, count);
       }
-      if (i < block.last) list_near<1>(i++, count);
+      for (; i < block.last; ++i) list_near<1>(i, count);
       ranges_ += block.range_count;
     }
     write_rows();
@@ -155,10 +155,7 @@ class Search {
         store(y_ + at, x.y);
         store(z_ + at, x.z);
         store(square_ + at, square);
-        for (std::size_t lane = 0; lane < P::kLanes; lane += Pack<double>::kLanes) {
-          const WordVector ranks = load_words(rule_.rank + p + lane) + kOne;
-          store_bits(keys_ + at + lane, join_halves(ranks, ascending_words_ + static_cast<std::uint32_t>(p + lane)));
-        }
+        put_keys(at, p);
       }
       to += range->to - range->from;
     }
@@ -169,6 +166,20 @@ class Search {
       store(square_ + at, P(kFar));
     }
     return to;
+  }
+
+  // Keys of a pack of points from p on. Half a register of the oldest instruction set is nothing to compute with.
+  HOOKE_HD void put_keys(std::size_t at, std::size_t p) const {
+    if constexpr (kPackBytes > 16) {
+      for (std::size_t lane = 0; lane < P::kLanes; lane += Pack<double>::kLanes) {
+        const WordVector ranks = load_words(rule_.rank + p + lane) + kOne;
+        store_bits(keys_ + at + lane, join_halves(ranks, ascending_words_ + static_cast<std::uint32_t>(p + lane)));
+      }
+    } else {
+      for (std::size_t lane = 0; lane < P::kLanes; ++lane) {
+        keys_[at + lane] = row_key(rule_.rank[p + lane], static_cast<std::uint32_t>(p + lane));
+      }
+    }
   }
 
   HOOKE_HD Vec3<P> positions(std::size_t first) const {
@@ -246,8 +257,14 @@ class Search {
 
   HOOKE_HD void write_rows() const {
     sort_rows(rows_, row_count_);
-    for (std::size_t k = 0; k < row_count_ * kRowLanes; k += Pack<double>::kLanes) {
-      store(group_.entries + k, lower_half(load_bits(rows_ + k)) * rule_.stride);
+    if constexpr (kPackBytes > 16) {
+      for (std::size_t k = 0; k < row_count_ * kRowLanes; k += Pack<double>::kLanes) {
+        store(group_.entries + k, lower_half(load_bits(rows_ + k)) * rule_.stride);
+      }
+    } else {
+      for (std::size_t k = 0; k < row_count_ * kRowLanes; ++k) {
+        group_.entries[k] = static_cast<std::uint32_t>(rows_[k]) * rule_.stride;
+      }
     }
   }
 

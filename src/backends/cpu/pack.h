@@ -474,11 +474,11 @@ HOOKE_HD std::size_t append_where_less(std::int32_t* to, const Int32Vector& numb
 template <class Real>
 HOOKE_HD std::size_t append_where_less(std::int32_t* to, const Int32Vector& numbers, const Pack<Real>& a,
                                        const Pack<Real>& b) {
-  const Mask<Real> less = a < b;
+  const unsigned set = bits(a < b);
   std::size_t count = 0;
   for (std::size_t lane = 0; lane < Pack<Real>::kLanes; ++lane) {
     to[count] = numbers[lane];
-    count += static_cast<std::size_t>(less.v[lane] & 1);
+    count += set >> lane & 1U;
   }
   return count;
 }
