@@ -58,8 +58,10 @@ class CellGrid {
   static std::array<int, 3> path_axes(const Vec3d& min, const Vec3d& max) {
     std::array<int, 3> axes{0, 1, 2};
     const Vec3d length = max - min;
-    std::stable_sort(axes.begin(), axes.end(),
-                     [&](int a, int b) { return component(length, a) > component(length, b); });
+    std::sort(axes.begin(), axes.end(), [&](int a, int b) {
+      const double of_a = component(length, a), of_b = component(length, b);
+      return of_a != of_b ? of_a > of_b : a < b;
+    });
     return {axes[1], axes[2], axes[0]};
   }
 
