@@ -60,7 +60,7 @@ class MotionBounds {
   void lay_out(const Columns<Real>& listed_at, std::size_t count, std::size_t group, const Limits& limits) {
     const std::size_t most_blocks = std::max<std::size_t>(4096, count / 4);
     skin_ = limits.skin;
-    double width = 3 * limits.diameter;
+    double width = 4 * limits.diameter;
     double blur = 0;  // m: how far two points are from the middles of the blocks by which they count to this level
     for (Level& level : levels_) {
       for (;; width *= 1.25) {  // a sparse cloud gets wider blocks: that errs on the safe side

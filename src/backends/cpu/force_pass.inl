@@ -48,6 +48,55 @@ HOOKE_HD Quad<Real> load_rows(const Row* table, const Pack<Real>& index, int par
   });
 }
 
+// Stiffness, shear, damping and reach of the lanes' particles with others of some materials: read from the table of
+// pairs, where there are few kept in registers, for one material always the same.
+enum class Materials { one, few, many };
+constexpr std::size_t kFewPairs = 16;
+
+template <class Real, Materials kMaterials>
+struct PairTable;
+template <class Real>
+struct PairTable<Real, Materials::one> {
+  using P = Pack<Real>;
+  HOOKE_HD PairTable(const ForcePass<Real>& pass, const P&) : only(*pass.pairs) {}
+  HOOKE_HD Quad<Real> lookup(const P&) const {
+    return {P(only.stiffness), P(only.shear), P(only.damping), P(only.reach)};
+  }
+  const PairRow<Real>& only;
+};
+template <class Real>
+struct PairTable<Real, Materials::few> {
+  using P = Pack<Real>;
+  HOOKE_HD PairTable(const ForcePass<Real>& pass, const P& material)
+      : PairTable(*pass.pairs, pass.material_count * pass.material_count,
+                  material * P(static_cast<Real>(pass.material_count))) {}
+  HOOKE_HD Quad<Real> lookup(const P& material) const {
+    const P at = first + material;
+    return {stiffness.lookup(at), shear.lookup(at), damping.lookup(at), reach.lookup(at)};
+  }
+  P first;
+  SmallTable<Real> stiffness, shear, damping, reach;
+
+ private:
+  static constexpr std::size_t kStride = sizeof(PairRow<Real>) / sizeof(Real);
+  HOOKE_HD PairTable(const PairRow<Real>& pairs, std::size_t count, const P& from)
+      : first(from),
+        stiffness(&pairs.stiffness, kStride, count),
+        shear(&pairs.shear, kStride, count),
+        damping(&pairs.damping, kStride, count),
+        reach(&pairs.reach, kStride, count) {}
+};
+template <class Real>
+struct PairTable<Real, Materials::many> {
+  using P = Pack<Real>;
+  HOOKE_HD PairTable(const ForcePass<Real>& pass, const P& material)
+      : pairs(pass.pairs),
+        first(material * P(static_cast<Real>(pass.material_count))) {}
+  HOOKE_HD Quad<Real> lookup(const P& material) const { return load_rows(pairs, first + material, 0); }
+  const PairRow<Real>* pairs;
+  P first;
+};
+
 // What acts on the lanes' particles.
 template <class Real>
 struct Acting {
@@ -64,7 +113,7 @@ struct Acting {
 
 // Contacts with particles in ascending order of id. The first two flags drop what a scene does not need, the third what
 // only coincident centres need.
-template <class Real, bool kOneMaterial, PeriodicKind kPeriodic, bool kTies>
+template <class Real, Materials kMaterials, PeriodicKind kPeriodic, bool kTies>
 struct ContactLoop {
   using P = Pack<Real>;
   const ForcePass<Real>& pass;
@@ -119,9 +168,12 @@ struct ContactLoop {
 
   HOOKE_HD Acting<Real> run(const std::uint32_t* row, const std::uint32_t* end, const std::uint32_t* last_row) const {
     Acting<Real> acting;
+    const PairTable<Real, kMaterials> table(pass, own.material);
     for (; row != end; row += kGroupLanes) {
       prefetch_row(row, last_row);
-      contact(load_neighbours(pass.in, row), acting);
+      const Lanes<Real> other = load_neighbours(pass.in, row);
+      const Quad<Real> pair = table.lookup(other.material);
+      neighbour(other, {pair.a, pair.b, pair.c}, pair.d, acting);
     }
     return acting;
   }
@@ -133,17 +185,6 @@ struct ContactLoop {
     row = last_row - row > kAhead ? row + kAhead : last_row;
     for (std::size_t lane = 0; lane < P::kLanes; ++lane) {
       prefetch(reinterpret_cast<const char*>(pass.in) + std::size_t{row[lane]} * 8);
-    }
-  }
-
-  HOOKE_HD void contact(const Lanes<Real>& other, Acting<Real>& acting) const {
-    if constexpr (kOneMaterial) {
-      const PairRow<Real>& only = pass.pairs[0];
-      neighbour(other, {P(only.stiffness), P(only.shear), P(only.damping)}, P(only.reach), acting);
-    } else {
-      const P row = own.material * P(static_cast<Real>(pass.material_count)) + other.material;
-      const Quad<Real> pair = load_rows(pass.pairs, row, 0);
-      neighbour(other, {pair.a, pair.b, pair.c}, pair.d, acting);
     }
   }
 };
@@ -233,7 +274,7 @@ HOOKE_HD Mask<Real> is_far(const ForcePass<Real>& pass, const Vec3<Pack<Real>>& 
   return !(dot(off, off) <= P(anchor.limit2(pass.next_step)));
 }
 
-template <class Real, bool kOneMaterial, PeriodicKind kPeriodic>
+template <class Real, Materials kMaterials, PeriodicKind kPeriodic>
 HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& work, std::size_t slot,
                        unsigned char& notes, unsigned& far) {
   using P = Pack<Real>;
@@ -247,13 +288,12 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
   const Lanes<Real> own = load_lanes<Real>([=](int lane) { return own_record + 8 * lane; });
   const Mask<Real> present = own.x.x < P(static_cast<Real>(kNowhere));
 
-  Acting<Real> acting = ContactLoop<Real, kOneMaterial, kPeriodic, false>{pass, own}.run(row, end, last_row);
-  if (any(acting.too_fast))
-    acting = ContactLoop<Real, kOneMaterial, kPeriodic, true>{pass, own}.run(row, end, last_row);
+  Acting<Real> acting = ContactLoop<Real, kMaterials, kPeriodic, false>{pass, own}.run(row, end, last_row);
+  if (any(acting.too_fast)) acting = ContactLoop<Real, kMaterials, kPeriodic, true>{pass, own}.run(row, end, last_row);
   acting.dissipated = P(Real(0.5)) * acting.dissipated;
 
   Quad<Real> wall_row, body_row;
-  if constexpr (kOneMaterial) {
+  if constexpr (kMaterials == Materials::one) {
     const MaterialRow<Real>& m = pass.materials[0];
     wall_row = {P(m.wall_stiffness), P(m.wall_shear), P(m.wall_damping), P(m.radius)};
     body_row = {P(m.inverse_mass), P(m.drag), P(Real(0)), P(Real(0))};
@@ -295,34 +335,36 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
   store_two_quads(after, [=](int lane) { return out_record + 8 * lane; });
 }
 
-template <class Real, bool kOneMaterial, PeriodicKind kPeriodic>
+template <class Real, Materials kMaterials, PeriodicKind kPeriodic>
 void run_segment(const ForcePass<Real>& pass, const SegmentWork<Real>& work) {
   for (std::size_t g = 0; g < work.group_count; ++g) {
     unsigned char notes = 0;
     unsigned far = 0;
     for (std::size_t half = 0; half < kGroupLanes; half += Pack<Real>::kLanes) {
-      run_pack<Real, kOneMaterial, kPeriodic>(pass, work, g * kGroupLanes + half, notes, far);
+      run_pack<Real, kMaterials, kPeriodic>(pass, work, g * kGroupLanes + half, notes, far);
     }
     work.notes[g] = notes;
     work.far[g] = static_cast<std::uint16_t>(far);
   }
 }
 
-template <class Real, bool kOneMaterial>
+template <class Real, Materials kMaterials>
 void choose_periodic(const ForcePass<Real>& pass, const SegmentWork<Real>& work) {
   switch (pass.periodic_kind) {
     case PeriodicKind::none:
-      return run_segment<Real, kOneMaterial, PeriodicKind::none>(pass, work);
+      return run_segment<Real, kMaterials, PeriodicKind::none>(pass, work);
     case PeriodicKind::nearest:
-      return run_segment<Real, kOneMaterial, PeriodicKind::nearest>(pass, work);
+      return run_segment<Real, kMaterials, PeriodicKind::nearest>(pass, work);
     case PeriodicKind::images:
-      return run_segment<Real, kOneMaterial, PeriodicKind::images>(pass, work);
+      return run_segment<Real, kMaterials, PeriodicKind::images>(pass, work);
   }
 }
 
 template <class Real>
 void choose_materials(const ForcePass<Real>& pass, const SegmentWork<Real>& work) {
-  return pass.material_count == 1 ? choose_periodic<Real, true>(pass, work) : choose_periodic<Real, false>(pass, work);
+  if (pass.material_count == 1) return choose_periodic<Real, Materials::one>(pass, work);
+  if (pass.material_count * pass.material_count <= kFewPairs) return choose_periodic<Real, Materials::few>(pass, work);
+  return choose_periodic<Real, Materials::many>(pass, work);
 }
 
 }  // namespace

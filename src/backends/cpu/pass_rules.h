@@ -70,7 +70,7 @@ struct PassRules {
     pass.material_count = n;
   }
 
-  // The largest radius of a level is no more than twice the smallest.
+  // The largest radius of a level is no more than one and a half times the smallest.
   void configure_levels() {
     std::vector<std::size_t> by_radius(materials.size());
     std::iota(by_radius.begin(), by_radius.end(), std::size_t{0});
@@ -81,7 +81,7 @@ struct PassRules {
     double smallest = 0;  // of the level
     for (const std::size_t m : by_radius) {
       const auto radius = static_cast<double>(materials[m].radius);
-      if (level_radius.empty() || radius > 2 * smallest) {
+      if (level_radius.empty() || radius > 1.5 * smallest) {
         level_radius.push_back(radius);
         smallest = radius;
       }

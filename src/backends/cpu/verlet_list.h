@@ -99,7 +99,7 @@ class VerletList {
     mended_.reserve(many);
     age_ = 0;
     spent_ = 0;
-    follow_helps_ = true;
+    if (builds_ % kFollowTrial == 0) follow_helps_ = true;
     listed_ = true;
     ++builds_;
     follow(records);
@@ -188,6 +188,8 @@ class VerletList {
   // Costs, in units of what listing one particle takes.
   static constexpr std::size_t kStrayCost = 6;  // looking after one stray for one step
   static constexpr std::size_t kFollowShare = 9;  // following the particles takes this part of a build
+
+  static constexpr std::uint64_t kFollowTrial = 16;  // builds after which anchors may follow in vain once more
 
   // Skins as a part of the smallest diameter.
   static constexpr double kFirstSkin = 0.25, kThinnestSkin = 0.12, kThickestSkin = 0.4;
