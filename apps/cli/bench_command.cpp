@@ -154,8 +154,8 @@ void print_table(const RunReport& report) {
   row("contacts per particle", fmt::format("{:.2f}", report.contacts_per_particle()));
   row("rebuilds", fmt::format("{}", report.neighbours.rebuilds));
   row("list slots per particle", fmt::format("{:.1f}", report.neighbours.slots_per_particle));
-  row("bytes per particle",
-      report.particles == 0 ? std::string("-") : fmt::format("{}", report.peak_bytes / report.particles));
+  row("bytes per particle", fmt::format("{:.0f}, and {:.0f} MB of program", report.bytes_per_particle(),
+                                        static_cast<double>(report.program_bytes) * 1e-6));
   row("device", fmt::format("{} ({}), {} threads, {} precision", report.device, report.isa, report.threads,
                             to_string(report.precision)));
   row("momentum drift", fmt::format("{:.2g}", report.momentum_drift));
@@ -178,6 +178,7 @@ Expected<void> advance(Simulation& simulation, std::int64_t steps, bool show) {
 }  // namespace
 
 ExitStatus bench_command(const BenchArguments& arguments) {
+  const std::uint64_t program_bytes = peak_resident_bytes();
   auto opened = open_simulation(arguments.scene, arguments.device, arguments.resume);
   if (!opened) return report_error(opened.error());
   for (const Finding& warning : opened->warnings) spdlog::warn("{}: {}", warning.where, warning.message);
@@ -203,6 +204,7 @@ ExitStatus bench_command(const BenchArguments& arguments) {
   if (!measurements) return report_error(measurements.error(), true);
   RunReport report = make_report(simulation, *measurements);
   report.steps = arguments.steps;
+  report.program_bytes = program_bytes;
   report.seconds = seconds;
   report.neighbours.rebuilds = rebuilds - rebuilds_before;
   report.stages = report.stages - stages_before;

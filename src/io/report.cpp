@@ -39,6 +39,11 @@ double RunReport::energy_balance() const {
   return now - initial_energy - (ledger.wall_work - ledger.dissipated - ledger.removed_energy);
 }
 
+double RunReport::bytes_per_particle() const {
+  if (particles == 0) return 0;
+  return static_cast<double>(peak_bytes - program_bytes) / static_cast<double>(particles);
+}
+
 RunReport make_report(const Simulation& simulation, const Measurements& measurements) {
   const BackendInfo backend = simulation.backend_info();
   RunReport report;
@@ -83,6 +88,7 @@ std::string to_json(const RunReport& r) {
   json["isa"] = r.isa;
   json["precision"] = to_string(r.precision);
   json["peak_bytes"] = r.peak_bytes;
+  json["program_bytes"] = r.program_bytes;
   json["state_hash"] = fmt::format("{:016x}", r.state_hash);
   json["energy"] = {{"kinetic", m.kinetic_energy},        {"potential", m.potential_energy},
                     {"elastic", m.elastic_energy},        {"wall_elastic", m.wall_elastic_energy},

@@ -25,20 +25,22 @@ struct RunReport {
   Precision precision = Precision::double_precision;
   int threads = 1;
   std::uint64_t peak_bytes = 0;   ///< largest resident memory so far
+  std::uint64_t program_bytes = 0;  ///< of it, before the scene was read: the program and its libraries; 0 if unknown
   std::uint64_t state_hash = 0;
   Measurements measurements;
   Ledger ledger;
-  double initial_energy = 0;      ///< kinetic, potential and elastic at step 0, J
-  double momentum_drift = 0;      ///< beyond what gravity, walls, drag and departures account for, relative
+  double initial_energy = 0;  ///< kinetic, potential and elastic at step 0, J
+  double momentum_drift = 0;  ///< beyond what gravity, walls, drag and departures account for, relative
   NeighbourStatistics neighbours;
-  StageTimes stages;              ///< of those steps
-  std::optional<double> walls;    ///< s, the part of stages.force that walls take, where somebody has measured it
+  StageTimes stages;  ///< of those steps
+  std::optional<double> walls;  ///< s, the part of stages.force that walls take, where somebody has measured it
 
   double steps_per_second() const { return seconds > 0 ? static_cast<double>(steps) / seconds : 0; }
   double particle_steps_per_second() const { return steps_per_second() * static_cast<double>(particles); }
+  double bytes_per_particle() const;  ///< of peak_bytes, beyond program_bytes; 0 without particles
   double rest() const { return seconds - stages.total(); }  ///< of `seconds`, in no stage
   double contacts_per_particle() const;  ///< 2 contacts / particles
-  double energy_balance() const;         ///< what the ledger leaves unexplained of the change of energy, J
+  double energy_balance() const;  ///< what the ledger leaves unexplained of the change of energy, J
 };
 
 /// Everything but `steps` and `seconds`, which the caller has timed, and `walls`. `stages` are those of all steps of

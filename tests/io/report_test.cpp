@@ -122,5 +122,14 @@ TEST(Report, TextFilesAreReplacedWhole) {
   EXPECT_EQ(failed.error().kind, Error::Kind::io);
 }
 
+TEST(Report, CountsMemoryBeyondTheProgramsOwn) {
+  RunReport report;
+  EXPECT_EQ(report.bytes_per_particle(), 0);
+  report.particles = 1000;
+  report.program_bytes = 40'000'000;
+  report.peak_bytes = 40'160'000;
+  EXPECT_EQ(report.bytes_per_particle(), 160);
+}
+
 }  // namespace
 }  // namespace hooke
