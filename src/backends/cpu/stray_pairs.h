@@ -124,8 +124,13 @@ class StrayPairs {
   /// Room that is kept from one search to the next.
   struct Room {
     struct Stray {
-      Vec3<Real> x;  // m
+      std::uint64_t row;  // of places, along x
+      Vec3<Real> x;       // m
       std::uint32_t i;
+
+      bool is_before(std::uint64_t other_row, Real other_x) const {
+        return row != other_row ? row < other_row : x.x < other_x;
+      }
     };
     std::vector<Stray> sorted;
     std::vector<Lack> lacks;
@@ -222,33 +227,58 @@ class StrayPairs {
     }
   }
 
-  // Pairs of two strays, by a sweep along x. Across a periodic x the first ones follow the last ones once more.
+  // Pairs of two strays: they are sorted into rows along x, as wide as two can touch, and each meets those that follow
+  // it in its row and those at its height in half of the rows around. At periodic faces, those behind the lower one
+  // follow beyond the upper one once more.
   void find_among(std::span<const std::uint32_t> strays, Room& room) const {
     using Stray = typename Room::Stray;
-    const ForcePass<Real>& pass = rules_.pass;
-    const auto reach = static_cast<Real>(2 * rules_.largest_radius + margin());
     std::vector<Stray>& sorted = room.sorted;
     sorted.clear();
+    const auto reach = static_cast<Real>(2 * rules_.largest_radius + margin());
     for (const std::uint32_t i : strays) {
-      Vec3<Real> x = records_[i].x;
-      if (is_nowhere(records_[i])) continue;
-      sorted.push_back({x, i});
-      if (!pass.periodic[0] || x.x >= pass.min.x + reach) continue;
-      x.x += pass.length.x;
-      sorted.push_back({x, i});
+      if (!is_nowhere(records_[i])) add_with_images(i, records_[i].x, 0, reach, sorted);
     }
-    std::sort(sorted.begin(), sorted.end(), [](const Stray& a, const Stray& b) { return a.x.x < b.x.x; });
-    const auto is_near = [&](int axis, Real d) { return pass.periodic[axis] || std::abs(d) < reach; };
+    std::sort(sorted.begin(), sorted.end(), [](const Stray& a, const Stray& b) { return a.is_before(b.row, b.x.x); });
     parallel_ranges(sorted.size(), 256, [&](std::size_t first, std::size_t last) {
       for (std::size_t a = first; a < last; ++a) {
-        for (std::size_t b = a + 1; b < sorted.size() && sorted[b].x.x - sorted[a].x.x < reach; ++b) {
-          if (!is_near(1, sorted[b].x.y - sorted[a].x.y) || !is_near(2, sorted[b].x.z - sorted[a].x.z)) continue;
-          if (sorted[a].i != sorted[b].i && touch(sorted[a].i, sorted[b].i)) {
-            note_lacks(sorted[a].i, sorted[b].i, room.lacks);
+        const Stray& stray = sorted[a];
+        const auto meet = [&](auto other, std::uint64_t row) {
+          for (; other != sorted.end() && other->row == row && other->x.x - stray.x.x < reach; ++other) {
+            if (other->i != stray.i && touch(stray.i, other->i)) note_lacks(stray.i, other->i, room.lacks);
           }
+        };
+        meet(sorted.begin() + static_cast<std::ptrdiff_t>(a) + 1, stray.row);
+        for (const std::uint64_t row :
+             {stray.row + 1, stray.row + kNextY - 1, stray.row + kNextY, stray.row + kNextY + 1}) {
+          meet(std::partition_point(sorted.begin(), sorted.end(),
+                                    [&](const Stray& s) { return s.is_before(row, stray.x.x - reach); }),
+               row);
         }
       }
     });
+  }
+
+  static constexpr std::uint64_t kNextY = std::uint64_t{1}
+                                          << 32U;  // from a row to the one beside it along y; 1 along z
+
+  // Adds a place, and its images across periodic faces from `axis` on.
+  void add_with_images(std::uint32_t i, const Vec3<Real>& x, int axis, Real reach,
+                       std::vector<typename Room::Stray>& to) const {
+    if (axis == 3) {
+      constexpr double kMost = 1 << 30;  // further away, rows are shared
+      const auto index = [&](Real c) {
+        return static_cast<std::uint64_t>(
+            std::clamp(std::floor(static_cast<double>(c) / static_cast<double>(reach)), -kMost, kMost) + 2 * kMost);
+      };
+      to.push_back({index(x.y) * kNextY + index(x.z), x, i});
+      return;
+    }
+    add_with_images(i, x, axis + 1, reach, to);
+    const ForcePass<Real>& pass = rules_.pass;
+    if (!pass.periodic[axis] || component(x, axis) >= component(pass.min, axis) + reach) return;
+    Vec3<Real> image = x;
+    component(image, axis) += component(pass.length, axis);
+    add_with_images(i, image, axis + 1, reach, to);
   }
 
   const PassRules<Real>& rules_;
