@@ -85,7 +85,9 @@ class VerletList {
     build_neighbour_list(cells_, neighbour_rule(), search_, list_);
 
     limits_.diameter = 2 * rules_->largest_radius;
-    limits_.skin = std::max(0.0, 0.999 * skin_ - 2 * rules_->rounding);  // a thousandth covers rounding
+    find_coarseness();
+    // A thousandth covers what rounding takes of displacements.
+    limits_.skin = std::max(0.0, 0.999 * skin_ - 2 * rules_->rounding - coarseness_);
     std::copy(std::begin(rules_->pass.periodic), std::end(rules_->pass.periodic), limits_.periodic);
     motion_.lay_out(listed_at_.columns(), count, kLanes, limits_);
     const std::size_t groups = (count + kLanes - 1) / kLanes;
@@ -239,6 +241,16 @@ class VerletList {
     return rule;
   }
 
+  // What the rounding of places may take of the motion of two particles: some spacings of numbers as far out as they
+  // are.
+  void find_coarseness() {
+    double furthest = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      furthest = std::max({furthest, std::abs(component(limits_.min, axis)), std::abs(component(limits_.max, axis))});
+    }
+    coarseness_ = 8 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * furthest;
+  }
+
   // How far a record has moved since its neighbours were listed, beyond `expected`, m.
   Vec3<Real> displacement(const Record& p, std::size_t i, const Vec3<Real>& expected) const {
     const ForcePass<Real>& pass = rules_->pass;
@@ -302,7 +314,7 @@ class VerletList {
     mended_.clear(anchors_.size());
     if (strays_.empty()) return;
     const auto steps = static_cast<Real>(steps_);
-    const double mild = MotionBounds<Real>::kMild * limits_.skin, half = 0.5 * skin_;
+    const double mild = MotionBounds<Real>::kMild * limits_.skin, half = 0.5 * skin_ + coarseness_;
     const Vec3<Real> middle = motion_.middle(steps);
     const double anywhere = half + motion_.furthest_from_middle(static_cast<double>(steps_));
     const auto place_of = [&](std::size_t i) -> typename StrayPairs<Real>::Place {
@@ -338,6 +350,7 @@ class VerletList {
   const PassRules<Real>* rules_ = nullptr;
   GroupSearchFunction<Real> search_ = nullptr;
   double skin_ratio_ = kFirstSkin, skin_ = 0;  // of the smallest diameter; m
+  double coarseness_ = 0;  // m
 
   std::size_t count_ = 0;
   std::uint32_t filling_ = 0;  // of short lanes: an entry
