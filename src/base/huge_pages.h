@@ -31,7 +31,8 @@ struct HugePageAllocator {
     void* memory = std::aligned_alloc(kPage, whole_pages);
     if (memory == nullptr) throw std::bad_alloc();
 #if defined(__linux__)
-    madvise(memory, whole_pages, MADV_HUGEPAGE);  // a hint: where it fails, ordinary pages do
+    // A hint: where it fails, ordinary pages do, and so they do for the rest that would not fill one.
+    madvise(memory, bytes / kPage * kPage, MADV_HUGEPAGE);
 #endif
     return static_cast<T*>(memory);
   }
