@@ -6,7 +6,7 @@
 // exactly what ReferenceBackend spells out for one particle.
 
 #include "hooke/backends/cpu/force_pass.h"
-#include "hooke/backends/cpu/pack.h"
+#include "hooke/backends/cpu/pack_records.h"
 #include "hooke/physics/contact.h"
 #include "hooke/physics/drag.h"
 #include "hooke/physics/integrate.h"

@@ -6,7 +6,7 @@
 
 #include <utility>
 
-#include "hooke/backends/cpu/pack.h"
+#include "hooke/backends/cpu/pack_search.h"
 #include "hooke/neighbours/group_search.h"
 
 namespace hooke::HOOKE_ISA {
