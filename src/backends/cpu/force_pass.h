@@ -44,6 +44,7 @@ struct ForcePass {
   const ParticleRecord<Real>* in = nullptr;   // state before
   ParticleRecord<Real>* out = nullptr;        // state after
   Vec3<Real>* acceleration = nullptr;         // velocity Verlet: where a goes; null under symplectic Euler
+  const Vec3<Real>* applied = nullptr;        // forces of springs and the like, N; null where there are none
   Columns<Real> listed_at;                    // positions when the list was built, m
   const PairRow<Real>* pairs = nullptr;       // material_count squared
   const MaterialRow<Real>* materials = nullptr;

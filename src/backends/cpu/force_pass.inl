@@ -274,6 +274,18 @@ HOOKE_HD Mask<Real> is_far(const ForcePass<Real>& pass, const Vec3<Pack<Real>>& 
   return !(dot(off, off) <= P(anchor.limit2(pass.next_step)));
 }
 
+// Consecutive vectors, one a lane.
+template <class Real>
+HOOKE_HD Vec3<Pack<Real>> load_vectors(const Vec3<Real>* from) {
+  Vec3<Pack<Real>> a;
+  for (std::size_t lane = 0; lane < Pack<Real>::kLanes; ++lane) {
+    a.x.v[lane] = from[lane].x;
+    a.y.v[lane] = from[lane].y;
+    a.z.v[lane] = from[lane].z;
+  }
+  return a;
+}
+
 template <class Real, Materials kMaterials, PeriodicKind kPeriodic>
 HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& work, std::size_t slot,
                        unsigned char& notes, unsigned& far) {
@@ -308,6 +320,8 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
     acting.force += drag;
     acting.dissipated = acting.dissipated - dot(drag, own.v);
   }
+
+  if (pass.applied != nullptr) acting.force += load_vectors(pass.applied + first);
 
   const Vec3<P> gravity{P(pass.gravity.x), P(pass.gravity.y), P(pass.gravity.z)};
   const Vec3<P> a = body_row.a * acting.force + gravity;
