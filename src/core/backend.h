@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "hooke/base/expected.h"
 #include "hooke/core/particles.h"
@@ -52,6 +53,8 @@ struct Ledger {
   Vec3d removed_momentum{0, 0, 0};     ///< taken along by particles that left, kg m/s
   double removed_energy = 0;           ///< kinetic and potential, taken along likewise, J
   std::uint64_t removed = 0;           ///< particles that left through open faces
+  HoldLedger hold;
+  SpringLedger springs;
   /// Velocity Verlet: the rates of the last evaluation, whose second half the next step books. Else unused.
   StepRates last;
 
@@ -67,6 +70,8 @@ struct Measurements {
   double potential_energy = 0;            ///< -sum m g.x, J
   double elastic_energy = 0;              ///< in the springs between particles, J
   double wall_elastic_energy = 0;         ///< in the springs of walls, J
+  std::uint64_t springs = 0;              ///< that hold
+  double spring_energy = 0;               ///< in them, J
   Vec3d momentum{0, 0, 0};                ///< kg m/s
   Vec3d centre_of_mass{0, 0, 0};          ///< m
   double momentum_scale = 0;              ///< sum of m |v|, kg m/s: what rounding of the momentum is relative to
@@ -128,6 +133,12 @@ class Backend {
   /// Takes the rules. Before particles, and again when a material changes; particles stay.
   virtual void configure(const Scene& scene) = 0;
 
+  /// Breaks these springs of the scene's structure (indices, ascending), and no others. Before particles.
+  virtual void break_springs(const std::vector<std::uint64_t>& broken) = 0;
+
+  /// Indices of the broken ones, ascending.
+  virtual std::vector<std::uint64_t> broken_springs() const = 0;
+
   /// Replaces all particles. Those with an id >= `first_new_id` have no acceleration of a last step yet:
   /// under velocity Verlet it is evaluated here, a(x, v), before anything moves. The neighbour list is stale after.
   /// `ledger` continues.
@@ -146,7 +157,8 @@ class Backend {
   /// Sorts particles into cells and lists who may touch whom until the next time this is stale.
   virtual Condition build_neighbours() = 0;
 
-  /// The heart: all forces, and in the same pass what the integrator does with them.
+  /// The heart: all forces, and in the same pass what the integrator does with them. Springs that are stretched too
+  /// far when it begins break when it ends.
   ///   symplectic Euler   v += dt a; x += dt v; then the domain's boundaries
   ///   velocity Verlet    v += dt/2 a
   virtual Condition apply_forces() = 0;

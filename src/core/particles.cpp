@@ -51,6 +51,10 @@ void ParticleSet::sort_by_id() {
 }
 
 std::size_t ParticleSet::find(std::uint64_t particle_id) const {
+  // Most often ids are consecutive numbers.
+  if (!id.empty() && id.back() - id.front() == size() - 1) {
+    return particle_id >= id.front() && particle_id <= id.back() ? particle_id - id.front() : size();
+  }
   const auto found = std::lower_bound(id.begin(), id.end(), particle_id);
   return found != id.end() && *found == particle_id ? static_cast<std::size_t>(found - id.begin()) : size();
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "hooke/base/expected.h"
 #include "hooke/base/vec3.h"
 #include "hooke/core/materials.h"
+#include "hooke/core/springs.h"
 
 namespace hooke {
 
@@ -68,6 +70,7 @@ struct Scene {
   Domain domain;
   std::vector<Material> materials;        ///< at most 1,024
   std::vector<ContactEntry> contacts;     ///< pairs that do not follow the mixing rule
+  std::shared_ptr<const Structure> structure;  ///< springs, and what holds particles; null where there is nothing
   OutputCadence output;
   SceneCamera camera;
 };

@@ -193,10 +193,12 @@ struct Simulation::Impl {
                 "the scene asks for double, the back end computes in single precision");
   }
 
-  Expected<void> start(const ParticleSet& particles, std::uint64_t first_new, const Ledger& ledger) {
+  Expected<void> start(const ParticleSet& particles, std::uint64_t first_new, const Ledger& ledger,
+                       const std::vector<std::uint64_t>& broken_springs) {
     if (auto right = check_precision(); !right) return right;
     try {
       backend->configure(scene);
+      backend->break_springs(broken_springs);
       return check(backend->upload(particles, first_new, ledger));
     } catch (const std::bad_alloc&) {
       return fail(Error::Kind::bad_input, "particles",
@@ -232,18 +234,20 @@ Expected<Simulation> Simulation::create(Scene scene, ParticleSet particles, std:
   const FloatingPointGuard guard;
   std::vector<Finding> findings = validate(scene);
   if (findings.empty()) findings = check_particles(scene, particles, false);
+  if (findings.empty() && scene.structure) findings = check_ids(*scene.structure, particles);
   if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});
 
   auto impl = std::make_unique<Impl>();
   impl->scene = std::move(scene);
   impl->backend = std::move(backend);
   impl->next_id = particles.empty() ? 1 : particles.id.back() + 1;
-  if (auto started = impl->start(particles, 0, Ledger{}); !started) return fail(started.error());
+  if (auto started = impl->start(particles, 0, Ledger{}, {}); !started) return fail(started.error());
   particles = ParticleSet{};  // the back end has them now; measuring may need the room
   Simulation simulation(std::move(impl));
   const auto now = simulation.measure();
   if (!now) return fail(now.error());
-  simulation.impl_->initial_energy = now->kinetic_energy + now->potential_energy + now->elastic_energy;
+  simulation.impl_->initial_energy =
+      now->kinetic_energy + now->potential_energy + now->elastic_energy + now->spring_energy;
   simulation.impl_->initial_momentum = now->momentum;
   return simulation;
 }
@@ -392,7 +396,7 @@ Expected<void> Simulation::set_material(const Material& material) {
     s.scene = std::move(changed);
     // All accelerations anew: those of the last step are of the old material.
     const Ledger ledger = s.backend->ledger();
-    auto started = s.start(now, 0, ledger);
+    auto started = s.start(now, 0, ledger, s.backend->broken_springs());
     s.host_current = false;
     return started;
   }
@@ -403,7 +407,8 @@ SimulationState Simulation::snapshot() const {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
   (void)s.flush();  // evaluates the accelerations of particles just added; a failure is the next step's to report
-  return {particles(), s.step, s.next_id, s.backend->ledger(), s.initial_energy, s.initial_momentum};
+  return {particles(),       s.step,           s.next_id,        s.backend->ledger(),
+          s.scene.structure, broken_springs(), s.initial_energy, s.initial_momentum};
 }
 
 Expected<void> Simulation::restore(SimulationState state) {
@@ -415,7 +420,15 @@ Expected<void> Simulation::restore(SimulationState state) {
     findings.push_back(
         {"next_id", fmt::format("{} is not above the largest id {}", state.next_id, state.particles.id.back())});
   }
+  const auto& structure = s.scene.structure ? s.scene.structure : state.structure;
+  if (structure && findings.empty()) findings = validate(*structure, s.single());
+  const std::size_t springs = structure ? structure->springs.size() : 0;
+  if (!state.broken_springs.empty() && state.broken_springs.back() >= springs) {
+    findings.push_back(
+        {"broken_springs", fmt::format("{} is no spring; there are {}", state.broken_springs.back(), springs)});
+  }
   if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});
+  s.scene.structure = structure;
   s.step = state.step;
   s.next_id = state.next_id;
   s.initial_energy = state.initial_energy;
@@ -423,7 +436,7 @@ Expected<void> Simulation::restore(SimulationState state) {
   s.host_current = false;
   s.host_edited = false;
   s.failed = false;
-  return s.start(state.particles, state.next_id, state.ledger);
+  return s.start(state.particles, state.next_id, state.ledger, state.broken_springs);
 }
 
 std::uint64_t Simulation::state_hash() const {
@@ -444,6 +457,7 @@ Expected<Measurements> Simulation::measure() const {
   }
 }
 
+std::vector<std::uint64_t> Simulation::broken_springs() const { return impl_->backend->broken_springs(); }
 const Ledger& Simulation::ledger() const { return impl_->backend->ledger(); }
 double Simulation::initial_energy() const { return impl_->initial_energy; }
 const Vec3d& Simulation::initial_momentum() const { return impl_->initial_momentum; }

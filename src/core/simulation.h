@@ -21,7 +21,9 @@ struct SimulationState {
   std::int64_t step = 0;      ///< steps done
   std::uint64_t next_id = 1;  ///< id of the next particle to be added
   Ledger ledger;
-  double initial_energy = 0;  ///< kinetic, potential and elastic at step 0, J
+  std::shared_ptr<const Structure> structure;  ///< the scene's: where the scene brings none, this one holds
+  std::vector<std::uint64_t> broken_springs;   ///< indices of its springs, ascending
+  double initial_energy = 0;  ///< kinetic, potential, elastic and of springs at step 0, J
   Vec3d initial_momentum{0, 0, 0};
 };
 
@@ -98,8 +100,10 @@ class Simulation {
   Expected<Measurements> measure() const;
   /// Sums over all steps so far.
   const Ledger& ledger() const;
-  /// Kinetic, potential and elastic energy at step 0, J, and momentum, kg m/s: what drifts are measured from. What is
-  /// added, removed or pushed by hand later moves the momentum along, not the energy.
+  /// Which springs of Scene::structure are broken: indices, ascending.
+  std::vector<std::uint64_t> broken_springs() const;
+  /// Kinetic, potential, elastic and springs' energy at step 0, J, and momentum, kg m/s: what drifts are measured from.
+  /// What is added, removed or pushed by hand later moves the momentum along, not the energy.
   double initial_energy() const;
   const Vec3d& initial_momentum() const;
 

@@ -57,6 +57,56 @@ void RemovalSums::book(Ledger& ledger) const {
   ledger.removed += count;
 }
 
+void SpringSums::add(const SpringSums& other) {
+  work.add(other.work);
+  next_work.add(other.next_work);
+  power.add(other.power);
+  broken_energy.add(other.broken_energy);
+  broken += other.broken;
+}
+
+void SpringSums::book(SpringLedger& ledger, double dt, Integrator integrator) const {
+  ledger.broken += broken;
+  ledger.broken_energy += broken_energy.value();
+  if (integrator == Integrator::symplectic_euler) {
+    ledger.work += dt / 2 * work.value();
+    ledger.dissipated += dt * power.value();
+    return;
+  }
+  ledger.work += ledger.next_work + dt / 4 * work.value();
+  ledger.dissipated += dt / 2 * (ledger.last_power + power.value());
+  book_first(ledger, dt);
+}
+
+void SpringSums::book_first(SpringLedger& ledger, double dt) const {
+  ledger.next_work = dt / 4 * next_work.value();
+  ledger.last_power = power.value();
+}
+
+void HoldSums::add_particle(double mass, const Vec3d& held, const Vec3d& kicked) {
+  const Vec3d given = mass * (held - kicked);
+  impulse.add(given);
+  work.add(dot(given, held));
+  ++count;
+}
+
+void HoldSums::add(const HoldSums& other) {
+  impulse.add(other.impulse);
+  work.add(other.work);
+  count += other.count;
+}
+
+void HoldSums::book(HoldLedger& ledger, Integrator integrator) const {
+  ledger.impulse += ledger.next_impulse + impulse.value();
+  ledger.work += ledger.next_work + work.value();
+  if (integrator == Integrator::velocity_verlet) book_first(ledger);
+}
+
+void HoldSums::book_first(HoldLedger& ledger) const {
+  ledger.next_impulse = impulse.value();
+  ledger.next_work = work.value();
+}
+
 void MeasurementSums::add_particle(double mass, const Vec3d& x, const Vec3d& v, const Vec3d& gravity) {
   const double speed = std::sqrt(dot(v, v));
   mass_.add(mass);

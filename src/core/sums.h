@@ -58,6 +58,38 @@ struct RemovalSums {
   void book(Ledger& ledger) const;
 };
 
+/// What springs did in one evaluation of the forces. Work is force times time times the mean of the velocities before
+/// and after: what the kick adds to the kinetic energy.
+struct SpringSums {
+  ExactSum work;           ///< force . (velocity before + velocity after), W
+  ExactSum next_work;      ///< velocity Verlet: the same for the half kick to come
+  ExactSum power;          ///< of dampers, W; half from each end
+  ExactSum broken_energy;  ///< J
+  std::uint64_t broken = 0;
+
+  void add(const SpringSums& other);
+  /// Books a step of `dt` (s).
+  void book(SpringLedger& ledger, double dt, Integrator integrator) const;
+  /// Velocity Verlet, evaluated before a first step: only what the next step books.
+  void book_first(SpringLedger& ledger, double dt) const;
+};
+
+/// What it took to hold particles still against the kick that forces would have given them.
+struct HoldSums {
+  ExactVectorSum impulse;  ///< N s
+  ExactSum work;           ///< J
+  std::uint64_t count = 0;
+
+  /// A particle that kept `held` (m/s) in place of `kicked`.
+  void add_particle(double mass, const Vec3d& held, const Vec3d& kicked);
+  void add(const HoldSums& other);
+  /// Books a kick: under symplectic Euler a step's, under velocity Verlet the second half's, and the first half's of
+  /// the next step, which is the same.
+  void book(HoldLedger& ledger, Integrator integrator) const;
+  /// Velocity Verlet, evaluated before a first step: only what the next step books.
+  void book_first(HoldLedger& ledger) const;
+};
+
 /// Gathers Measurements particle by particle and contact by contact in any order.
 class MeasurementSums {
  public:

@@ -13,6 +13,7 @@
 #include "hooke/io/hdf5.h"
 #include "hooke/io/run_folder.h"
 #include "hooke/io/run_info_json.h"
+#include "hooke/io/structure_tables.h"
 
 namespace hooke {
 
@@ -145,6 +146,7 @@ void write_content(hdf5::File& file, const SimulationState& state, const RunInfo
   write_vectors(root, "position", p.position);
   write_vectors(root, "velocity", p.velocity);
   write_vectors(root, "acceleration", p.acceleration);
+  write_structure(root, state);
 }
 
 Checkpoint read_content(const std::filesystem::path& path) {
@@ -177,6 +179,7 @@ Checkpoint read_content(const std::filesystem::path& path) {
   for_each_integer(state, [&](std::uint64_t& value) { value = *integer++; });
   auto real = numbers.reals.begin();
   for_each_real(state, [&](double& value) { value = *real++; });
+  read_structure(root, path, state);
   checkpoint.info = parse_run_info(hdf5::read_text(root, "run"), path);
   return checkpoint;
 }

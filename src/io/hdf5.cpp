@@ -124,6 +124,14 @@ template <>
 hid_t memory_type<std::uint16_t>() {
   return H5T_NATIVE_UINT16;
 }
+template <>
+hid_t memory_type<std::uint32_t>() {
+  return H5T_NATIVE_UINT32;
+}
+template <>
+hid_t memory_type<std::uint8_t>() {
+  return H5T_NATIVE_UINT8;
+}
 
 template <>
 hid_t file_type<float>() {
@@ -144,6 +152,14 @@ hid_t file_type<std::uint64_t>() {
 template <>
 hid_t file_type<std::uint16_t>() {
   return H5T_STD_U16LE;
+}
+template <>
+hid_t file_type<std::uint32_t>() {
+  return H5T_STD_U32LE;
+}
+template <>
+hid_t file_type<std::uint8_t>() {
+  return H5T_STD_U8LE;
 }
 
 Column Column::create(hid_t parent, const char* name, hid_t type, hsize_t width, hsize_t chunk_rows, bool compressed) {
@@ -351,8 +367,12 @@ std::vector<T> read_array(hid_t parent, const char* name, hsize_t width) {
 template void write_array(hid_t, const char*, const double*, hsize_t, hsize_t);
 template void write_array(hid_t, const char*, const std::uint64_t*, hsize_t, hsize_t);
 template void write_array(hid_t, const char*, const std::uint16_t*, hsize_t, hsize_t);
+template void write_array(hid_t, const char*, const std::uint32_t*, hsize_t, hsize_t);
+template void write_array(hid_t, const char*, const std::uint8_t*, hsize_t, hsize_t);
 template std::vector<double> read_array(hid_t, const char*, hsize_t);
 template std::vector<std::uint64_t> read_array(hid_t, const char*, hsize_t);
 template std::vector<std::uint16_t> read_array(hid_t, const char*, hsize_t);
+template std::vector<std::uint32_t> read_array(hid_t, const char*, hsize_t);
+template std::vector<std::uint8_t> read_array(hid_t, const char*, hsize_t);
 
 }  // namespace hooke::hdf5

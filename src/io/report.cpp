@@ -35,8 +35,11 @@ double RunReport::contacts_per_particle() const {
 }
 
 double RunReport::energy_balance() const {
-  const double now = measurements.kinetic_energy + measurements.potential_energy + measurements.elastic_energy;
-  return now - initial_energy - (ledger.wall_work - ledger.dissipated - ledger.removed_energy);
+  const double now = measurements.kinetic_energy + measurements.potential_energy + measurements.elastic_energy +
+                     measurements.spring_energy;
+  const double lost =
+      ledger.dissipated + ledger.springs.dissipated + ledger.springs.broken_energy + ledger.removed_energy;
+  return now - initial_energy - (ledger.wall_work + ledger.hold.work - lost);
 }
 
 double RunReport::bytes_per_particle() const {
@@ -90,10 +93,19 @@ std::string to_json(const RunReport& r) {
   json["peak_bytes"] = r.peak_bytes;
   json["program_bytes"] = r.program_bytes;
   json["state_hash"] = fmt::format("{:016x}", r.state_hash);
-  json["energy"] = {{"kinetic", m.kinetic_energy},        {"potential", m.potential_energy},
-                    {"elastic", m.elastic_energy},        {"wall_elastic", m.wall_elastic_energy},
-                    {"dissipated", r.ledger.dissipated},  {"work_by_walls", r.ledger.wall_work},
-                    {"removed", r.ledger.removed_energy}, {"initial", r.initial_energy},
+  json["energy"] = {{"kinetic", m.kinetic_energy},
+                    {"potential", m.potential_energy},
+                    {"elastic", m.elastic_energy},
+                    {"wall_elastic", m.wall_elastic_energy},
+                    {"dissipated", r.ledger.dissipated},
+                    {"work_by_walls", r.ledger.wall_work},
+                    {"removed", r.ledger.removed_energy},
+                    {"initial", r.initial_energy},
+                    {"springs", m.spring_energy},
+                    {"dissipated_by_springs", r.ledger.springs.dissipated},
+                    {"work_by_springs", r.ledger.springs.work},
+                    {"broken_springs", r.ledger.springs.broken_energy},
+                    {"work_by_hold", r.ledger.hold.work},
                     {"balance", r.energy_balance()}};
   json["momentum"] = to_array(m.momentum);
   json["momentum_drift"] = r.momentum_drift;
@@ -105,6 +117,8 @@ std::string to_json(const RunReport& r) {
   json["mean_overlap_ratio"] = m.mean_overlap_ratio;
   json["wall_force"] = to_array(m.wall_force);
   json["removed"] = r.ledger.removed;
+  json["springs"] = m.springs;
+  json["broken_springs"] = r.ledger.springs.broken;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }
 

@@ -29,7 +29,7 @@ struct RunReport {
   std::uint64_t state_hash = 0;
   Measurements measurements;
   Ledger ledger;
-  double initial_energy = 0;  ///< kinetic, potential and elastic at step 0, J
+  double initial_energy = 0;  ///< kinetic, potential, elastic and springs' at step 0, J
   double momentum_drift = 0;  ///< beyond what gravity, walls, drag and departures account for, relative
   NeighbourStatistics neighbours;
   StageTimes stages;  ///< of those steps

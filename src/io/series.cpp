@@ -38,6 +38,12 @@ void for_each_column(const SeriesRow& row, Visit&& column) {
   vector("min_x", "min_y", "min_z", m.min);
   vector("max_x", "max_y", "max_z", m.max);
   vector("wall_force_x", "wall_force_y", "wall_force_z", m.wall_force);
+  column("springs", m.springs);
+  column("broken_springs", l.springs.broken);
+  column("spring", m.spring_energy);
+  column("spring_work", l.springs.work);
+  column("spring_dissipated", l.springs.dissipated);
+  column("spring_broken", l.springs.broken_energy);
   column("removed", l.removed);
   column("rebuilds", row.rebuilds);
 }

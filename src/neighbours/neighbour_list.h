@@ -44,6 +44,12 @@ class NeighbourList {
     return {segment.entries + std::size_t{first} * kLanes, (segment.first_row[g + 1] - first) * kLanes};
   }
 
+  /// The same, to be changed in place.
+  std::span<std::uint32_t> rows_to_edit(std::size_t s, std::size_t g) {
+    const std::span<const std::uint32_t> rows = this->rows(s, g);
+    return {const_cast<std::uint32_t*>(rows.data()), rows.size()};  // NOLINT: the memory is this list's own
+  }
+
   /// Entries in use, padding included.
   std::size_t entry_count() const {
     std::size_t n = 0;

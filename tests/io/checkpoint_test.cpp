@@ -41,6 +41,9 @@ TEST_F(Checkpoints, ReadBackBitForBit) {
     EXPECT_EQ(read->state.next_id, state.next_id);
     EXPECT_EQ(read->state.ledger, state.ledger);
     EXPECT_TRUE(std::signbit(read->state.ledger.wall_impulse.z));
+    ASSERT_TRUE(read->state.structure);
+    EXPECT_EQ(*read->state.structure, *state.structure);
+    EXPECT_EQ(read->state.broken_springs, state.broken_springs);
     EXPECT_EQ(read->state.initial_energy, state.initial_energy);
     EXPECT_EQ(read->state.initial_momentum, state.initial_momentum);
     EXPECT_TRUE(samples::same(read->state.particles, state.particles));

@@ -73,6 +73,17 @@ SimulationState state(std::int64_t step, std::size_t n) {
   s.ledger.removed_momentum = {1, 2, 1e-300};
   s.ledger.removed_energy = 12.5;
   s.ledger.removed = 0xffffffffffffffffU;
+  s.ledger.springs = {1.5, 1.0 / 7, 2.5e-3, 2, -0.125, 7.0 / 3};
+  s.ledger.hold = {{1, 2.0 / 3, 3}, 0.1, {-1, 1e-9, 5}, -0.2};
+  const auto structure = std::make_shared<Structure>();
+  for (std::uint64_t i = 0; i < n; ++i) {
+    structure->springs.push_back({3 * i + 1, 3 * i + 4, 0.1 * static_cast<double>(i + 1), 1e3 / 3, 0.7, 0.5,
+                                  static_cast<SpringMode>(i % 3), i % 2 == 0});
+    if (i % 5 == 0) structure->held.push_back(3 * i + 1);
+    if (i % 7 == 0) s.broken_springs.push_back(i);
+  }
+  structure->surfaces = {{"linen", {1, 4, 7}, {0, 1, 2}}, {"silk", {10, 13, 16, 19}, {0, 1, 2, 1, 2, 3}}};
+  s.structure = structure;
   s.initial_energy = 1e15 / 3;
   s.initial_momentum = {-1, 0.1, 7};
   return s;

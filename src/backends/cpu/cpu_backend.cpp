@@ -16,9 +16,11 @@
 #include "hooke/backends/cpu/boundaries.h"
 #include "hooke/backends/cpu/column_store.h"
 #include "hooke/backends/cpu/contact_scan.h"
+#include "hooke/backends/cpu/held_particles.h"
 #include "hooke/backends/cpu/id_table.h"
 #include "hooke/backends/cpu/isa.h"
 #include "hooke/backends/cpu/pass_rules.h"
+#include "hooke/backends/cpu/spring_lists.h"
 #include "hooke/backends/cpu/threads.h"
 #include "hooke/backends/cpu/verlet_list.h"
 #include "hooke/base/huge_pages.h"
@@ -58,8 +60,12 @@ class CpuBackend final : public Backend {
     scene_ = scene;
     rules_.configure(scene);
     pass_ = rules_.pass;
-    list_.configure(rules_, loops_.search_group);
+    list_.configure(rules_, loops_.search_group, springs_.apart());
+    springs_.configure(scene, rules_.pass, loops_.spring_pass);
   }
+
+  void break_springs(const std::vector<std::uint64_t>& broken) override { springs_.break_springs(broken); }
+  std::vector<std::uint64_t> broken_springs() const override { return springs_.broken(); }
 
   Condition upload(const ParticleSet& particles, std::uint64_t first_new_id, const Ledger& ledger) override {
     ledger_ = ledger;
@@ -76,6 +82,8 @@ class CpuBackend final : public Backend {
     }
     fill_unused(records_);
     list_.forget();
+    springs_.bind(ids_);
+    find_held();
     count_alive();
     const bool any_new = count_ > 0 && ids_[count_ - 1] >= first_new_id;
     return verlet() && any_new ? evaluate_accelerations(first_new_id) : Condition{};
@@ -112,7 +120,7 @@ class CpuBackend final : public Backend {
         unsigned far = 0;
         for (std::size_t i = start; i < std::min(start + kLanes, last); ++i) {
           Record& p = records_[i];
-          if (is_nowhere(p)) continue;
+          if (is_nowhere(p) || held_.holds(i)) continue;
           p.v = kick(p.v, acceleration_[i], Real(0.5) * pass_.dt);
           p.x = drift(p.x, p.v, pass_.dt);
           if (list_.good() && list_.is_far(p, i))
@@ -134,7 +142,9 @@ class CpuBackend final : public Backend {
     Condition condition;
     threads_.run([&] {
       condition = sort_by_cell();
-      if (condition.good()) list_neighbours();
+      if (!condition.good()) return;
+      lay_out_structure();
+      list_neighbours();
     });
     return condition;
   }
@@ -142,17 +152,24 @@ class CpuBackend final : public Backend {
   Condition apply_forces() override {
     Stopwatch forcing(times_.force);
     StepSums sums;
+    SpringSums spring_sums;
+    HoldSums hold;
     RemovalSums removed;
     Condition condition;
     aim_pass(verlet() ? acceleration_.data() : nullptr);
+    const bool released = apply_springs(true, spring_sums);
     for_ranges(list_.segment_count(), 1, [&](std::size_t first, std::size_t last) {
       SegmentReport report;
       StepSums part;
+      SpringSums spring_part;
+      HoldSums hold_part;
       RemovalSums left;
       Condition found;
       for (std::size_t s = first; s < last; ++s) {
         run_segment(s, report);
         add_up(s, report, part);
+        hold_still(s, pass_.acceleration, hold_part);
+        springs_.add_work(s, records_.data(), next_.data(), pass_.acceleration, Real(0.5) * pass_.dt, spring_part);
         for (std::size_t g = 0; g < kGroups; ++g) {
           if (report.far[g] != 0) list_.note_far(s * kGroups + g, report.far[g]);
           if (report.notes[g] == 0) continue;
@@ -163,11 +180,16 @@ class CpuBackend final : public Backend {
       collect(removed, left);
       const std::lock_guard lock(mutex_);
       sums.add(part);
+      if (!springs_.empty()) spring_sums.add(spring_part);
+      if (hold_part.count > 0) hold.add(hold_part);
       condition = Condition::first(condition, found);
     });
     book_step(ledger_, sums.rates(scene_.gravity, total_mass_), scene_.time_step, scene_.integrator);
+    if (!springs_.empty()) spring_sums.book(ledger_.springs, scene_.time_step, scene_.integrator);
+    if (!held_.none()) hold.book(ledger_.hold, scene_.integrator);
     records_.swap(next_);
     forcing.stop();
+    if (released) list_.forget();
     if (!verlet()) follow_motion();
     book(removed);
     return condition;
@@ -202,7 +224,9 @@ class CpuBackend final : public Backend {
       const std::lock_guard lock(mutex_);
       total.add(part);
     });
-    return total.result();
+    Measurements result = total.result();
+    threads_.run([&] { springs_.measure(records_.data(), place_, result); });
+    return result;
   }
 
   NeighbourStatistics neighbour_statistics() const override {
@@ -318,6 +342,58 @@ class CpuBackend final : public Backend {
     if (check_list_ && list_.good()) missed_contacts_ += list_.count_missed(records_.data());
   }
 
+  // Springs, and what is held ----------------------------------------------------------------------------------------
+
+  // Before the first sort, particles lie in order of their ids.
+  void find_held() {
+    held_ranks_.clear();
+    held_ = {};
+    if (!scene_.structure || scene_.structure->held.empty()) return;
+    held_.clear(count_);
+    for (const std::uint64_t id : scene_.structure->held) {
+      const std::size_t rank = ids_.find(id);
+      if (rank == ids_.size()) continue;
+      held_ranks_.push_back(static_cast<std::uint32_t>(rank));
+      held_.hold(rank);
+    }
+  }
+
+  void lay_out_structure() {
+    if (springs_.empty() && held_.none()) return;
+    const Stopwatch sorting(times_.sort);
+    place_.assign(ids_.size(), SpringLists<Real>::kNowherePlace);
+    parallel_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) place_[rank_of(records_[i].rank)] = static_cast<std::uint32_t>(i);
+    });
+    if (!springs_.empty()) springs_.lay_out(records_.data(), count_, records_.size(), place_);
+    if (held_.none()) return;
+    held_.clear(count_);
+    for (const std::uint32_t rank : held_ranks_) {
+      if (place_[rank] != SpringLists<Real>::kNowherePlace) held_.hold(place_[rank]);
+    }
+  }
+
+  // Whether a pair that a spring kept apart may touch from now on.
+  bool apply_springs(bool may_tear, SpringSums& sums) {
+    pass_.applied = nullptr;
+    if (springs_.empty()) return false;
+    bool released = false;
+    threads_.run([&] { released = springs_.apply(records_.data(), may_tear, sums); });
+    pass_.applied = springs_.forces();
+    return released;
+  }
+
+  // Held particles stay as they were; what they got instead is booked.
+  void hold_still(std::size_t s, Vec3<Real>* acceleration, HoldSums& sums) {
+    if (held_.none()) return;
+    for (std::size_t i = s * kSegment; i < std::min((s + 1) * kSegment, count_); ++i) {
+      if (!held_.holds(i)) continue;
+      sums.add_particle(material_of(records_[i]).mass, vec_cast<double>(records_[i].v), vec_cast<double>(next_[i].v));
+      next_[i] = records_[i];
+      if (acceleration != nullptr) acceleration[i] = {Real(0), Real(0), Real(0)};
+    }
+  }
+
   // The force pass and what it reports -------------------------------------------------------------------------------
 
   void run_segment(std::size_t s, SegmentReport& report) const {
@@ -423,21 +499,32 @@ class CpuBackend final : public Backend {
     if (const Condition found = build_neighbours(); !found.good()) return found;
     LargeVector<Vec3<Real>> evaluated(acceleration_.size());
     StepSums sums;
+    SpringSums spring_sums;
+    HoldSums hold;
     aim_pass(evaluated.data());
+    (void)apply_springs(false, spring_sums);
     for_ranges(list_.segment_count(), 1, [&](std::size_t first, std::size_t last) {
       SegmentReport report;
       StepSums part;
+      HoldSums hold_part;
       for (std::size_t s = first; s < last; ++s) {
         run_segment(s, report);
         add_up(s, report, part);
+        hold_still(s, evaluated.data(), hold_part);
       }
       const std::lock_guard lock(mutex_);
       sums.add(part);
+      if (hold_part.count > 0) hold.add(hold_part);
     });
     ledger_.last = sums.rates(scene_.gravity, total_mass_);
     for (std::size_t i = 0; i < count_; ++i) {
       if (ids_[rank_of(records_[i].rank)] >= first_new_id) acceleration_[i] = evaluated[i];
     }
+    for (std::size_t s = 0; s < list_.segment_count(); ++s) {
+      springs_.add_work(s, records_.data(), records_.data(), acceleration_.data(), Real(0.5) * pass_.dt, spring_sums);
+    }
+    if (!springs_.empty()) spring_sums.book_first(ledger_.springs, scene_.time_step);
+    if (!held_.none()) hold.book_first(ledger_.hold);
     return {};
   }
 
@@ -504,6 +591,10 @@ class CpuBackend final : public Backend {
   LargeVector<Vec3<Real>> acceleration_;  // velocity Verlet only, m/s^2
   Ledger ledger_;
 
+  SpringLists<Real> springs_;
+  std::vector<std::uint32_t> held_ranks_;  // of what the scene's structure holds
+  HeldParticles held_;
+  std::vector<std::uint32_t> place_;  // by rank, of the last sort; only where there are springs or held particles
   VerletList<Real> list_;
   std::span<const std::uint32_t> order_;  // of the last sort, while it is in use
   std::uint64_t missed_contacts_ = 0;

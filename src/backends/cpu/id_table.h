@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -18,6 +19,12 @@ class IdTable {
   }
 
   std::size_t size() const { return count_; }
+  /// The rank of an id; size() where there is none.
+  std::size_t find(std::uint64_t id) const {
+    if (ids_.empty()) return id >= first_ && id - first_ < count_ ? static_cast<std::size_t>(id - first_) : count_;
+    const auto found = std::lower_bound(ids_.begin(), ids_.end(), id);
+    return found != ids_.end() && *found == id ? static_cast<std::size_t>(found - ids_.begin()) : count_;
+  }
   std::uint64_t operator[](std::size_t rank) const { return ids_.empty() ? first_ + rank : ids_[rank]; }
 
  private:

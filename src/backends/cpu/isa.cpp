@@ -7,27 +7,28 @@
 
 namespace hooke {
 
-#define HOOKE_DECLARE_GROUP_SEARCH(isa)                                                          \
-  namespace isa {                                                                                \
-  std::size_t search_group(const NeighbourRule<float>& rule, const GroupSearch<float>& group);   \
-  std::size_t search_group(const NeighbourRule<double>& rule, const GroupSearch<double>& group); \
+#define HOOKE_DECLARE_LOOPS(isa)                                                                     \
+  namespace isa {                                                                                    \
+  std::size_t search_group(const NeighbourRule<float>& rule, const GroupSearch<float>& group);       \
+  std::size_t search_group(const NeighbourRule<double>& rule, const GroupSearch<double>& group);     \
+  void spring_pass(const SpringPass<float>& pass, const SpringWork<float>& work);                    \
+  void spring_pass(const SpringPass<double>& pass, const SpringWork<double>& work);                  \
+  constexpr Isa named(const char* name) {                                                            \
+    return {name, {force_pass, search_group, spring_pass}, {force_pass, search_group, spring_pass}}; \
+  }                                                                                                  \
   }
-HOOKE_DECLARE_GROUP_SEARCH(portable)
-HOOKE_DECLARE_GROUP_SEARCH(avx2)
-HOOKE_DECLARE_GROUP_SEARCH(avx512)
-#undef HOOKE_DECLARE_GROUP_SEARCH
+HOOKE_DECLARE_LOOPS(portable)
+HOOKE_DECLARE_LOOPS(avx2)
+HOOKE_DECLARE_LOOPS(avx512)
+#undef HOOKE_DECLARE_LOOPS
 
 std::vector<Isa> available_isas() {
   std::vector<Isa> isas;
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) {
-    isas.push_back({"avx512", {avx512::force_pass, avx512::search_group}, {avx512::force_pass, avx512::search_group}});
-  }
-  if (__builtin_cpu_supports("avx2"))
-    isas.push_back({"avx2", {avx2::force_pass, avx2::search_group}, {avx2::force_pass, avx2::search_group}});
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) isas.push_back(avx512::named("avx512"));
+  if (__builtin_cpu_supports("avx2")) isas.push_back(avx2::named("avx2"));
 #endif
-  isas.push_back(
-      {"portable", {portable::force_pass, portable::search_group}, {portable::force_pass, portable::search_group}});
+  isas.push_back(portable::named("portable"));
   return isas;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hooke/backends/cpu/force_pass.h"
+#include "hooke/backends/cpu/spring_pass.h"
 #include "hooke/base/expected.h"
 #include "hooke/neighbours/group_search.h"
 
@@ -16,6 +17,7 @@ template <class Real>
 struct Loops {
   ForcePassFunction<Real> force_pass;
   GroupSearchFunction<Real> search_group;
+  SpringPassFunction<Real> spring_pass;
 };
 
 /// One build of the inner loops.

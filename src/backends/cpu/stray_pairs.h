@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "hooke/backends/cpu/apart_pairs.h"
 #include "hooke/backends/cpu/pass_rules.h"
 #include "hooke/base/parallel.h"
 #include "hooke/neighbours/cell_list.h"
@@ -114,12 +115,13 @@ class StrayPairs {
 
  public:
   StrayPairs(const PassRules<Real>& rules, const Record* records, const CellList& cells, const std::uint32_t* ranks,
-             const NeighbourList& list)
+             const NeighbourList& list, const ApartPairs& apart)
       : rules_(rules),
         records_(records),
         cells_(cells),
         ranks_(ranks),
-        list_(list) {}
+        list_(list),
+        apart_(apart) {}
 
   /// Room that is kept from one search to the next.
   struct Room {
@@ -219,7 +221,7 @@ class StrayPairs {
   }
   // Where one of two lacks the other, so does the other.
   void note_lacks(std::size_t i, std::size_t p, std::vector<Lack>& lacks) const {
-    if (is_listed(i, p)) return;
+    if (is_listed(i, p) || apart_.hold(ranks_[i], ranks_[p])) return;
     const std::lock_guard lock(mutex_);
     for (const auto& [of, other] : {std::pair{i, p}, std::pair{p, i}}) {
       lacks.push_back(
@@ -286,6 +288,7 @@ class StrayPairs {
   const CellList& cells_;
   const std::uint32_t* ranks_;
   const NeighbourList& list_;
+  const ApartPairs& apart_;
   mutable std::mutex mutex_;  // around what is lacking
 };
 

@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "hooke/backends/cpu/apart_pairs.h"
 #include "hooke/backends/cpu/column_store.h"
 #include "hooke/backends/cpu/pass_rules.h"
 #include "hooke/backends/cpu/stray_pairs.h"
@@ -40,8 +41,10 @@ class VerletList {
  public:
   using Anchor = GroupAnchor<Real>;
 
-  void configure(const PassRules<Real>& rules, GroupSearchFunction<Real> search) {
+  /// Pairs that are kept apart are never listed.
+  void configure(const PassRules<Real>& rules, GroupSearchFunction<Real> search, const ApartPairs& apart) {
     rules_ = &rules;
+    apart_ = &apart;
     search_ = search;
     skin_ratio_ = kFirstSkin;
     listed_ = false;
@@ -83,6 +86,7 @@ class VerletList {
       }
     });
     build_neighbour_list(cells_, neighbour_rule(), search_, list_);
+    strike_apart();
 
     limits_.diameter = 2 * rules_->largest_radius;
     find_coarseness();
@@ -178,7 +182,9 @@ class VerletList {
         for (const SearchRange& range : ranges) {
           for (std::size_t k = range.from; k < range.to; ++k) {
             const std::uint32_t p = order[k];
-            if (p != i && pairs.overlap(i, p) && !is_in_lane(rows, i % kLanes, record_offset<Real>(p))) ++missed;
+            if (p != i && pairs.overlap(i, p) && !apart_->hold(rank_of(records[i].rank), rank_of(records[p].rank)) &&
+                !is_in_lane(rows, i % kLanes, record_offset<Real>(p)))
+              ++missed;
           }
         }
       }
@@ -187,6 +193,18 @@ class VerletList {
   }
 
  private:
+  // Takes pairs that springs keep apart out of the rows.
+  void strike_apart() {
+    if (apart_->empty()) return;
+    parallel_ranges(count_, kLanes, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const std::span<std::uint32_t> rows = list_.rows_to_edit(i / NeighbourList::kSegment, i / kLanes % kGroups);
+        apart_->strike(order_[i], rows.data() + i % kLanes, rows.size() / kLanes, kLanes, filling_,
+                       [this](std::uint32_t entry) { return order_[entry / record_offset<Real>(1)]; });
+      }
+    });
+  }
+
   // Costs, in units of what listing one particle takes.
   static constexpr std::size_t kStrayCost = 6;  // looking after one stray for one step
   static constexpr std::size_t kFollowShare = 9;  // following the particles takes this part of a build
@@ -307,7 +325,9 @@ class VerletList {
     });
   }
 
-  StrayPairs<Real> stray_pairs(const Record* records) const { return {*rules_, records, cells_, order_.data(), list_}; }
+  StrayPairs<Real> stray_pairs(const Record* records) const {
+    return {*rules_, records, cells_, order_.data(), list_, *apart_};
+  }
 
   // Finds the pairs of strays that touch and rows that lack them.
   void mend(const Record* records) {
@@ -349,6 +369,7 @@ class VerletList {
 
   const PassRules<Real>* rules_ = nullptr;
   GroupSearchFunction<Real> search_ = nullptr;
+  const ApartPairs* apart_ = nullptr;
   double skin_ratio_ = kFirstSkin, skin_ = 0;  // of the smallest diameter; m
   double coarseness_ = 0;  // m
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "hooke/backends/reference/reference_springs.h"
 #include "hooke/base/stopwatch.h"
 #include "hooke/core/state_hash.h"
 #include "hooke/core/sums.h"
@@ -26,6 +27,7 @@ class ReferenceBackend final : public Backend {
   void configure(const Scene& scene) override {
     scene_ = scene;
     table_ = ContactTable(scene.materials, scene.contacts);
+    springs_.configure(scene);
     double largest = 0;
     for (const Material& m : scene.materials) largest = std::max(largest, m.radius);
     for (int axis = 0; axis < 3; ++axis) {
@@ -35,6 +37,9 @@ class ReferenceBackend final : public Backend {
           periodic ? static_cast<int>(2 * largest / scene.domain.length(axis)) + 1 : 0;
     }
   }
+
+  void break_springs(const std::vector<std::uint64_t>& broken) override { springs_.break_these(broken); }
+  std::vector<std::uint64_t> broken_springs() const override { return springs_.broken(); }
 
   Condition upload(const ParticleSet& particles, std::uint64_t first_new_id, const Ledger& ledger) override {
     p_ = particles;
@@ -47,9 +52,19 @@ class ReferenceBackend final : public Backend {
     p_.acceleration.resize(p_.size());
     if (p_.empty() || p_.id.back() < first_new_id) return {};
     const Forces now = accelerations();
+    HoldSums hold;
     for (std::size_t i = 0; i < p_.size(); ++i) {
-      if (p_.id[i] >= first_new_id) p_.acceleration[i] = now.a[i];
+      const bool held = springs_.is_held(p_.id[i]);
+      if (held) {
+        const Vec3d& v = p_.velocity[i];
+        hold.add_particle(material(i).mass, v, kick(v, now.a[i], scene_.time_step / 2));
+      }
+      if (p_.id[i] >= first_new_id) p_.acceleration[i] = held ? Vec3d{0, 0, 0} : now.a[i];
     }
+    hold.book_first(ledger_.hold);
+    SpringSums sums = now.springs;
+    add_next_work(now, sums);
+    sums.book_first(ledger_.springs, scene_.time_step);
     ledger_.last = now.sums.rates(scene_.gravity, total_mass());
     return {};
   }
@@ -59,6 +74,7 @@ class ReferenceBackend final : public Backend {
   void half_kick_and_drift() override {
     const Stopwatch drifting(times_.drift);
     for (std::size_t i = 0; i < p_.size(); ++i) {
+      if (springs_.is_held(p_.id[i])) continue;
       p_.velocity[i] = kick(p_.velocity[i], p_.acceleration[i], scene_.time_step / 2);
       p_.position[i] = drift(p_.position[i], p_.velocity[i], scene_.time_step);
     }
@@ -79,18 +95,31 @@ class ReferenceBackend final : public Backend {
 
   Condition apply_forces() override {
     const Stopwatch forcing(times_.force);
-    const Forces forces = accelerations();
+    Forces forces = accelerations();
+    const std::vector<std::size_t> torn = springs_.torn(p_, forces.springs);
     const double dt = scene_.time_step;
+    HoldSums hold;
     for (std::size_t i = 0; i < p_.size(); ++i) {
-      p_.velocity[i] = kick(p_.velocity[i], forces.a[i], verlet() ? dt / 2 : dt);
-      if (!verlet()) p_.position[i] = drift(p_.position[i], p_.velocity[i], dt);
+      const Vec3d before = p_.velocity[i];
+      const Vec3d kicked = kick(before, forces.a[i], verlet() ? dt / 2 : dt);
+      if (springs_.is_held(p_.id[i])) {
+        hold.add_particle(material(i).mass, before, kicked);
+        forces.a[i] = {0, 0, 0};
+      } else {
+        p_.velocity[i] = kicked;
+        if (!verlet()) p_.position[i] = drift(p_.position[i], p_.velocity[i], dt);
+      }
+      if (!forces.applied.empty()) forces.springs.work.add(dot(forces.applied[i], before + p_.velocity[i]));
     }
-    book_step(ledger_, forces.sums.rates(scene_.gravity, total_mass()), dt, scene_.integrator);
     if (verlet()) {
       p_.acceleration = forces.a;
-    } else {
-      apply_boundaries();
+      add_next_work(forces, forces.springs);
     }
+    book_step(ledger_, forces.sums.rates(scene_.gravity, total_mass()), dt, scene_.integrator);
+    forces.springs.book(ledger_.springs, dt, scene_.integrator);
+    hold.book(ledger_.hold, scene_.integrator);
+    springs_.tear(torn);
+    if (!verlet()) apply_boundaries();
     return forces.condition;
   }
 
@@ -115,7 +144,9 @@ class ReferenceBackend final : public Backend {
         sums.add_wall_contact(c.stiffness, overlap, contact_force(overlap, normal, -p_.velocity[i], c).force);
       });
     }
-    return sums.result();
+    Measurements result = sums.result();
+    springs_.measure(p_, result);
+    return result;
   }
 
   NeighbourStatistics neighbour_statistics() const override { return {0, static_cast<double>(p_.size())}; }
@@ -125,6 +156,8 @@ class ReferenceBackend final : public Backend {
   struct Forces {
     std::vector<Vec3d> a;  // m/s^2
     StepSums sums;
+    std::vector<Vec3d> applied;  // by springs, N; empty where there are none
+    SpringSums springs;
     Condition condition;
   };
 
@@ -134,10 +167,12 @@ class ReferenceBackend final : public Backend {
     return table_.pair(p_.material[i], p_.material[p]);
   }
 
-  // Forces on each particle in canonical order: contacts by (neighbour id, image), walls, drag; then gravity.
+  // Forces on each particle in canonical order: contacts by (neighbour id, image), walls, drag, springs by index; then
+  // gravity.
   Forces accelerations() const {
     Forces out;
     out.a.resize(p_.size());
+    out.applied = springs_.forces(p_, out.springs);
     const double dt = scene_.time_step;
     for (std::size_t i = 0; i < p_.size(); ++i) {
       const Material& m = material(i);
@@ -175,9 +210,20 @@ class ReferenceBackend final : public Backend {
       out.sums.dissipated_power.add(0.5 * dissipated);
       out.sums.dissipated_power.add(-dot(drag, v));
 
+      if (!out.applied.empty()) force += out.applied[i];
+
       out.a[i] = (1 / m.mass) * force + scene_.gravity;
     }
     return out;
+  }
+
+  // Velocity Verlet: what the springs' forces do in the next half kick, which is known already.
+  void add_next_work(const Forces& forces, SpringSums& sums) const {
+    for (std::size_t i = 0; i < forces.applied.size(); ++i) {
+      const Vec3d& v = p_.velocity[i];
+      const Vec3d next = kick(v, p_.acceleration[i], scene_.time_step / 2);
+      sums.next_work.add(dot(forces.applied[i], v + next));
+    }
   }
 
   // visit(p, normal, overlap) for every touching particle p and image of it, by id, then image.
@@ -185,6 +231,7 @@ class ReferenceBackend final : public Backend {
   void for_each_contact(std::size_t i, Visit&& visit) const {
     const Domain& domain = scene_.domain;
     for (std::size_t p = 0; p < p_.size(); ++p) {
+      if (springs_.keep_apart(p_.id[i], p_.id[p])) continue;
       for (int sx = -images_[0]; sx <= images_[0]; ++sx) {
         for (int sy = -images_[1]; sy <= images_[1]; ++sy) {
           for (int sz = -images_[2]; sz <= images_[2]; ++sz) {
@@ -260,6 +307,7 @@ class ReferenceBackend final : public Backend {
 
   Scene scene_;
   ContactTable table_;
+  ReferenceSprings springs_;
   std::array<int, 3> images_{};  // images -n to n of every particle are looked at, a periodic axis
   ParticleSet p_;
   Ledger ledger_;

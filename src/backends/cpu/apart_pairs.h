@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace hooke {
+
+/// Pairs of particles, by rank, that don't touch each other because a spring keeps them apart.
+class ApartPairs {
+ public:
+  ApartPairs() = default;
+  /// Of so many particles; each pair counts both ways.
+  ApartPairs(std::size_t ranks, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
+    if (pairs.empty()) return;
+    first_.assign(ranks + 1, 0);
+    for (const auto& [a, b] : pairs) {
+      ++first_[a + 1];
+      ++first_[b + 1];
+    }
+    for (std::size_t rank = 0; rank < ranks; ++rank) first_[rank + 1] += first_[rank];
+    partners_.resize(2 * pairs.size());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (const auto& [a, b] : pairs) {
+      partners_[next[a]++] = b;
+      partners_[next[b]++] = a;
+    }
+  }
+
+  bool empty() const { return partners_.empty(); }
+
+  bool hold(std::uint32_t a, std::uint32_t b) const {
+    return !empty() && std::find(begin(a), begin(a + 1), b) != begin(a + 1);
+  }
+
+  /// From now on these two touch.
+  void release(std::uint32_t a, std::uint32_t b) {
+    *std::find(begin(a), begin(a + 1), b) = kNobody;
+    *std::find(begin(b), begin(b + 1), a) = kNobody;
+  }
+
+  /// Takes the particle of this rank's pairs out of its row of a neighbour list, whose `count` entries are `stride`
+  /// apart; `filling` stands for none.
+  template <class RankOfEntry>
+  void strike(std::uint32_t rank, std::uint32_t* row, std::size_t count, std::size_t stride, std::uint32_t filling,
+              const RankOfEntry& rank_of_entry) const {
+    std::uint64_t some = 0;  // a bit for each partner, shared by some
+    for (auto p = begin(rank); p != begin(rank + 1); ++p) some |= std::uint64_t{1} << (*p & 63U);
+    if (some == 0) return;
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < count && row[k * stride] != filling; ++k) {
+      const std::uint32_t entry = row[k * stride], other = rank_of_entry(entry);
+      if ((some >> (other & 63U) & 1U) != 0 && hold(rank, other)) continue;
+      row[kept++ * stride] = entry;
+    }
+    for (; kept < count && row[kept * stride] != filling; ++kept) row[kept * stride] = filling;
+  }
+
+ private:
+  static constexpr std::uint32_t kNobody = ~std::uint32_t{0};
+
+  std::vector<std::uint32_t>::const_iterator begin(std::uint32_t rank) const {
+    return partners_.begin() + first_[rank];
+  }
+  std::vector<std::uint32_t>::iterator begin(std::uint32_t rank) { return partners_.begin() + first_[rank]; }
+
+  std::vector<std::uint32_t> first_, partners_;  // of rank r: partners_[first_[r]] to partners_[first_[r + 1]]
+};
+
+}  // namespace hooke

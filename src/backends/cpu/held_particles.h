@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace hooke {
+
+/// Which particles are held still, by their place in memory. Takes no memory and no time where none is.
+class HeldParticles {
+  static constexpr std::size_t kLanes = 16;
+
+ public:
+  /// None of `count` particles is held.
+  void clear(std::size_t count) { lanes_.assign((count + kLanes - 1) / kLanes, 0); }
+  void hold(std::size_t i) { lanes_[i / kLanes] = static_cast<std::uint16_t>(lanes_[i / kLanes] | 1U << i % kLanes); }
+
+  bool none() const { return lanes_.empty(); }
+  bool holds(std::size_t i) const { return !none() && (lanes_[i / kLanes] >> i % kLanes & 1U) != 0; }
+  /// A bit for each of the 16 particles of a group.
+  unsigned lanes(std::size_t group) const { return none() ? 0 : lanes_[group]; }
+
+ private:
+  std::vector<std::uint16_t> lanes_;
+};
+
+}  // namespace hooke

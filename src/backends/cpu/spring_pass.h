@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "hooke/backends/cpu/particle_record.h"
+#include "hooke/base/vec3.h"
+
+namespace hooke {
+
+// The spring pass as seen from outside; rules of inclusion as in force_pass.h.
+
+/// What springs of one kind share: four numbers, so that a pack of kinds loads like a pack of places.
+template <class Real>
+struct alignas(4 * sizeof(Real)) SpringKind {
+  Real stiffness;     // N/m
+  Real damping;       // N s/m
+  Real break_strain;  // infinite: never
+  Real side;          // as spring_acts() takes it
+};
+
+/// The first two kinds stand for no spring, and for one that broke in this pass. They never act.
+inline constexpr std::uint32_t kNoSpring = 0, kTornSpring = 1, kFirstSpringKind = 2;
+
+/// The k-th springs of 16 consecutive particles, one a lane.
+template <class Real>
+struct SpringRow {
+  std::uint32_t partner[16];  // record_offset() of the other end
+  std::uint32_t kind[16];
+  Real rest_length[16];  // m
+};
+
+/// What every group of a pass needs.
+template <class Real>
+struct SpringPass {
+  const ParticleRecord<Real>* records = nullptr;
+  const SpringKind<Real>* kinds = nullptr;
+  Vec3<Real>* force = nullptr;  // N, a particle each: written
+  bool may_tear = false;        // springs that are stretched too far become kTornSpring
+  bool any_periodic = false;
+  bool periodic[3]{};
+  Vec3<Real> length{};  // of the domain, m
+};
+
+/// Consecutive groups of 16 particles.
+template <class Real>
+struct SpringWork {
+  std::size_t first = 0;  // first particle
+  std::size_t group_count = 0;
+  SpringRow<Real>* rows = nullptr;            // of the whole list
+  const std::uint32_t* first_row = nullptr;   // group_count + 1, indices into rows
+  Real* power = nullptr;                      // W, one entry a particle: half of what its dampers take out
+  unsigned char* torn = nullptr;              // one entry a group: whether a spring became kTornSpring
+};
+
+template <class Real>
+using SpringPassFunction = void (*)(const SpringPass<Real>&, const SpringWork<Real>&);
+
+}  // namespace hooke

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "hooke/core/particles.h"
+#include "hooke/core/scene.h"
+#include "hooke/core/sums.h"
+#include "hooke/physics/contact.h"
+#include "hooke/physics/periodic.h"
+#include "hooke/physics/spring.h"
+
+namespace hooke {
+
+/// The springs of a scene, spelled out: every spring by ascending index, so each particle adds up its own in that
+/// order.
+class ReferenceSprings {
+ public:
+  void configure(const Scene& scene) {
+    domain_ = scene.domain;
+    structure_ = scene.structure;
+    broken_.assign(springs().size(), false);
+    apart_.clear();
+    for (std::size_t s = 0; s < springs().size(); ++s) {
+      if (springs().contact[s] == 0) apart_.push_back({pair_of(s), s});
+    }
+    std::sort(apart_.begin(), apart_.end());
+  }
+
+  void break_these(const std::vector<std::uint64_t>& broken) {
+    broken_.assign(springs().size(), false);
+    for (const std::uint64_t s : broken) broken_[s] = true;
+  }
+  std::vector<std::uint64_t> broken() const {
+    std::vector<std::uint64_t> all;
+    for (std::size_t s = 0; s < broken_.size(); ++s) {
+      if (broken_[s]) all.push_back(s);
+    }
+    return all;
+  }
+
+  /// Forces on each particle, N, where there are springs; else empty.
+  std::vector<Vec3d> forces(const ParticleSet& p, SpringSums& sums) const {
+    std::vector<Vec3d> force(springs().empty() ? 0 : p.size(), Vec3d{0, 0, 0});
+    for_each(p, [&](std::size_t s, std::size_t i, std::size_t j, const Vec3d& normal, double extension) {
+      if (!spring_acts(extension, side(s))) return;
+      const Vec3d w = p.velocity[j] - p.velocity[i];
+      const SpringForce<double> f = spring_force(extension, normal, w, springs().stiffness[s], springs().damping[s]);
+      force[i] += f.force;
+      force[j] += -f.force;
+      sums.power.add(f.dissipation);
+    });
+    return force;
+  }
+
+  /// Breaks what is torn where particles are. Returns which.
+  std::vector<std::size_t> torn(const ParticleSet& p, SpringSums& sums) const {
+    std::vector<std::size_t> found;
+    for_each(p, [&](std::size_t s, std::size_t, std::size_t, const Vec3d&, double extension) {
+      if (!spring_tears(extension, springs().rest_length[s], springs().break_strain[s])) return;
+      found.push_back(s);
+      ++sums.broken;
+      if (spring_acts(extension, side(s))) sums.broken_energy.add(spring_energy(extension, springs().stiffness[s]));
+    });
+    return found;
+  }
+  void tear(const std::vector<std::size_t>& these) {
+    for (const std::size_t s : these) broken_[s] = true;
+  }
+
+  void measure(const ParticleSet& p, Measurements& m) const {
+    ExactSum energy;
+    for_each(p, [&](std::size_t s, std::size_t, std::size_t, const Vec3d&, double extension) {
+      ++m.springs;
+      if (spring_acts(extension, side(s))) energy.add(spring_energy(extension, springs().stiffness[s]));
+    });
+    m.spring_energy = energy.value();
+  }
+
+  /// Whether a spring keeps these two from touching.
+  bool keep_apart(std::uint64_t a, std::uint64_t b) const {
+    const auto pair = std::minmax(a, b);
+    const auto found = std::lower_bound(apart_.begin(), apart_.end(), Apart{{pair.first, pair.second}, 0});
+    for (auto k = found; k != apart_.end() && k->first == Pair{pair.first, pair.second}; ++k) {
+      if (!broken_[k->second]) return true;
+    }
+    return false;
+  }
+
+  bool is_held(std::uint64_t id) const {
+    return structure_ && std::binary_search(structure_->held.begin(), structure_->held.end(), id);
+  }
+
+ private:
+  using Pair = std::pair<std::uint64_t, std::uint64_t>;
+  using Apart = std::pair<Pair, std::size_t>;
+
+  const SpringSet& springs() const {
+    static const SpringSet none;
+    return structure_ ? structure_->springs : none;
+  }
+  Pair pair_of(std::size_t s) const {
+    return {std::min(springs().a[s], springs().b[s]), std::max(springs().a[s], springs().b[s])};
+  }
+  double side(std::size_t s) const {
+    const SpringMode mode = springs().mode[s];
+    return mode == SpringMode::compression ? -1 : mode == SpringMode::extension ? 1 : 0;
+  }
+
+  // visit(spring, i, j, normal from j to i, extension) for every spring whose two particles are there.
+  template <class Visit>
+  void for_each(const ParticleSet& p, Visit&& visit) const {
+    for (std::size_t s = 0; s < springs().size(); ++s) {
+      if (broken_[s]) continue;
+      const std::size_t i = p.find(springs().a[s]), j = p.find(springs().b[s]);
+      if (i == p.size() || j == p.size()) continue;
+      Vec3d x_ij = p.position[i] - p.position[j];
+      for (int axis = 0; axis < 3; ++axis) {
+        if (domain_.boundary[static_cast<std::size_t>(axis)] != Boundary::periodic) continue;
+        const double x_i = component(p.position[i], axis), x_j = component(p.position[j], axis);
+        const double length = domain_.length(axis);
+        component(x_ij, axis) = image_displacement(x_i, x_j, nearest_image(x_i, x_j, length), length);
+      }
+      const double distance = sqrt_of(dot(x_ij, x_ij));
+      visit(s, i, j, contact_normal(x_ij, distance, p.id[i] > p.id[j] ? 1.0 : -1.0),
+            distance - springs().rest_length[s]);
+    }
+  }
+
+  Domain domain_;
+  std::shared_ptr<const Structure> structure_;
+  std::vector<bool> broken_;  // by spring
+  std::vector<Apart> apart_;  // pairs that don't touch, with their spring
+};
+
+}  // namespace hooke

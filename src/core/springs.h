@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hooke/base/expected.h"
+#include "hooke/base/vec3.h"
+
+namespace hooke {
+
+struct ParticleSet;
+
+/// Which way a spring acts.
+enum class SpringMode : std::uint8_t {
+  both,
+  compression,  ///< only while it is shorter than its rest length
+  extension,    ///< only while it is longer
+};
+
+/// One spring between two particles.
+struct Spring {
+  std::uint64_t a = 0, b = 0;  ///< ids, a != b
+  double rest_length = 1;      ///< m, > 0
+  double stiffness = 0;        ///< N/m, >= 0
+  double damping = 0;          ///< N s/m, >= 0: damper along the spring
+  double break_strain = std::numeric_limits<double>::infinity();  ///< > 0: extension over rest length that tears it
+  SpringMode mode = SpringMode::both;
+  bool contact = true;  ///< false: the two particles don't touch each other for as long as it holds
+};
+
+/// Springs, one entry of every column a spring. The index of a spring is its place in the order of the sums: each
+/// particle adds up its springs by ascending index.
+struct SpringSet {
+  std::vector<std::uint64_t> a, b;
+  std::vector<double> rest_length, stiffness, damping, break_strain;
+  std::vector<SpringMode> mode;
+  std::vector<std::uint8_t> contact;  ///< 0 or 1
+
+  std::size_t size() const { return a.size(); }
+  bool empty() const { return a.empty(); }
+  void reserve(std::size_t n);
+  void push_back(const Spring& spring);
+  Spring operator[](std::size_t i) const;
+
+  friend bool operator==(const SpringSet&, const SpringSet&) = default;
+};
+
+/// A surface that particles span: what of a cloth is drawn and exported.
+struct Surface {
+  std::string name;                      ///< of its material
+  std::vector<std::uint64_t> particles;  ///< ids of its corners
+  std::vector<std::uint32_t> triangles;  ///< three corners each, indices into `particles`
+
+  friend bool operator==(const Surface&, const Surface&) = default;
+};
+
+/// What ties particles together, and what holds them. It does not change during a run; which springs are broken is
+/// part of the state.
+struct Structure {
+  SpringSet springs;
+  std::vector<std::uint64_t> held;  ///< ids of particles that no force moves, ascending
+  std::vector<Surface> surfaces;
+
+  friend bool operator==(const Structure&, const Structure&) = default;
+};
+
+/// What springs have done so far; part of Ledger.
+struct SpringLedger {
+  double work = 0;           ///< done on particles, dampers included, J
+  double dissipated = 0;     ///< by dampers, J
+  double broken_energy = 0;  ///< that was in springs as they broke, J
+  std::uint64_t broken = 0;  ///< springs
+  /// Velocity Verlet: of the last evaluation, what its forces do in the next step's first half kick (J), and the power
+  /// of its dampers (W). Else unused.
+  double next_work = 0, last_power = 0;
+
+  friend bool operator==(const SpringLedger&, const SpringLedger&) = default;
+};
+
+/// What it took to hold particles still; part of Ledger.
+struct HoldLedger {
+  Vec3d impulse{0, 0, 0};  ///< given to them, N s
+  double work = 0;  ///< done on held particles that have a velocity, J
+  /// Velocity Verlet: the same for the next step's first half kick. Else unused.
+  Vec3d next_impulse{0, 0, 0};
+  double next_work = 0;
+
+  friend bool operator==(const HoldLedger&, const HoldLedger&) = default;
+};
+
+/// What makes a structure unusable whatever its particles are; empty where all is well. At most 20 findings of a kind.
+/// `single` asks that values survive the rounding to float.
+std::vector<Finding> validate(const Structure& structure, bool single);
+
+/// What of it does not fit `particles`: ids that there are none of.
+std::vector<Finding> check_ids(const Structure& structure, const ParticleSet& particles);
+
+}  // namespace hooke

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+// Springs and held particles: the CPU back end against the reference, and the same bits whatever it runs on.
+
+#include <gtest/gtest.h>
+
+#include "busy_scenes.h"
+#include "hooke/backends/cpu/isa.h"
+
+namespace hooke::test {
+namespace {
+
+constexpr int kEdge = 8;
+
+// Ties each particle of a cubic lattice to the next ones along the axes: springs of all modes, some that break, most
+// that keep their ends from touching.
+std::shared_ptr<const Structure> tie_lattice(const ParticleSet& p) {
+  auto structure = std::make_shared<Structure>();
+  const auto tie = [&](int i, int j) {
+    const auto n = structure->springs.size();
+    const auto mode = static_cast<SpringMode>(n % 7 == 0 ? 1 : n % 5 == 0 ? 2 : 0);
+    Spring s{p.id[static_cast<std::size_t>(i)], p.id[static_cast<std::size_t>(j)], 0.5, 400, 2};
+    if (n % 2 == 0) std::swap(s.a, s.b);
+    s.mode = mode;
+    s.contact = n % 3 == 0;
+    if (n % 2 == 0) s.break_strain = 0.15 + 0.01 * static_cast<double>(n % 11);
+    structure->springs.push_back(s);
+  };
+  for (int i = 0; i < kEdge * kEdge * kEdge; ++i) {
+    if ((i + 1) % kEdge != 0) tie(i, i + 1);
+    if (i / kEdge % kEdge != kEdge - 1) tie(i, i + kEdge);
+    if (i / (kEdge * kEdge) != kEdge - 1) tie(i, i + kEdge * kEdge);
+  }
+  for (std::size_t i = 0; i < p.size(); i += 37) structure->held.push_back(p.id[i]);
+  return structure;
+}
+
+class Springs : public testing::TestWithParam<BusyKind> {
+ protected:
+  Springs() : scene_(busy_scene(GetParam())) {
+    particles_ = lattice(scene_, {kEdge, kEdge, kEdge}, {-2.7, 0.4, -2.7}, 0.5, 0.1, 5);
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+      const auto u = random4(6, i);
+      particles_.velocity[i] = {6 * (u[0] - 0.5), 6 * (u[1] - 0.5), 6 * (u[2] - 0.5)};
+      particles_.id[i] = 3 * i + 5 + i / 10;
+    }
+    scene_.structure = tie_lattice(particles_);
+    for (std::size_t i = 0; i < particles_.size(); i += 37) particles_.velocity[i] = {0, 0, 0};
+  }
+
+  Engine engine(int threads) const { return {"cpu", GetParam().precision, threads, "", true}; }
+
+  Scene scene_;
+  ParticleSet particles_;
+};
+
+void expect_same_springs(const Simulation& a, const Simulation& b) {
+  expect_same_bits(a, b);
+  EXPECT_EQ(a.broken_springs(), b.broken_springs());
+  EXPECT_EQ(measured(a).springs, measured(b).springs);
+  EXPECT_EQ(measured(a).spring_energy, measured(b).spring_energy);
+}
+
+constexpr std::int64_t kSteps = 100;
+
+TEST_P(Springs, HaveTheReferencesBits) {
+  if (GetParam().precision == Precision::single_precision) GTEST_SKIP() << "the reference is double";
+  Simulation all_pairs = simulate(scene_, particles_, kReference);
+  Simulation fast = simulate(scene_, particles_, engine(2));
+  ASSERT_TRUE(advance(all_pairs, kSteps));
+  ASSERT_TRUE(advance(fast, kSteps));
+  EXPECT_EQ(all_pairs.state_hash(), fast.state_hash());
+  EXPECT_EQ(all_pairs.broken_springs(), fast.broken_springs());
+  EXPECT_EQ(all_pairs.ledger().springs.broken, fast.ledger().springs.broken);
+  EXPECT_GT(fast.broken_springs().size(), 50U) << "springs break on the way";
+  EXPECT_LT(fast.broken_springs().size(), scene_.structure->springs.size() / 2);
+  EXPECT_EQ(fast.neighbour_statistics().missed_contacts, 0U);
+  const Measurements a = measured(all_pairs), b = measured(fast);
+  EXPECT_EQ(a.springs, b.springs);
+  EXPECT_EQ(a.contacts, b.contacts);
+  // Sums of the same terms, rounded once or twice.
+  EXPECT_NEAR(a.spring_energy, b.spring_energy, 1e-12 * a.spring_energy);
+  const SpringLedger &x = all_pairs.ledger().springs, &y = fast.ledger().springs;
+  EXPECT_NEAR(x.work, y.work, 1e-11 * (std::abs(x.work) + x.dissipated));
+  EXPECT_NEAR(x.dissipated, y.dissipated, 1e-12 * x.dissipated);
+  EXPECT_NEAR(x.broken_energy, y.broken_energy, 1e-12 * x.broken_energy);
+  EXPECT_NEAR(all_pairs.ledger().hold.impulse.y, fast.ledger().hold.impulse.y, 1e-9);
+}
+
+TEST_P(Springs, HaveTheSameBitsForAnyNumberOfThreadsAndInstructionSet) {
+  Simulation one = simulate(scene_, particles_, engine(1));
+  ASSERT_TRUE(advance(one, kSteps));
+  for (const int threads : {2, 3, 8}) {
+    Simulation many = simulate(scene_, particles_, engine(threads));
+    ASSERT_TRUE(advance(many, kSteps));
+    expect_same_springs(one, many);
+  }
+  for (const Isa& isa : available_isas()) {
+    Simulation other = simulate(scene_, particles_, {"cpu", GetParam().precision, 2, isa.name});
+    ASSERT_TRUE(advance(other, kSteps));
+    EXPECT_EQ(other.state_hash(), one.state_hash()) << isa.name;
+    EXPECT_EQ(other.broken_springs(), one.broken_springs()) << isa.name;
+  }
+}
+
+TEST_P(Springs, StayBrokenOverARestart) {
+  Simulation whole = simulate(scene_, particles_, engine(2));
+  ASSERT_TRUE(advance(whole, kSteps));
+  Simulation first = simulate(scene_, particles_, engine(3));
+  ASSERT_TRUE(advance(first, kSteps / 2));
+  const SimulationState saved = first.snapshot();
+  EXPECT_FALSE(saved.broken_springs.empty());
+  Scene rules = scene_;
+  rules.structure = nullptr;  // as a scene that is read without its particles; the state brings it
+  Simulation second = resume(rules, saved, engine(1));
+  EXPECT_EQ(second.broken_springs(), saved.broken_springs);
+  ASSERT_TRUE(advance(second, kSteps / 2));
+  expect_same_springs(whole, second);
+}
+
+TEST_P(Springs, HoldParticlesStill) {
+  Simulation s = simulate(scene_, particles_, engine(2));
+  ASSERT_TRUE(advance(s, kSteps));
+  const Vec3d impulse = s.ledger().hold.impulse;
+  EXPECT_GT(dot(impulse, impulse), 1) << "gravity and springs pull";
+  for (std::size_t i = 0; i < particles_.size(); i += 37) {
+    const std::size_t k = s.particles().find(particles_.id[i]);
+    ASSERT_LT(k, s.particles().size());
+    const Vec3d off = s.positions()[k] - particles_.position[i];
+    EXPECT_LT(dot(off, off), 1e-12) << "but for the rounding to single precision";
+    EXPECT_EQ(s.velocities()[k], (Vec3d{0, 0, 0}));
+  }
+  // What holds accounts for the momentum: rounding alone is left.
+  const double drift = momentum_drift(measured(s), s.ledger(), s.initial_momentum());
+  EXPECT_LT(drift, GetParam().precision == Precision::single_precision ? 1e-6 : 1e-13);
+}
+
+TEST_P(Springs, OfParticlesThatAreRemovedVanish) {
+  Simulation s = simulate(scene_, particles_, engine(2));
+  const std::uint64_t before = measured(s).springs;
+  const std::uint64_t gone[] = {particles_.id[kEdge * kEdge + kEdge + 1]};  // inside: six springs
+  ASSERT_TRUE(s.remove_particles(gone));
+  EXPECT_EQ(measured(s).springs, before - 6);
+  ASSERT_TRUE(advance(s, 20));
+  EXPECT_EQ(measured(s).springs + s.ledger().springs.broken + 6, before);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Springs, all_busy_kinds(), [](const auto& instance) { return instance.param.name(); });
+
+}  // namespace
+}  // namespace hooke::test

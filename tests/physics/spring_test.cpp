@@ -1,0 +1,258 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+// Springs against what mathematics says of them.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "support/engines.h"
+#include "support/particles.h"
+
+namespace hooke::test {
+namespace {
+
+constexpr double kStiffness = 900, kMass1 = 1, kMass2 = 3, kRest = 4;
+constexpr double kEffective = kMass1 * kMass2 / (kMass1 + kMass2);
+
+std::shared_ptr<const Structure> structure_of(const std::vector<Spring>& springs,
+                                              std::vector<std::uint64_t> held = {}) {
+  auto structure = std::make_shared<Structure>();
+  for (const Spring& s : springs) structure->springs.push_back(s);
+  structure->held = std::move(held);
+  return structure;
+}
+
+// Two particles of different mass, tied, their spring stretched by `extension` (m), at rest.
+struct Pair {
+  Scene scene = open_scene();
+  ParticleSet particles;
+
+  Pair(double extension, double damping, SpringMode mode, double dt) {
+    scene.integrator = Integrator::velocity_verlet;
+    scene.time_step = dt;
+    scene.materials = {{"a", 0.5, kMass1, {1000, 0, 0}, 0, ""}, {"b", 0.5, kMass2, {1000, 0, 0}, 0, ""}};
+    // In no direction of an axis.
+    const Vec3d along{2.0 / 7, 3.0 / 7, 6.0 / 7};
+    add(particles, {1, 2, 3}, {0, 0, 0}, 0);
+    add(particles, Vec3d{1, 2, 3} + (kRest + extension) * along, {0, 0, 0}, 1);
+    Spring s{1, 2, kRest, kStiffness, damping};
+    s.mode = mode;
+    scene.structure = structure_of({s});
+  }
+};
+
+double extension_of(const Simulation& s) {
+  const Vec3d d = s.positions()[1] - s.positions()[0];
+  return std::sqrt(dot(d, d)) - kRest;
+}
+
+class SpringModes : public testing::TestWithParam<std::tuple<SpringMode, double>> {};
+
+// e'' = -k/m e - c/m e' while the spring acts, and a steady rate while it doesn't. It starts where it acts.
+TEST_P(SpringModes, FollowTheAnalyticSolution) {
+  const auto [mode, damping] = GetParam();
+  const double start = mode == SpringMode::compression ? -0.1 : 0.1, dt = 1e-4;
+  const double decay = damping / kEffective / 2, omega = std::sqrt(kStiffness / kEffective - decay * decay);
+  const auto acting = [&](double t) {
+    return start * std::exp(-decay * t) * (std::cos(omega * t) + decay / omega * std::sin(omega * t));
+  };
+  const auto rate = [&](double t) {
+    return -start * std::exp(-decay * t) * (omega + decay * decay / omega) * std::sin(omega * t);
+  };
+  const double crossing = (M_PI - std::atan(omega / decay)) / omega;  // where it first passes its rest length
+  const auto expected = [&](double t) {
+    if (mode == SpringMode::both || t <= crossing) return acting(t);
+    return rate(crossing) * (t - crossing);
+  };
+  for (const Engine& engine : {kReference, kCpuDouble}) {
+    const Pair pair(start, damping, mode, dt);
+    Simulation s = simulate(pair.scene, pair.particles, engine);
+    // Once around; a one-sided spring then has let go of its ends for three quarters of that.
+    const auto steps = static_cast<int>(2 * M_PI / omega / dt);
+    for (int n = 0; n < steps; n += 100) {
+      ASSERT_TRUE(advance(s, 100));
+      // Velocity Verlet is off by (omega dt)^2/24 of the phase, 6 (omega dt)^2/24 in all; damping sees the half-step
+      // velocity, omega dt/2 of a step too late, decay dt/2 relative; and the step in which a spring stops acting is
+      // off by up to its length, omega dt of the speed.
+      const double w = omega * dt;
+      EXPECT_NEAR(extension_of(s), expected(s.time()),
+                  std::abs(start) * (w * w + 8 * decay * dt + (mode == SpringMode::both ? 0 : 8 * w * w)))
+          << engine.name() << " at " << s.time();
+    }
+    const Measurements m = measured(s);
+    EXPECT_NEAR(m.momentum.x, 0, 1e-12);
+    if (mode != SpringMode::both) {
+      EXPECT_EQ(m.spring_energy, 0);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SpringModes,
+                         testing::Combine(testing::Values(SpringMode::both, SpringMode::compression,
+                                                          SpringMode::extension),
+                                          testing::Values(0.0, 5.0)));
+
+// A chain of masses between two held ends. At rest the tension's horizontal part is the same in every link, its
+// vertical part differs by m g from link to link, and each link is as long as its tension makes it: the discrete
+// catenary.
+TEST(Springs, HangInADiscreteCatenary) {
+  constexpr int kLinks = 20;
+  constexpr double kLength = 0.5, kLink = 2e4, kMass = 0.3, kSpan = 7;
+  Scene scene = open_scene();
+  scene.gravity = {0, -9.8, 0};
+  scene.integrator = Integrator::velocity_verlet;
+  scene.time_step = 5e-4;
+  scene.materials = {{"link", 0.05, kMass, {1000, 0, 0}, 0.9, ""}};  // drag brings it to rest
+  ParticleSet particles;
+  std::vector<Spring> springs;
+  for (int i = 0; i <= kLinks; ++i) add(particles, {kSpan * i / kLinks, 0, 0}, {0, 0, 0});
+  for (std::uint64_t i = 1; i <= kLinks; ++i) springs.push_back({i, i + 1, kLength, kLink, 20});
+  scene.structure = structure_of(springs, {1, kLinks + 1});
+
+  const auto links = [&](double horizontal, std::vector<Vec3d>* to) {
+    Vec3d at{0, 0, 0};
+    for (int i = 0; i < kLinks; ++i) {
+      const double vertical = (i - 0.5 * (kLinks - 1)) * kMass * 9.8;
+      const double tension = std::hypot(horizontal, vertical), length = kLength + tension / kLink;
+      at += (length / tension) * Vec3d{horizontal, vertical, 0};
+      if (to != nullptr) to->push_back(at);
+    }
+    return at.x;
+  };
+  double low = 0, high = 1000;  // N
+  for (int k = 0; k < 200; ++k) (links((low + high) / 2, nullptr) < kSpan ? low : high) = (low + high) / 2;
+  std::vector<Vec3d> expected;
+  links(low, &expected);
+  ASSERT_NEAR(expected.back().x, kSpan, 1e-12);
+  ASSERT_LT(expected[kLinks / 2].y, -2) << "it sags";
+
+  Simulation s = simulate(scene, particles, kCpuDouble);
+  ASSERT_TRUE(advance(s, 60000));
+  ASSERT_LT(measured(s).max_speed, 1e-6) << "at rest";
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    // What is left of the speed, over the decay's rate.
+    EXPECT_NEAR(s.positions()[i + 1].x, expected[i].x, 1e-6) << i;
+    EXPECT_NEAR(s.positions()[i + 1].y, expected[i].y, 1e-6) << i;
+  }
+  // The ends carry the chain: per second, what gravity gives it.
+  const double before = s.ledger().hold.impulse.y;
+  ASSERT_TRUE(advance(s, 2000));
+  EXPECT_NEAR(s.ledger().hold.impulse.y - before, (kLinks + 1) * kMass * 9.8, 1e-5);
+}
+
+// Work is what the kicks add to the kinetic energy, and springs do all of it here.
+TEST(Springs, AccountForTheKineticEnergy) {
+  for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
+    for (const Engine& engine : {kReference, kCpuDouble}) {
+      double error[2];
+      for (int fine = 0; fine < 2; ++fine) {
+        Pair pair(0.5, 2, SpringMode::both, fine == 0 ? 2e-3 : 1e-3);
+        pair.scene.integrator = integrator;
+        Simulation s = simulate(pair.scene, pair.particles, engine);
+        ASSERT_TRUE(advance(s, fine == 0 ? 237 : 474));
+        const Measurements m = measured(s);
+        const SpringLedger& l = s.ledger().springs;
+        EXPECT_NEAR(m.kinetic_energy, l.work, 1e-12 * s.initial_energy());
+        EXPECT_GT(l.dissipated, 0.1 * s.initial_energy());
+        error[fine] = std::abs(s.initial_energy() - m.kinetic_energy - m.spring_energy - l.dissipated);
+      }
+      EXPECT_LT(error[1], 11) << "a tenth of what there was";
+      EXPECT_LT(error[1], 0.7 * error[0]) << "the integrator's error falls with the step";
+    }
+  }
+}
+
+// Pulled apart at a steady speed: the spring breaks at the end of the step that sees it too long, not before.
+TEST(Springs, BreakForEverWhenStretchedTooFar) {
+  for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
+    Scene scene = open_scene();
+    scene.time_step = 1.0 / 64;  // exact in binary, as all below
+    ParticleSet particles;
+    add(particles, {0, 0, 0}, {0, 0, 0});
+    add(particles, {4, 0, 0}, {1, 0, 0});
+    Spring s{1, 2, 4, 0, 0};
+    s.break_strain = 0.25;
+    scene.structure = structure_of({s});
+    Simulation simulation = simulate(scene, particles, engine);
+    // At rest length 4 it tears above 5 m: after 64 steps it is 5 m long, and whoever begins step 65 sees 5 + 1/64 m.
+    ASSERT_TRUE(advance(simulation, 65));
+    EXPECT_EQ(simulation.ledger().springs.broken, 0U);
+    EXPECT_EQ(measured(simulation).springs, 1U);
+    ASSERT_TRUE(advance(simulation, 1));
+    EXPECT_EQ(simulation.ledger().springs.broken, 1U);
+    EXPECT_EQ(measured(simulation).springs, 0U);
+    EXPECT_EQ(simulation.broken_springs(), std::vector<std::uint64_t>{0});
+    // Back together: it stays broken.
+    ASSERT_TRUE(simulation.set_particle(2, {4.5, 0, 0}, {0, 0, 0}));
+    ASSERT_TRUE(advance(simulation, 5));
+    EXPECT_EQ(measured(simulation).springs, 0U);
+  }
+}
+
+// Two overlapping particles with a spring of their distance: without contact they stay, with it they are pushed apart.
+TEST(Springs, KeepTheirEndsFromTouchingWhereAskedTo) {
+  for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
+    for (const bool contact : {false, true}) {
+      Scene scene = open_scene();
+      ParticleSet particles = pair_on_x(scene, 0.25, {0, 0, 0}, {0, 0, 0});
+      Spring s{1, 2, 0.75, 100, 0};
+      s.contact = contact;
+      s.break_strain = 0.5;
+      scene.structure = structure_of({s});
+      Simulation simulation = simulate(scene, particles, engine);
+      EXPECT_EQ(measured(simulation).contacts, contact ? 1U : 0U);
+      ASSERT_TRUE(advance(simulation, 10));
+      EXPECT_EQ(simulation.positions()[0].x < 0, contact);
+      if (contact) continue;
+      // Torn, they touch again.
+      ASSERT_TRUE(simulation.set_particle(2, {2, 0, 0}, {0, 0, 0}));
+      ASSERT_TRUE(advance(simulation, 1));
+      EXPECT_EQ(simulation.ledger().springs.broken, 1U);
+      ASSERT_TRUE(simulation.set_particle(2, {0.75, 0, 0}, {0, 0, 0}));
+      EXPECT_EQ(measured(simulation).contacts, 1U);
+    }
+  }
+}
+
+TEST(Springs, ReachAcrossPeriodicFaces) {
+  for (const Engine& engine : {kReference, kCpuDouble}) {
+    Scene scene = open_scene();
+    scene.domain.min = {0, 0, 0};
+    scene.domain.max = {10, 10, 10};
+    scene.domain.boundary = {Boundary::periodic, Boundary::open, Boundary::open};
+    ParticleSet particles;
+    add(particles, {0.5, 5, 5}, {0, 0, 0});
+    add(particles, {9, 5, 5}, {0, 0, 0});
+    scene.structure = structure_of({{1, 2, 1, 100, 0}});
+    Simulation s = simulate(scene, particles, engine);
+    EXPECT_NEAR(measured(s).spring_energy, 0.5 * 100 * 0.5 * 0.5, 1e-12);
+    ASSERT_TRUE(advance(s, 1));
+    EXPECT_LT(s.velocities()[0].x, 0);
+    EXPECT_EQ(s.velocities()[0].x, -s.velocities()[1].x);
+  }
+}
+
+TEST(Springs, ThatMakeNoSenseAreRefused) {
+  Scene scene = open_scene();
+  const ParticleSet particles = pair_on_x(scene, -1, {0, 0, 0}, {0, 0, 0});
+  const auto refused = [&](const Spring& spring, std::vector<std::uint64_t> held = {}) {
+    scene.structure = structure_of({spring}, std::move(held));
+    const auto made = Simulation::create(scene, particles, make_backend(kCpuDouble));
+    return made ? std::string() : made.error().findings.front().message;
+  };
+  EXPECT_EQ(refused({1, 2, 1, 1, 0}), "");
+  EXPECT_EQ(refused({1, 1, 1, 1, 0}), "ties particle 1 to itself");
+  EXPECT_EQ(refused({1, 7, 1, 1, 0}), "names particle 7; there is none of this id");
+  EXPECT_EQ(refused({1, 2, 0, 1, 0}), "rest_length 0 must be a number greater than 0");
+  EXPECT_EQ(refused({1, 2, 1, -1, 0}), "stiffness -1 must be 0 or more");
+  EXPECT_EQ(refused({1, 2, 1, 1, -2}), "damping -2 must be 0 or more");
+  EXPECT_EQ(refused({1, 2, 1, 1, 0, 0}), "break_strain 0 must be greater than 0");
+  EXPECT_EQ(refused({1, 2, 1, 1, 0}, {9}), "names particle 9; there is none of this id");
+  EXPECT_EQ(refused({1, 2, 1, 1, 0}, {2, 1}), "ids must be unique and ascending");
+}
+
+}  // namespace
+}  // namespace hooke::test
