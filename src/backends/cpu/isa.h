@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hooke/backends/cpu/attraction_pass.h"
 #include "hooke/backends/cpu/force_pass.h"
 #include "hooke/backends/cpu/spring_pass.h"
 #include "hooke/base/expected.h"
@@ -18,6 +19,7 @@ struct Loops {
   ForcePassFunction<Real> force_pass;
   GroupSearchFunction<Real> search_group;
   SpringPassFunction<Real> spring_pass;
+  AttractionLoops<Real> attraction;
 };
 
 /// One build of the inner loops.

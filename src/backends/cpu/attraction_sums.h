@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "hooke/backends/cpu/attraction_tree.h"
+#include "hooke/backends/cpu/id_table.h"
+#include "hooke/base/vec3.h"
+#include "hooke/core/attraction.h"
+
+namespace hooke {
+
+/// What all particles pull each with, in parallel: pair by pair, or by the tree. Bits depend on positions, masses and
+/// ids alone. In the scene's units of attraction; G is the caller's.
+template <class Real>
+class AttractionSums {
+ public:
+  void configure(const Attraction& attraction, double softening2, const AttractionLoops<Real>& loops);
+
+  /// a[p.index] = what pulls p, a mass over a length squared. Reorders `points`, which come in ascending order of rank;
+  /// `ids` are those of all ranks.
+  void accelerations(std::span<AttractionPoint<Real>> points, const IdTable& ids, Vec3<Real>* a);
+
+  /// potential[p.index] = that of all others where p is, a mass over a length, < 0.
+  void potentials(std::span<AttractionPoint<Real>> points, const IdTable& ids, double* potential);
+
+ private:
+  class Walk;
+
+  template <class Take>
+  void sum_directly(std::span<const AttractionPoint<Real>> points, const IdTable& ids,
+                    typename AttractionLoops<Real>::Function by_particles, const Take& take);
+  template <class Take>
+  void sum_by_tree(std::span<AttractionPoint<Real>> points, typename AttractionLoops<Real>::Function by_particles,
+                   typename AttractionLoops<Real>::Function by_cells, const Take& take);
+  std::vector<double> estimate_pulls(std::span<const std::uint32_t> groups) const;
+
+  Attraction attraction_;
+  Real softening2_{};
+  AttractionLoops<Real> loops_{};
+  AttractionTree<Real> tree_;
+  LargeVector<AttractionSource<Real>> sources_;
+};
+
+extern template class AttractionSums<float>;
+extern template class AttractionSums<double>;
+
+}  // namespace hooke

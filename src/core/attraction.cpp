@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/core/attraction.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hooke/core/scene.h"
+
+namespace hooke {
+namespace {
+
+// n where 2^n is the power of two at or below `value` >= 0; 0 for 0.
+int binary_order(double value) { return value > 0 ? std::ilogb(value) : 0; }
+
+}  // namespace
+
+bool attracts_by_tree(const Attraction& attraction, std::size_t particles) {
+  if (attraction.method != Attraction::Method::automatic) return attraction.method == Attraction::Method::tree;
+  // Interactions a particle and step, one with a cell counted as two (bench/attraction_bench.cpp).
+  const double n = static_cast<double>(particles);
+  const double by_tree = 1500 * std::pow(1e-3 / attraction.accuracy, 0.5) + 100 * std::log2(std::max(n, 2.0));
+  return by_tree < n;
+}
+
+AttractionUnits attraction_units(const Scene& scene) {
+  AttractionUnits units;
+  double longest = 0, largest_mass = 0;
+  for (int axis = 0; axis < 3; ++axis) longest = std::max(longest, scene.domain.length(axis));
+  double smallest_radius = longest;
+  for (const Material& m : scene.materials) {
+    if (m.radius > 0) smallest_radius = std::min(smallest_radius, m.radius);
+    largest_mass = std::max(largest_mass, m.mass);
+  }
+  units.length = std::ldexp(1.0, (binary_order(smallest_radius) + binary_order(longest)) / 2);
+  units.mass = std::ldexp(1.0, binary_order(largest_mass));
+  return units;
+}
+
+double softening_squared(const Scene& scene) {
+  const double smallest = std::ldexp(attraction_units(scene).length, -40);
+  const double softening = scene.attraction ? scene.attraction->softening : 0;
+  return std::max(softening * softening, smallest * smallest);
+}
+
+}  // namespace hooke
