@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,17 @@ namespace hooke {
 /// What a back end found wrong while it worked, with the particles concerned. Devices set it, the step
 /// reads it once, Simulation words it.
 struct Condition {
-  enum class Kind { good, not_finite, grid_overflow, approach_too_fast, wall_approach_too_fast };
+  enum class Kind {
+    good,
+    not_finite,
+    grid_overflow,
+    approach_too_fast,
+    wall_approach_too_fast,
+    collider_approach_too_fast
+  };
   Kind kind = Kind::good;
   std::uint64_t particle = 0;  ///< id
-  std::uint64_t partner = 0;   ///< id of the other one, for approach_too_fast
+  std::uint64_t partner = 0;   ///< id of the other one, for approach_too_fast; index of the collider
   double speed = 0;            ///< approach speed, m/s
 
   bool good() const { return kind == Kind::good; }
@@ -38,6 +46,8 @@ struct StepRates {
   Vec3d wall_force{0, 0, 0};       ///< by walls on particles, N
   Vec3d drag_force{0, 0, 0};       ///< N
   Vec3d gravity_force{0, 0, 0};    ///< N
+  double collider_power = 0;       ///< by colliders on particles, W
+  Vec3d collider_force{0, 0, 0};   ///< by colliders on particles, N
 
   friend bool operator==(const StepRates&, const StepRates&) = default;
 };
@@ -48,6 +58,8 @@ struct Ledger {
   double dissipated = 0;               ///< by the dashpots of contacts between particles, and by drag, J
   double wall_work = 0;                ///< done by walls on particles, springs and dashpots, J
   Vec3d wall_impulse{0, 0, 0};         ///< given by walls to particles, N s
+  double collider_work = 0;            ///< done by colliders on particles, springs and dashpots, J
+  Vec3d collider_impulse{0, 0, 0};     ///< given by colliders to particles, N s
   Vec3d drag_impulse{0, 0, 0};         ///< given by drag, N s
   Vec3d gravity_impulse{0, 0, 0};      ///< given by gravity, N s
   Vec3d removed_momentum{0, 0, 0};     ///< taken along by particles that left, kg m/s
@@ -80,6 +92,8 @@ struct Measurements {
   double mean_overlap_ratio = 0;          ///< mean over touching pairs
   Vec3d min{0, 0, 0}, max{0, 0, 0};       ///< box around the centres, m; 0 where there is none
   Vec3d wall_force{0, 0, 0};              ///< by walls on particles at this instant, N
+  double collider_elastic_energy = 0;     ///< in the springs of colliders, J
+  std::vector<ColliderLoad> colliders;    ///< what particles do to each at this instant
 };
 
 /// What a back end is and holds.
@@ -146,6 +160,9 @@ class Backend {
 
   /// All particles, by id. `out.acceleration` is filled under velocity Verlet only.
   virtual void download(ParticleSet& out) const = 0;
+
+  /// Moves the colliders of the scene, one pose each, for all that follows. Before upload, and before every step.
+  virtual void place_colliders(std::span<const ColliderPose> poses) = 0;
 
   /// First half of velocity Verlet: v += dt/2 a; x += dt v; then the domain's boundaries (periodic
   /// coordinates wrap, particles outside open faces are removed).

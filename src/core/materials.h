@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,12 +19,15 @@ enum class MaterialLook { ball, water };
 /// What particles are made of.
 struct Material {
   std::string name;
-  double radius = 0.5;  ///< r, m, > 0
+  double radius = 0.5;  ///< r, m, > 0; 0, with the mass, where only colliders are of the material
   double mass = 1;      ///< m, kg, > 0, of one particle
   ContactCoefficients<double> contact;  ///< against its own kind, and against walls without an entry
   double drag = 0;                      ///< k_d, kg/s, >= 0
   std::string color;                    ///< "#rrggbb", or empty
   MaterialLook look = MaterialLook::ball;
+
+  /// Else only colliders may have it.
+  bool is_of_particles() const { return radius > 0; }
 };
 
 /// Coefficients of one pair of materials, or of one material and the walls, given in place of the mixed ones.
@@ -47,6 +51,10 @@ class ContactTable {
   std::size_t material_count() const { return wall_.size(); }
   const ContactCoefficients<double>& pair(std::size_t a, std::size_t b) const { return pairs_[a * wall_.size() + b]; }
   const ContactCoefficients<double>& wall(std::size_t a) const { return wall_[a]; }
+  /// Of material `a` against a collider of material `b`; without one the wall's.
+  const ContactCoefficients<double>& collider(std::size_t a, std::optional<std::size_t> b) const {
+    return b ? pair(a, *b) : wall(a);
+  }
 
  private:
   std::vector<ContactCoefficients<double>> pairs_;  // material_count() squared, symmetric

@@ -92,8 +92,10 @@ void check_materials(const Scene& scene, Checker& check) {
     const std::string where = "materials." + m.name;
     if (m.name == "wall") check.add(where, "\"wall\" is reserved for the domain's walls; choose another name");
     if (!names.insert(m.name).second) check.add(where, "a second material of this name");
-    check.positive(where + ".radius", m.radius);
-    check.positive(where + ".mass", m.mass);
+    if (m.is_of_particles() || m.radius != 0 || m.mass != 0) {
+      check.positive(where + ".radius", m.radius);
+      check.positive(where + ".mass", m.mass);
+    }
     check.coefficients(where, m.contact);
     check.not_negative(where + ".drag", m.drag);
   }
@@ -154,6 +156,7 @@ std::vector<Finding> validate(const Scene& scene) {
   check_periods(scene, check);
   check_materials(scene, check);
   check_contacts(scene, check);
+  for (Finding& finding : check_colliders(scene)) check.findings.push_back(std::move(finding));
   check.not_negative("output.every", scene.output.seconds);
   if (scene.output.steps < 0) check.add("output.every_steps", fmt::format("{} must be 1 or more", scene.output.steps));
   check_camera(scene.camera, check);

@@ -12,6 +12,7 @@
 #include "hooke/base/expected.h"
 #include "hooke/base/vec3.h"
 #include "hooke/core/attraction.h"
+#include "hooke/core/colliders.h"
 #include "hooke/core/materials.h"
 #include "hooke/core/springs.h"
 
@@ -71,6 +72,7 @@ struct Scene {
   Domain domain;
   std::vector<Material> materials;        ///< at most 1,024
   std::vector<ContactEntry> contacts;     ///< pairs that do not follow the mixing rule
+  std::vector<Collider> colliders;
   std::shared_ptr<const Structure> structure;  ///< springs, and what holds particles; null where there is nothing
   std::optional<Attraction> attraction;  ///< of all particles by each other
   OutputCadence output;

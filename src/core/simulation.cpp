@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <new>
+#include <utility>
 
 #include "hooke/base/floating_point.h"
 #include "hooke/base/hash.h"
@@ -37,6 +38,10 @@ std::string particle_fault(const Scene& scene, std::size_t material, const Vec3d
   const bool single = scene.precision == Precision::single_precision;
   if (material >= scene.materials.size()) {
     return fmt::format("material {} does not exist; there are {}", material, scene.materials.size());
+  }
+  if (!scene.materials[material].is_of_particles()) {
+    return fmt::format("material \"{}\" has no radius and no mass: only colliders may have it",
+                       scene.materials[material].name);
   }
   if (!is_finite(x, single)) return "position " + shown(x) + " is not finite";
   if (!is_finite(v, single)) return "velocity " + shown(v) + " is not finite";
@@ -103,6 +108,7 @@ struct Simulation::Impl {
   bool host_edited = false;
   std::uint64_t first_new_id = 0;
 
+  std::vector<ColliderPose> poses;  // of this instant
   StageTimes stage_times;  // of steps
 
   bool failed = false;
@@ -168,6 +174,11 @@ struct Simulation::Impl {
         return fmt::format(
             "particle {} approaches a wall at {:.6g} m/s, {:.3g} m in one step: more than its radius; {}",
             condition.particle, condition.speed, moved, likely_cause());
+      case Condition::Kind::collider_approach_too_fast:
+        return fmt::format(
+            "particle {} and collider \"{}\" approach at {:.6g} m/s, {:.3g} m in one step: more than the particle's "
+            "radius; {}",
+            condition.particle, scene.colliders[condition.partner].name, condition.speed, moved, likely_cause());
     }
     return {};
   }
@@ -193,12 +204,22 @@ struct Simulation::Impl {
                 "the scene asks for double, the back end computes in single precision");
   }
 
+  // Where they are after `at_step` steps.
+  void place_colliders(std::int64_t at_step) {
+    if (scene.colliders.empty()) return;
+    const double time = static_cast<double>(at_step) * scene.time_step;
+    poses.clear();
+    for (const Collider& collider : scene.colliders) poses.push_back(pose_at(collider, time));
+    backend->place_colliders(poses);
+  }
+
   Expected<void> start(const ParticleSet& particles, std::uint64_t first_new, const Ledger& ledger,
                        const std::vector<std::uint64_t>& broken_springs) {
     if (auto right = check_precision(); !right) return right;
     try {
       backend->configure(scene);
       backend->break_springs(broken_springs);
+      place_colliders(step);
       return check(backend->upload(particles, first_new, ledger));
     } catch (const std::bad_alloc&) {
       return fail(Error::Kind::bad_input, "particles",
@@ -211,8 +232,11 @@ struct Simulation::Impl {
       if (auto flushed = flush(); !flushed) return flushed;
       for (std::int64_t i = 0; i < count; ++i) {
         host_current = false;
+        // Velocity Verlet looks at the forces where particles arrive, symplectic Euler where they start.
+        if (verlet()) place_colliders(step + 1);
         if (auto taken = check(take_step(*backend, scene.integrator)); !taken) return taken;
         ++step;
+        if (!verlet()) place_colliders(step);
       }
       // What the next step would begin with. Done now, it reports what the last step has lost before anyone saves it.
       if (count > 0 && backend->neighbours_stale()) return check(backend->build_neighbours());
@@ -401,6 +425,24 @@ Expected<void> Simulation::set_material(const Material& material) {
     return started;
   }
   return fail(Error::Kind::bad_input, "materials." + material.name, "there is no material of this name");
+}
+
+std::span<const ColliderPose> Simulation::collider_poses() const { return impl_->poses; }
+
+Expected<void> Simulation::set_collider_motion(const std::string& name, const Motion& motion) {
+  const FloatingPointGuard guard;
+  Impl& s = *impl_;
+  for (std::size_t k = 0; k < s.scene.colliders.size(); ++k) {
+    if (s.scene.colliders[k].name != name) continue;
+    const Motion before = std::exchange(s.scene.colliders[k].motion, motion);
+    if (std::vector<Finding> findings = check_colliders(s.scene); !findings.empty()) {
+      s.scene.colliders[k].motion = before;
+      return fail(Error{Error::Kind::bad_input, std::move(findings)});
+    }
+    s.place_colliders(s.step);
+    return {};
+  }
+  return fail(Error::Kind::bad_input, "colliders", fmt::format("there is none of the name \"{}\"", name));
 }
 
 SimulationState Simulation::snapshot() const {

@@ -88,6 +88,12 @@ class Simulation {
   /// Replaces the material of the same name, from the next step on.
   Expected<void> set_material(const Material& material);
 
+  /// Where the colliders of the scene are now, in its order.
+  std::span<const ColliderPose> collider_poses() const;
+  /// Gives the collider `name` another motion, from now on: a HeldMotion puts it where a hand holds it. Like a material
+  /// it belongs to the scene, not to the state: to go on from a snapshot, change it again.
+  Expected<void> set_collider_motion(const std::string& name, const Motion& motion);
+
   /// The complete state, and back to one: the same bits follow.
   SimulationState snapshot() const;
   Expected<void> restore(SimulationState state);
@@ -113,8 +119,8 @@ class Simulation {
   std::unique_ptr<Impl> impl_;
 };
 
-/// |momentum - what gravity, walls, drag and departures account for| over the sum of m |v| and of those impulses.
-/// Rounding alone leaves about 1e-7 in single precision.
+/// |momentum - what gravity, walls, colliders, drag and departures account for| over the sum of m |v| and of those
+/// impulses. Rounding alone leaves about 1e-7 in single precision.
 double momentum_drift(const Measurements& now, const Ledger& ledger, const Vec3d& initial_momentum);
 
 /// The largest stable step of the scene's stiffest and lightest materials, s (docs/theory.md eq. 9), and

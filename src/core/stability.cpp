@@ -37,25 +37,34 @@ StableStep stable_step(const Scene& scene) {
   };
   for (std::size_t a = 0; a < scene.materials.size(); ++a) {
     const Material& m = scene.materials[a];
+    if (!m.is_of_particles()) continue;
     for (std::size_t b = a; b < scene.materials.size(); ++b) {
       const Material& n = scene.materials[b];
+      if (!n.is_of_particles()) continue;
       consider(table.pair(a, b), effective_mass(m.mass, n.mass), m.name + " - " + n.name);
     }
     // A wall is one partner that does not move, where a pile has a dozen that do.
-    const ContactCoefficients<double>& wall = table.wall(a);
-    const double seconds = critical_step(wall.stiffness / m.mass, (wall.shear + wall.damping) / m.mass);
-    if (seconds < best.seconds) best = {seconds, fmt::format("stiffness and damping of {} - wall", m.name)};
+    const auto consider_boundary = [&](const ContactCoefficients<double>& c, const std::string& boundary) {
+      const double seconds = critical_step(c.stiffness / m.mass, (c.shear + c.damping) / m.mass);
+      if (seconds < best.seconds) best = {seconds, fmt::format("stiffness and damping of {} - {}", m.name, boundary)};
+    };
+    consider_boundary(table.wall(a), "wall");
+    for (const Collider& collider : scene.colliders) {
+      if (collider.material)
+        consider_boundary(table.pair(a, *collider.material), scene.materials[*collider.material].name);
+    }
   }
   return best;
 }
 
 double momentum_drift(const Measurements& now, const Ledger& ledger, const Vec3d& initial_momentum) {
-  const Vec3d given = ledger.wall_impulse + ledger.drag_impulse + ledger.gravity_impulse + ledger.hold.impulse;
+  const Vec3d given = ledger.wall_impulse + ledger.collider_impulse + ledger.drag_impulse + ledger.gravity_impulse +
+                      ledger.hold.impulse;
   const Vec3d unexplained = now.momentum + ledger.removed_momentum - initial_momentum - given;
   const auto norm = [](const Vec3d& a) { return std::sqrt(dot(a, a)); };
   const double scale = now.momentum_scale + norm(initial_momentum) + norm(ledger.wall_impulse) +
-                       norm(ledger.hold.impulse) + norm(ledger.drag_impulse) + norm(ledger.gravity_impulse) +
-                       norm(ledger.removed_momentum);
+                       norm(ledger.collider_impulse) + norm(ledger.hold.impulse) + norm(ledger.drag_impulse) +
+                       norm(ledger.gravity_impulse) + norm(ledger.removed_momentum);
   return scale > 0 ? norm(unexplained) / scale : 0;
 }
 

@@ -15,10 +15,13 @@ void StepSums::add(const StepSums& other) {
   wall_power.add(other.wall_power);
   wall_force.add(other.wall_force);
   drag_force.add(other.drag_force);
+  collider_power.add(other.collider_power);
+  collider_force.add(other.collider_force);
 }
 
 StepRates StepSums::rates(const Vec3d& gravity, double mass) const {
-  return {dissipated_power.value(), wall_power.value(), wall_force.value(), drag_force.value(), mass * gravity};
+  return {dissipated_power.value(), wall_power.value(),     wall_force.value(),    drag_force.value(),
+          mass * gravity,           collider_power.value(), collider_force.value()};
 }
 
 void book_step(Ledger& ledger, const StepRates& now, double dt, Integrator integrator) {
@@ -26,6 +29,8 @@ void book_step(Ledger& ledger, const StepRates& now, double dt, Integrator integ
     ledger.dissipated += seconds * rates.dissipated_power;
     ledger.wall_work += seconds * rates.wall_power;
     ledger.wall_impulse += seconds * rates.wall_force;
+    ledger.collider_work += seconds * rates.collider_power;
+    ledger.collider_impulse += seconds * rates.collider_force;
     ledger.drag_impulse += seconds * rates.drag_force;
     ledger.gravity_impulse += seconds * rates.gravity_force;
   };
@@ -107,6 +112,28 @@ void HoldSums::book_first(HoldLedger& ledger) const {
   ledger.next_work = work.value();
 }
 
+void ColliderLoadSums::add_contact(std::size_t index, const Vec3d& point, const Vec3d& force) {
+  Load& load = loads_[index];
+  load.force.add(-force);
+  load.torque.add(cross(point, -force));
+  ++load.contacts;
+}
+
+void ColliderLoadSums::add(const ColliderLoadSums& other) {
+  for (const auto& [index, theirs] : other.loads_) {
+    Load& load = loads_[index];
+    load.force.add(theirs.force);
+    load.torque.add(theirs.torque);
+    load.contacts += theirs.contacts;
+  }
+}
+
+std::vector<ColliderLoad> ColliderLoadSums::result(std::size_t count) const {
+  std::vector<ColliderLoad> all(count);
+  for (const auto& [index, load] : loads_) all[index] = {load.force.value(), load.torque.value(), load.contacts};
+  return all;
+}
+
 void MeasurementSums::add_particle(double mass, const Vec3d& x, const Vec3d& v, const Vec3d& gravity) {
   const double speed = std::sqrt(dot(v, v));
   mass_.add(mass);
@@ -139,6 +166,12 @@ void MeasurementSums::add_wall_contact(double stiffness, double overlap, const V
   wall_force_.add(force);
 }
 
+void MeasurementSums::add_collider_contact(std::size_t index, const Vec3d& point, double stiffness, double overlap,
+                                           const Vec3d& force) {
+  collider_elastic_.add(contact_energy(overlap, stiffness));
+  collider_loads_.add_contact(index, point, force);
+}
+
 void MeasurementSums::add(const MeasurementSums& other) {
   if (other.particles_ > 0) {
     const auto grow = [&](double Vec3d::* c) {
@@ -162,11 +195,13 @@ void MeasurementSums::add(const MeasurementSums& other) {
   momentum_.add(other.momentum_);
   mass_moment_.add(other.mass_moment_);
   wall_force_.add(other.wall_force_);
+  collider_elastic_.add(other.collider_elastic_);
+  collider_loads_.add(other.collider_loads_);
   max_speed_ = std::max(max_speed_, other.max_speed_);
   max_overlap_ratio_ = std::max(max_overlap_ratio_, other.max_overlap_ratio_);
 }
 
-Measurements MeasurementSums::result() const {
+Measurements MeasurementSums::result(std::size_t colliders) const {
   Measurements m;
   m.particles = particles_;
   m.contacts = contact_sides_ / 2;
@@ -184,6 +219,8 @@ Measurements MeasurementSums::result() const {
   m.min = min_;
   m.max = max_;
   m.wall_force = wall_force_.value();
+  m.collider_elastic_energy = collider_elastic_.value();
+  m.colliders = collider_loads_.result(colliders);
   return m;
 }
 

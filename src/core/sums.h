@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <map>
+#include <vector>
 
 #include "hooke/base/exact_sum.h"
 #include "hooke/core/backend.h"
@@ -37,6 +39,8 @@ struct StepSums {
   ExactSum wall_power;         ///< W
   ExactVectorSum wall_force;   ///< N
   ExactVectorSum drag_force;   ///< N
+  ExactSum collider_power;     ///< W
+  ExactVectorSum collider_force;  ///< N
 
   void add(const StepSums& other);
   /// As rates; gravity (m/s^2) pulls at `mass` (kg) in all.
@@ -90,6 +94,23 @@ struct HoldSums {
   void book_first(HoldLedger& ledger) const;
 };
 
+/// What particles do to each collider, gathered in any order.
+class ColliderLoadSums {
+ public:
+  /// A particle that touches collider `index` at `point` (m, from the pivot) and gets `force` (N) from it.
+  void add_contact(std::size_t index, const Vec3d& point, const Vec3d& force);
+  void add(const ColliderLoadSums& other);
+  /// One entry a collider, of `count`.
+  std::vector<ColliderLoad> result(std::size_t count) const;
+
+ private:
+  struct Load {
+    ExactVectorSum force, torque;
+    std::uint64_t contacts = 0;
+  };
+  std::map<std::size_t, Load> loads_;  // of those that are touched
+};
+
 /// Gathers Measurements particle by particle and contact by contact in any order.
 class MeasurementSums {
  public:
@@ -97,13 +118,19 @@ class MeasurementSums {
   /// One side of a contact between particles: call for each of the two. `reach` is r_i + r_p, m.
   void add_contact_side(double stiffness, double overlap, double reach);
   void add_wall_contact(double stiffness, double overlap, const Vec3d& force);
+  /// A particle that touches collider `index` at `point` (m, from the pivot) and gets `force` (N) from it.
+  void add_collider_contact(std::size_t index, const Vec3d& point, double stiffness, double overlap,
+                            const Vec3d& force);
   void add(const MeasurementSums& other);
-  Measurements result() const;
+  /// `colliders`: how many the scene has.
+  Measurements result(std::size_t colliders) const;
 
  private:
   std::uint64_t particles_ = 0, contact_sides_ = 0, wall_contacts_ = 0;
   ExactSum mass_, kinetic_, potential_, elastic_, wall_elastic_, overlap_ratio_, momentum_scale_;
   ExactVectorSum momentum_, mass_moment_, wall_force_;
+  ExactSum collider_elastic_;
+  ColliderLoadSums collider_loads_;
   double max_speed_ = 0, max_overlap_ratio_ = 0;
   Vec3d min_{0, 0, 0}, max_{0, 0, 0};
 };

@@ -39,9 +39,11 @@ void for_each_real(State& s, Visit&& visit) {
   visit(s.ledger.last.dissipated_power);
   visit(s.ledger.last.wall_power);
   visit(s.initial_energy);
-  for (auto* v :
-       {&s.ledger.wall_impulse, &s.ledger.drag_impulse, &s.ledger.gravity_impulse, &s.ledger.removed_momentum,
-        &s.ledger.last.wall_force, &s.ledger.last.drag_force, &s.ledger.last.gravity_force, &s.initial_momentum}) {
+  visit(s.ledger.collider_work);
+  visit(s.ledger.last.collider_power);
+  for (auto* v : {&s.ledger.wall_impulse, &s.ledger.drag_impulse, &s.ledger.gravity_impulse, &s.ledger.removed_momentum,
+                  &s.ledger.last.wall_force, &s.ledger.last.drag_force, &s.ledger.last.gravity_force,
+                  &s.initial_momentum, &s.ledger.collider_impulse, &s.ledger.last.collider_force}) {
     visit(v->x);
     visit(v->y);
     visit(v->z);

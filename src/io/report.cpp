@@ -39,7 +39,7 @@ double RunReport::energy_balance() const {
                      measurements.spring_energy;
   const double lost =
       ledger.dissipated + ledger.springs.dissipated + ledger.springs.broken_energy + ledger.removed_energy;
-  return now - initial_energy - (ledger.wall_work + ledger.hold.work - lost);
+  return now - initial_energy - (ledger.wall_work + ledger.collider_work + ledger.hold.work - lost);
 }
 
 double RunReport::bytes_per_particle() const {
@@ -62,6 +62,7 @@ RunReport make_report(const Simulation& simulation, const Measurements& measurem
   report.state_hash = simulation.state_hash();
   report.measurements = measurements;
   report.ledger = simulation.ledger();
+  for (const Collider& c : simulation.scene().colliders) report.colliders.push_back(c.name);
   report.initial_energy = simulation.initial_energy();
   report.momentum_drift = momentum_drift(measurements, simulation.ledger(), simulation.initial_momentum());
   report.neighbours = simulation.neighbour_statistics();
@@ -99,6 +100,8 @@ std::string to_json(const RunReport& r) {
                     {"wall_elastic", m.wall_elastic_energy},
                     {"dissipated", r.ledger.dissipated},
                     {"work_by_walls", r.ledger.wall_work},
+                    {"collider_elastic", m.collider_elastic_energy},
+                    {"work_by_colliders", r.ledger.collider_work},
                     {"removed", r.ledger.removed_energy},
                     {"initial", r.initial_energy},
                     {"springs", m.spring_energy},
@@ -116,6 +119,12 @@ std::string to_json(const RunReport& r) {
   json["max_overlap_ratio"] = m.max_overlap_ratio;
   json["mean_overlap_ratio"] = m.mean_overlap_ratio;
   json["wall_force"] = to_array(m.wall_force);
+  json["colliders"] = nlohmann::ordered_json::object();
+  for (std::size_t c = 0; c < r.colliders.size() && c < m.colliders.size(); ++c) {
+    const ColliderLoad& load = m.colliders[c];
+    json["colliders"][r.colliders[c]] = {
+        {"force", to_array(load.force)}, {"torque", to_array(load.torque)}, {"contacts", load.contacts}};
+  }
   json["removed"] = r.ledger.removed;
   json["springs"] = m.springs;
   json["broken_springs"] = r.ledger.springs.broken;

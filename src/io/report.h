@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "hooke/base/expected.h"
 #include "hooke/core/backend.h"
@@ -29,8 +30,9 @@ struct RunReport {
   std::uint64_t state_hash = 0;
   Measurements measurements;
   Ledger ledger;
+  std::vector<std::string> colliders;  ///< names, in the order of Measurements::colliders
   double initial_energy = 0;  ///< kinetic, potential, elastic and springs' at step 0, J
-  double momentum_drift = 0;  ///< beyond what gravity, walls, drag and departures account for, relative
+  double momentum_drift = 0;  ///< beyond what gravity, walls, colliders, drag and departures account for, relative
   NeighbourStatistics neighbours;
   StageTimes stages;  ///< of those steps
   std::optional<double> walls;  ///< s, the part of stages.force that walls take, where somebody has measured it

@@ -176,7 +176,7 @@ Expected<RunWriter> RunWriter::create(const fs::path& folder, const RunInfo& inf
       if (run_there) remove_run(folder);
       const auto held = hdf5::lock();
       ParticlesFile particles = ParticlesFile::create(folder / kParticlesFile, info);
-      SeriesFile series = SeriesFile::create(folder / kSeriesFile);
+      SeriesFile series = SeriesFile::create(folder / kSeriesFile, series_header(info.colliders));
       take(write_text_file(folder / kSceneFile, scene_json));
       return RunWriter(std::make_unique<Impl>(folder, info, std::move(particles), std::move(series)));
     } catch (const std::exception&) {
@@ -196,7 +196,7 @@ Expected<RunWriter> RunWriter::resume(const fs::path& folder, const RunInfo& inf
     const std::int64_t end_step = cadence.is_due(step, info.time_step) ? step + 1 : step;
     const auto held = hdf5::lock();
     ParticlesFile particles = ParticlesFile::update(folder / kParticlesFile, info, end_step);
-    SeriesFile series = SeriesFile::update(folder / kSeriesFile, end_step);
+    SeriesFile series = SeriesFile::update(folder / kSeriesFile, series_header(info.colliders), end_step);
     take(write_text_file(folder / kSceneFile, scene_json));
     return RunWriter(std::make_unique<Impl>(folder, info, std::move(particles), std::move(series)));
   });

@@ -29,6 +29,8 @@ void for_each_column(const SeriesRow& row, Visit&& column) {
   column("wall_elastic", m.wall_elastic_energy);
   column("dissipated", l.dissipated);
   column("wall_work", l.wall_work);
+  column("collider_elastic", m.collider_elastic_energy);
+  column("collider_work", l.collider_work);
   vector("momentum_x", "momentum_y", "momentum_z", m.momentum);
   vector("centre_x", "centre_y", "centre_z", m.centre_of_mass);
   column("max_speed", m.max_speed);
@@ -55,12 +57,17 @@ SeriesRow make_series_row(const Simulation& simulation, const Measurements& meas
           simulation.neighbour_statistics().rebuilds};
 }
 
-std::string series_header() {
+std::string series_header(const std::vector<std::string>& colliders) {
   std::string line;
   for_each_column({}, [&](const char* name, auto) {
     if (!line.empty()) line += ',';
     line += name;
   });
+  for (const std::string& name : colliders) {
+    for (const char* what : {"force_x", "force_y", "force_z", "torque_x", "torque_y", "torque_z"}) {
+      line += ',' + name + '_' + what;
+    }
+  }
   return line;
 }
 
@@ -70,6 +77,11 @@ std::string to_csv(const SeriesRow& row) {
     if (!line.empty()) line += ',';
     append_number(line, value);
   });
+  for (const ColliderLoad& load : row.measurements.colliders) {
+    for (const Vec3d& v : {load.force, load.torque}) {
+      for (int axis = 0; axis < 3; ++axis) append_number(line += ',', component(v, axis));
+    }
+  }
   return line;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "hooke/core/backend.h"
 #include "hooke/core/simulation.h"
@@ -23,8 +24,9 @@ struct SeriesRow {
 SeriesRow make_series_row(const Simulation& simulation, const Measurements& measurements);
 
 /// The first line of series.csv, and a row as text, both without a line feed. Columns are in SI units; front_x is the
-/// largest x of a centre. Numbers are the shortest that read back to the same double.
-std::string series_header();
+/// largest x of a centre. For each of the scene's colliders, by name, follow the force and the torque about its pivot
+/// that particles put on it. Numbers are the shortest that read back to the same double.
+std::string series_header(const std::vector<std::string>& colliders = {});
 std::string to_csv(const SeriesRow& row);
 
 }  // namespace hooke

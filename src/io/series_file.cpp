@@ -33,20 +33,20 @@ SeriesFile::SeriesFile(const std::filesystem::path& path)
   size_ = std::filesystem::file_size(path);
 }
 
-SeriesFile SeriesFile::create(const std::filesystem::path& path) {
-  write_whole(path, series_header() + '\n');
+SeriesFile SeriesFile::create(const std::filesystem::path& path, const std::string& header) {
+  write_whole(path, header + '\n');
   return SeriesFile(path);
 }
 
-SeriesFile SeriesFile::update(const std::filesystem::path& path, std::int64_t end_step) {
-  if (!std::filesystem::exists(path)) return create(path);
+SeriesFile SeriesFile::update(const std::filesystem::path& path, const std::string& header, std::int64_t end_step) {
+  if (!std::filesystem::exists(path)) return create(path, header);
   std::ifstream in(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in || text.rfind(series_header() + '\n', 0) != 0) {
+  if (!in || text.rfind(header + '\n', 0) != 0) {
     throw Failure(Error::Kind::bad_input, path, "can't be continued: it has not the columns of a series");
   }
   std::optional<std::int64_t> last_step;
-  std::size_t end = series_header().size() + 1;
+  std::size_t end = header.size() + 1;
   for (;;) {
     const std::size_t line_end = text.find('\n', end);
     std::int64_t step = 0;

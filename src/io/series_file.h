@@ -14,9 +14,10 @@ namespace hooke {
 /// series.csv, written row by row: whatever happens, it ends with a whole row. Throws Failure.
 class SeriesFile {
  public:
-  static SeriesFile create(const std::filesystem::path& path);
+  /// `header`: series_header() of the run.
+  static SeriesFile create(const std::filesystem::path& path, const std::string& header);
   /// One that is there, or a new one; cut before the first row of a step >= end_step.
-  static SeriesFile update(const std::filesystem::path& path, std::int64_t end_step);
+  static SeriesFile update(const std::filesystem::path& path, const std::string& header, std::int64_t end_step);
 
   /// Rows ascend by step; a step that is there already is not written twice.
   void append(const SeriesRow& row);

@@ -13,6 +13,7 @@ RunInfo describe_run(const Scene& scene, Precision precision) {
   RunInfo info{scene.name, scene.time_step, scene.integrator, precision, {}};
   info.materials.reserve(scene.materials.size());
   for (const Material& m : scene.materials) info.materials.push_back({m.name, m.radius, m.mass});
+  for (const Collider& c : scene.colliders) info.colliders.push_back(c.name);
   return info;
 }
 
@@ -40,6 +41,7 @@ std::string to_json(const RunInfo& info) {
   for (const MaterialInfo& m : info.materials) {
     json["materials"].push_back({{"name", m.name}, {"radius", m.radius}, {"mass", m.mass}});
   }
+  if (!info.colliders.empty()) json["colliders"] = info.colliders;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
@@ -59,6 +61,7 @@ RunInfo parse_run_info(const std::string& json, const std::filesystem::path& fil
       info.materials.push_back(
           {m.at("name").get<std::string>(), m.at("radius").get<double>(), m.at("mass").get<double>()});
     }
+    if (parsed.contains("colliders")) info.colliders = parsed.at("colliders").get<std::vector<std::string>>();
     return info;
   } catch (const nlohmann::json::exception&) {
     throw Failure(Error::Kind::bad_input, file, "is damaged: what it says of its run can't be read");

@@ -28,6 +28,7 @@ struct RunInfo {
   Integrator integrator = Integrator::symplectic_euler;
   Precision precision = Precision::single_precision;  ///< that the back end computed in
   std::vector<MaterialInfo> materials;                ///< ParticleSet::material counts in these
+  std::vector<std::string> colliders{};               ///< their names
 
   friend bool operator==(const RunInfo&, const RunInfo&) = default;
 };

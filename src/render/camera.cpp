@@ -15,10 +15,6 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 double norm(const Vec3d& v) { return std::sqrt(dot(v, v)); }
 Vec3d normalized(const Vec3d& v) { return (1 / norm(v)) * v; }
-Vec3d cross(const Vec3d& a, const Vec3d& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 // `v` turned about the unit vector `axis` (Rodrigues' formula).
 Vec3d rotated(const Vec3d& v, const Vec3d& axis, double angle) {
   return std::cos(angle) * v + std::sin(angle) * cross(axis, v) + ((1 - std::cos(angle)) * dot(axis, v)) * axis;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/colliders.h"
 #include "support/engines.h"
 #include "support/particles.h"
 
@@ -14,18 +15,19 @@ struct BusyKind {
   Boundary boundary;
   Integrator integrator;
   Precision precision;
+  bool colliders = false;
 
   std::string name() const {
     const char* walls = boundary == Boundary::spring ? "spring" : boundary == Boundary::open ? "open" : "periodic";
     return std::string(walls) + (integrator == Integrator::velocity_verlet ? "_verlet" : "_euler") +
-           (precision == Precision::single_precision ? "_single" : "_double");
+           (precision == Precision::single_precision ? "_single" : "_double") + (colliders ? "_colliders" : "");
   }
 };
 
 inline void PrintTo(const BusyKind& kind, std::ostream* os) { *os << kind.name(); }
 
 /// A block of three materials, several segments of the neighbour list large, that falls apart: rebuilds, departures,
-/// wrapping and drag all take place within a hundred steps.
+/// wrapping and drag all take place within a hundred steps; with colliders of every kind in the way where asked for.
 inline Scene busy_scene(const BusyKind& kind) {
   Scene scene = open_scene();
   mix_materials(scene, 0.25);
@@ -35,6 +37,7 @@ inline Scene busy_scene(const BusyKind& kind) {
   scene.domain.min = {-3, 0, -3};
   scene.domain.max = {5, 9, 4};
   scene.domain.boundary = {kind.boundary, Boundary::spring, kind.boundary};
+  if (kind.colliders) add_every_collider(scene, {1, 4, 0.5}, 8);
   return scene;
 }
 
@@ -64,6 +67,8 @@ inline auto all_busy_kinds() {
       for (const Precision p : {Precision::single_precision, Precision::double_precision}) kinds.push_back({b, i, p});
     }
   }
+  kinds.push_back({Boundary::spring, Integrator::symplectic_euler, Precision::single_precision, true});
+  kinds.push_back({Boundary::open, Integrator::velocity_verlet, Precision::double_precision, true});
   return testing::ValuesIn(kinds);
 }
 
@@ -89,6 +94,8 @@ inline void expect_same_bits(const Simulation& a, const Simulation& b) {
   EXPECT_EQ(m.min, n.min);
   EXPECT_EQ(m.max, n.max);
   EXPECT_EQ(m.wall_force, n.wall_force);
+  EXPECT_EQ(m.collider_elastic_energy, n.collider_elastic_energy);
+  EXPECT_EQ(m.colliders, n.colliders);
 }
 
 }  // namespace hooke::test

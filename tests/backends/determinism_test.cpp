@@ -24,6 +24,9 @@ TEST_P(BusyScenes, HaveTheSameBitsForAnyNumberOfThreads) {
   if (GetParam().boundary == Boundary::open) {
     EXPECT_GT(one.ledger().removed, 10U);
   }
+  if (GetParam().colliders) {
+    for (const ColliderLoad& load : measured(one).colliders) EXPECT_GT(load.contacts, 0U) << "all are touched";
+  }
   for (const int threads : {2, 3, 8}) {
     Simulation many = simulate(scene_, particles_, engine(threads));
     ASSERT_TRUE(advance(many, kSteps));

@@ -43,8 +43,8 @@ TEST(MeasurementSums, SumUpInAnyOrderAndSplit) {
   for (int i = 0; i < 100; ++i) add(i % 3 == 0 ? first : second, i);
   second.add(first);
   second.add(MeasurementSums{});
-  for (const Measurements& m : {backward.result(), second.result()}) {
-    const Measurements n = forward.result();
+  for (const Measurements& m : {backward.result(0), second.result(0)}) {
+    const Measurements n = forward.result(0);
     EXPECT_EQ(m.particles, 100U);
     EXPECT_EQ(m.contacts, 50U) << "each from both sides";
     EXPECT_EQ(m.wall_contacts, 100U);
@@ -63,7 +63,7 @@ TEST(MeasurementSums, SumUpInAnyOrderAndSplit) {
 }
 
 TEST(MeasurementSums, OfNothingAreZeros) {
-  const Measurements m = MeasurementSums{}.result();
+  const Measurements m = MeasurementSums{}.result(0);
   EXPECT_EQ(m.particles, 0U);
   EXPECT_EQ(m.kinetic_energy, 0);
   EXPECT_EQ(m.mean_overlap_ratio, 0);

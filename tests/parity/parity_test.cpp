@@ -50,6 +50,15 @@ void expect_same_figures(const Simulation& a, const Simulation& b) {
   near(a.ledger().dissipated, b.ledger().dissipated, 0);
   near(a.ledger().wall_work, b.ledger().wall_work, a.ledger().dissipated + m.kinetic_energy);
   near(a.ledger().wall_impulse.y, b.ledger().wall_impulse.y, m.momentum_scale);
+  near(a.ledger().collider_work, b.ledger().collider_work, a.ledger().dissipated + m.kinetic_energy);
+  near(a.ledger().collider_impulse.y, b.ledger().collider_impulse.y, m.momentum_scale);
+  near(m.collider_elastic_energy, n.collider_elastic_energy, 0);
+  ASSERT_EQ(m.colliders.size(), n.colliders.size());
+  for (std::size_t c = 0; c < m.colliders.size(); ++c) {
+    EXPECT_EQ(m.colliders[c].contacts, n.colliders[c].contacts);
+    near(m.colliders[c].force.y, n.colliders[c].force.y, m.momentum_scale);
+    near(m.colliders[c].torque.x, n.colliders[c].torque.x, m.momentum_scale);
+  }
   near(a.ledger().gravity_impulse.y, b.ledger().gravity_impulse.y, 0);
   near(a.ledger().drag_impulse.x, b.ledger().drag_impulse.x, m.momentum_scale);
   near(a.ledger().removed_energy, b.ledger().removed_energy, m.kinetic_energy);

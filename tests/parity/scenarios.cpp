@@ -3,6 +3,7 @@
 
 #include "scenarios.h"
 
+#include "support/colliders.h"
 #include "support/particles.h"
 
 namespace hooke::test {
@@ -134,6 +135,17 @@ void add_sizes(Collection& out) {
   }
 }
 
+// Everything that a collider can be, in the way of particles that fall apart.
+void add_colliders(Collection& out) {
+  for (std::size_t b = 0; b < std::size(kBoundaries); ++b) {
+    Scene scene = mixed_scene({-4, 2, -4}, {4, 10, 4});
+    scene.domain.boundary = {kBoundaries[b], Boundary::spring, kBoundaries[b]};
+    add_every_collider(scene, {0, 6, 0}, 7);
+    out.add(std::string("colliders_") + kBoundaryNames[b], scene,
+            cloud(scene, 300, scene.domain.min, scene.domain.max, 4, 12), 60);
+  }
+}
+
 }  // namespace
 
 std::vector<Scenario> scenarios() {
@@ -144,6 +156,7 @@ std::vector<Scenario> scenarios() {
   add_degenerate(out);
   add_tight(out);
   add_sizes(out);
+  add_colliders(out);
   return std::move(out.all);
 }
 

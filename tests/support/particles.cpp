@@ -9,6 +9,17 @@ namespace hooke::test {
 
 std::array<double, 4> random4(std::uint64_t seed, std::uint64_t index) { return uniform4(seed, index, 0); }
 
+namespace {
+
+// Those before the ones that only colliders have.
+std::size_t particle_materials(const Scene& scene) {
+  std::size_t count = 0;
+  while (count < scene.materials.size() && scene.materials[count].is_of_particles()) ++count;
+  return count;
+}
+
+}  // namespace
+
 Scene open_scene() {
   Scene scene;
   scene.name = "open";
@@ -53,7 +64,7 @@ ParticleSet cloud(const Scene& scene, std::size_t count, const Vec3d& min, const
     const auto u = random4(seed, 2 * i);
     const auto w = random4(seed, 2 * i + 1);
     particles.id[i] = 3 * i + 1 + (i % 2);
-    particles.material[i] = static_cast<std::uint16_t>(i % scene.materials.size());
+    particles.material[i] = static_cast<std::uint16_t>(i % particle_materials(scene));
     for (int axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<std::size_t>(axis);
       component(particles.position[i], axis) =
@@ -74,7 +85,7 @@ ParticleSet lattice(const Scene& scene, const std::array<int, 3>& count, const V
         const auto u = random4(seed, i);
         const Vec3d moved{jitter * (2 * u[0] - 1), jitter * (2 * u[1] - 1), jitter * (2 * u[2] - 1)};
         add(particles, corner + spacing * Vec3d{double(x), double(y), double(z)} + moved, {0, 0, 0},
-            static_cast<std::uint16_t>(i % scene.materials.size()));
+            static_cast<std::uint16_t>(i % particle_materials(scene)));
       }
     }
   }

@@ -45,12 +45,35 @@ class ContactScan {
     }
   }
 
+  /// visit(collider, face, overlap) for every face of a collider that particle i touches, in the scene's order.
+  template <class Visit>
+  void for_each_collider(std::size_t i, const Visit& visit) const {
+    const double radius = pass_.materials[material_of(i)].radius;
+    const Vec3d x = vec_cast<double>(records_[i].x);
+    for (std::size_t c = 0; c < pass_.collider_count; ++c) {
+      const PlacedCollider<Real>& collider = pass_.colliders[c];
+      if (!is_between(records_[i].x, collider.near_from, collider.near_to)) continue;
+      for_each_collider_face(collider, x, [&](const ColliderFace<double>& face) {
+        const double overlap = radius - face.distance;
+        if (overlap > 0) visit(c, face, overlap);
+      });
+    }
+  }
+
   std::size_t material_of(std::size_t i) const { return static_cast<std::size_t>(records_[i].material); }
   const PairRow<Real>& pair(std::size_t i, std::size_t p) const {
     return pass_.pairs[material_of(i) * pass_.material_count + material_of(p)];
   }
 
  private:
+  static bool is_between(const Vec3<Real>& x, const Vec3<Real>& from, const Vec3<Real>& to) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Real at = component(x, axis);
+      if (!(at > component(from, axis) && at < component(to, axis))) return false;
+    }
+    return true;
+  }
+
   template <class Visit>
   void visit_images(std::size_t i, std::size_t p, const Visit& visit) const {
     int from[3] = {0, 0, 0};

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "hooke/backends/cpu/boundaries.h"
+#include "hooke/backends/cpu/collider_rules.h"
 #include "hooke/backends/cpu/column_store.h"
 #include "hooke/backends/cpu/contact_scan.h"
 #include "hooke/backends/cpu/held_particles.h"
@@ -60,6 +61,7 @@ class CpuBackend final : public Backend {
     scene_ = scene;
     rules_.configure(scene);
     pass_ = rules_.pass;
+    colliders_.configure(scene, pass_.material_count);
     list_.configure(rules_, loops_.search_group, springs_.apart());
     springs_.configure(scene, rules_.pass, loops_.spring_pass);
   }
@@ -109,6 +111,10 @@ class CpuBackend final : public Backend {
       if (verlet()) out.acceleration[k] = vec_cast<double>(acceleration_[at[rank]]);
       ++k;
     }
+  }
+
+  void place_colliders(std::span<const ColliderPose> poses) override {
+    colliders_.place(scene_, poses, rules_.largest_radius, pass_);
   }
 
   void half_kick_and_drift() override {
@@ -224,7 +230,7 @@ class CpuBackend final : public Backend {
       const std::lock_guard lock(mutex_);
       total.add(part);
     });
-    Measurements result = total.result();
+    Measurements result = total.result(scene_.colliders.size());
     threads_.run([&] { springs_.measure(records_.data(), place_, result); });
     return result;
   }
@@ -243,6 +249,8 @@ class CpuBackend final : public Backend {
     std::array<std::uint16_t, kGroups> far;
     std::array<Real, kSegment> dissipated, wall_power;
     std::array<std::array<Real, kSegment>, 3> wall_force;
+    std::array<Real, kSegment> collider_power;
+    std::array<std::array<Real, kSegment>, 3> collider_force;
   };
 
   void fill_unused(LargeVector<Record>& records) const {
@@ -425,7 +433,11 @@ class CpuBackend final : public Backend {
     work.far = report.far.data() + g;
     work.dissipated = report.dissipated.data() + g * kLanes;
     work.wall_power = report.wall_power.data() + g * kLanes;
-    for (std::size_t axis = 0; axis < 3; ++axis) work.wall_force[axis] = report.wall_force[axis].data() + g * kLanes;
+    work.collider_power = report.collider_power.data() + g * kLanes;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      work.wall_force[axis] = report.wall_force[axis].data() + g * kLanes;
+      work.collider_force[axis] = report.collider_force[axis].data() + g * kLanes;
+    }
     loops_.force_pass(pass_, work);
   }
 
@@ -434,11 +446,16 @@ class CpuBackend final : public Backend {
     const std::size_t n = std::min(kSegment, count_ - first);
     sums.dissipated_power.add(report.dissipated.data(), n);
     for (std::size_t g = 0; g * kLanes < n; ++g) {
-      if ((report.notes[g] & kTouchesWall) == 0) continue;
       const std::size_t k = g * kLanes, lanes = std::min(kLanes, n - k);
-      sums.wall_power.add(report.wall_power.data() + k, lanes);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        sums.wall_force.add(axis, report.wall_force[axis].data() + k, lanes);
+      const auto add = [&](ExactSum& power, const auto& powers, ExactVectorSum& force, const auto& forces) {
+        power.add(powers.data() + k, lanes);
+        for (std::size_t axis = 0; axis < 3; ++axis) force.add(axis, forces[axis].data() + k, lanes);
+      };
+      if ((report.notes[g] & kTouchesWall) != 0) {
+        add(sums.wall_power, report.wall_power, sums.wall_force, report.wall_force);
+      }
+      if ((report.notes[g] & kTouchesCollider) != 0) {
+        add(sums.collider_power, report.collider_power, sums.collider_force, report.collider_force);
       }
     }
     if (!pass_.has_drag) return;
@@ -473,6 +490,12 @@ class CpuBackend final : public Backend {
           found = Condition::first(found, {Condition::Kind::wall_approach_too_fast, id, 0, approach});
         }
       });
+      scan.for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double) {
+        const double approach = dot(face.velocity - v, face.normal);
+        if (approach > radius / scene_.time_step) {
+          found = Condition::first(found, {Condition::Kind::collider_approach_too_fast, id, c, approach});
+        }
+      });
     }
     return found;
   }
@@ -491,6 +514,12 @@ class CpuBackend final : public Backend {
       const MaterialRow<Real>& m = rules_.materials[scan.material_of(i)];
       const ContactCoefficients<double> c{m.wall_stiffness, m.wall_shear, m.wall_damping};
       sums.add_wall_contact(c.stiffness, overlap, contact_force(overlap, normal, -v, c).force);
+    });
+    scan.for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double overlap) {
+      const PairRow<Real>& row = pass_.collider_pairs[c * pass_.material_count + scan.material_of(i)];
+      const ContactCoefficients<double> k{row.stiffness, row.shear, row.damping};
+      const Vec3d force = contact_force(overlap, face.normal, face.velocity - v, k).force;
+      sums.add_collider_contact(c, face.point, k.stiffness, overlap, force);
     });
   }
 
@@ -581,6 +610,7 @@ class CpuBackend final : public Backend {
 
   Scene scene_;
   PassRules<Real> rules_;
+  ColliderRules<Real> colliders_;
   ForcePass<Real> pass_;  // the rules', aimed at the buffers of the moment
 
   IdTable ids_;  // by rank

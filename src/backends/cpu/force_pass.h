@@ -9,6 +9,7 @@
 #include "hooke/base/vec3.h"
 #include "hooke/neighbours/group_anchor.h"
 #include "hooke/neighbours/group_search.h"
+#include "hooke/physics/collider.h"
 
 namespace hooke {
 
@@ -55,6 +56,10 @@ struct ForcePass {
   bool has_drag = false;                      // some material's is not 0
   bool wall[3]{};                             // spring walls across this axis
   Vec3<Real> clear_of_walls_from{}, clear_of_walls_to{};  // m: the largest particles between these touch no wall
+  const PlacedCollider<Real>* colliders = nullptr;        // where they are in this pass
+  std::size_t collider_count = 0;
+  const PairRow<Real>* collider_pairs = nullptr;          // a row of material_count a collider
+  Vec3<Real> near_colliders_from{}, near_colliders_to{};  // m: outside of this box none touches a collider
   bool open_or_periodic[3]{};
   bool periodic[3]{};
   int images[3]{};                            // PeriodicKind::images: -n to n are looked at
@@ -69,6 +74,7 @@ enum GroupNote : unsigned char {
   kTouchesWall = 1,     // wall_force and wall_power hold something
   kLeftDomain = 2,      // a particle is outside an open or periodic face, or at no number
   kApproachTooFast = 4, // perhaps: look closely
+  kTouchesCollider = 8, // collider_force and collider_power hold something
 };
 
 /// The part of a pass that one thread does at a time: consecutive groups of 16 particles, their rows of the neighbour
@@ -84,6 +90,8 @@ struct SegmentWork {
   Real* dissipated = nullptr;  // W, one entry a particle: half of its contacts', and its drag's
   Real* wall_power = nullptr;  // W, one entry a particle, where kTouchesWall
   Real* wall_force[3] = {};  // N, likewise
+  Real* collider_power = nullptr;  // W, one entry a particle, where kTouchesCollider
+  Real* collider_force[3] = {};    // N, likewise
 };
 
 template <class Real>

@@ -7,6 +7,8 @@
 
 #include "hooke/backends/cpu/force_pass.h"
 #include "hooke/backends/cpu/pack_records.h"
+// After the packs.
+#include "hooke/backends/cpu/pack_field.h"
 #include "hooke/physics/contact.h"
 #include "hooke/physics/drag.h"
 #include "hooke/physics/integrate.h"
@@ -240,6 +242,8 @@ struct WallLoop {
   }
 };
 
+#include "hooke/backends/cpu/collider_loop.inl"
+
 // Mask of lanes that left the domain across an open or periodic face; NaN counts as having left.
 template <class Real>
 HOOKE_HD Mask<Real> left_domain(const ForcePass<Real>& pass, const Vec3<Pack<Real>>& x) {
@@ -314,6 +318,7 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
     body_row = load_rows(pass.materials, own.material, 1);
   }
   WallLoop<Real>{pass, own, present, wall_row}.run(acting, work, slot, notes);
+  ColliderLoop<Real>{pass, own, present, wall_row.d}.run(acting, work, slot, notes);
 
   if (pass.has_drag) {
     const Vec3<P> drag = drag_force(own.v, body_row.b);

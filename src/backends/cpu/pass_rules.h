@@ -39,7 +39,9 @@ struct PassRules {
 
   void configure_materials(const Scene& scene) {
     const ContactTable table(scene.materials, scene.contacts);
-    const std::size_t n = scene.materials.size();
+    // Materials of colliders alone come last where a file says it; without them there are fewer pairs to tell apart.
+    std::size_t n = scene.materials.size();
+    while (n > 0 && !scene.materials[n - 1].is_of_particles()) --n;
     pairs.assign(n * n, PairRow<Real>{});
     materials.assign(n, MaterialRow<Real>{});
     largest_radius = 0;
@@ -47,6 +49,7 @@ struct PassRules {
     pass.has_drag = false;
     for (std::size_t a = 0; a < n; ++a) {
       const Material& m = scene.materials[a];
+      if (!m.is_of_particles()) continue;
       const ContactCoefficients<double>& wall = table.wall(a);
       materials[a] = {real(wall.stiffness),
                       real(wall.shear),
@@ -76,6 +79,7 @@ struct PassRules {
     std::iota(by_radius.begin(), by_radius.end(), std::size_t{0});
     std::sort(by_radius.begin(), by_radius.end(),
               [&](std::size_t a, std::size_t b) { return materials[a].radius < materials[b].radius; });
+    std::erase_if(by_radius, [&](std::size_t m) { return !(materials[m].radius > 0); });
     level_radius.clear();
     level_of.assign(materials.size(), 0);
     double smallest = 0;  // of the level

@@ -9,6 +9,7 @@
 
 #include "hooke/backends/reference/reference_springs.h"
 #include "hooke/base/stopwatch.h"
+#include "hooke/core/placed_colliders.h"
 #include "hooke/core/state_hash.h"
 #include "hooke/core/sums.h"
 #include "hooke/physics/contact.h"
@@ -70,6 +71,15 @@ class ReferenceBackend final : public Backend {
   }
 
   void download(ParticleSet& out) const override { out = p_; }
+
+  void place_colliders(std::span<const ColliderPose> poses) override {
+    colliders_.clear();
+    double largest = 0;
+    for (const Material& m : scene_.materials) largest = std::max(largest, m.radius);
+    for (std::size_t c = 0; c < poses.size(); ++c) {
+      colliders_.push_back(place_collider<double>(scene_.colliders[c], poses[c], largest));
+    }
+  }
 
   void half_kick_and_drift() override {
     const Stopwatch drifting(times_.drift);
@@ -143,8 +153,13 @@ class ReferenceBackend final : public Backend {
         const auto& c = table_.wall(p_.material[i]);
         sums.add_wall_contact(c.stiffness, overlap, contact_force(overlap, normal, -p_.velocity[i], c).force);
       });
+      for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double overlap) {
+        const auto& k = collider_pair(i, c);
+        const Vec3d force = contact_force(overlap, face.normal, face.velocity - p_.velocity[i], k).force;
+        sums.add_collider_contact(c, face.point, k.stiffness, overlap, force);
+      });
     }
-    Measurements result = sums.result();
+    Measurements result = sums.result(scene_.colliders.size());
     springs_.measure(p_, result);
     return result;
   }
@@ -167,7 +182,12 @@ class ReferenceBackend final : public Backend {
     return table_.pair(p_.material[i], p_.material[p]);
   }
 
-  // Forces on each particle in canonical order: contacts by (neighbour id, image), walls, drag, springs by index; then
+  const ContactCoefficients<double>& collider_pair(std::size_t i, std::size_t c) const {
+    return table_.collider(p_.material[i], scene_.colliders[c].material);
+  }
+
+  // Forces on each particle in canonical order: contacts by (neighbour id, image), walls, colliders, drag, springs by
+  // index; then
   // gravity.
   Forces accelerations() const {
     Forces out;
@@ -201,6 +221,19 @@ class ReferenceBackend final : public Backend {
         if (approach > m.radius / dt) {
           out.condition =
               Condition::first(out.condition, {Condition::Kind::wall_approach_too_fast, p_.id[i], 0, approach});
+        }
+      });
+
+      for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double overlap) {
+        const Vec3d w = face.velocity - v;
+        const ContactForce<double> contact = contact_force(overlap, face.normal, w, collider_pair(i, c));
+        force += contact.force;
+        out.sums.collider_power.add(dot(contact.force, v));
+        out.sums.collider_force.add(contact.force);
+        const double approach = dot(w, face.normal);
+        if (approach > m.radius / dt) {
+          out.condition =
+              Condition::first(out.condition, {Condition::Kind::collider_approach_too_fast, p_.id[i], c, approach});
         }
       });
 
@@ -262,6 +295,18 @@ class ReferenceBackend final : public Backend {
     }
   }
 
+  // visit(collider, face, overlap) for every face of a collider that particle i touches, in the scene's order.
+  template <class Visit>
+  void for_each_collider(std::size_t i, Visit&& visit) const {
+    const double radius = material(i).radius;
+    for (std::size_t c = 0; c < colliders_.size(); ++c) {
+      for_each_collider_face(colliders_[c], p_.position[i], [&](const ColliderFace<double>& face) {
+        const double overlap = radius - face.distance;
+        if (overlap > 0) visit(c, face, overlap);
+      });
+    }
+  }
+
   void wrap_periodic(Vec3d& x) const {
     for (int axis = 0; axis < 3; ++axis) {
       if (scene_.domain.boundary[static_cast<std::size_t>(axis)] != Boundary::periodic) continue;
@@ -309,6 +354,7 @@ class ReferenceBackend final : public Backend {
   ContactTable table_;
   ReferenceSprings springs_;
   std::array<int, 3> images_{};  // images -n to n of every particle are looked at, a periodic axis
+  std::vector<PlacedCollider<double>> colliders_;
   ParticleSet p_;
   Ledger ledger_;
   StageTimes times_;

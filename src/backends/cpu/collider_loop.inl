@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+// Contacts with colliders: a part of force_pass.inl, which includes it inside of the instruction set's namespace.
+
+// Mask of lanes inside of a box.
+template <class Real>
+HOOKE_HD Mask<Real> is_inside(const Vec3<Pack<Real>>& x, const Vec3<Real>& from, const Vec3<Real>& to) {
+  using P = Pack<Real>;
+  return (x.x > P(from.x)) & (x.y > P(from.y)) & (x.z > P(from.z)) & (x.x < P(to.x)) & (x.y < P(to.y)) &
+         (x.z < P(to.z));
+}
+
+// All colliders near the lanes' particles, in the scene's order. The first look tells whether any can be touched; what
+// follows is no part of the loop that everybody runs, and so not inlined into it.
+template <class Real>
+struct ColliderLoop {
+  using P = Pack<Real>;
+  const ForcePass<Real>& pass;
+  const Lanes<Real>& own;
+  const Mask<Real>& present;
+  const P& radius;
+
+  HOOKE_HD void run(Acting<Real>& acting, const SegmentWork<Real>& work, std::size_t slot, unsigned char& notes) const {
+    if (pass.collider_count == 0) return;
+    Vec3<P> force{P(Real(0)), P(Real(0)), P(Real(0))};
+    bool touched = false;
+    if (any(present & is_inside(own.x, pass.near_colliders_from, pass.near_colliders_to)))
+      touched = meet(acting, force);
+    if (!touched && P::kLanes == kGroupLanes) return;  // else the rest of the group may touch
+    store(work.collider_force[0] + slot, force.x);
+    store(work.collider_force[1] + slot, force.y);
+    store(work.collider_force[2] + slot, force.z);
+    store(work.collider_power + slot, dot(force, own.v));
+    if (touched) notes |= kTouchesCollider;
+  }
+
+  // Whether any lane touches any collider.
+  __attribute__((noinline)) bool meet(Acting<Real>& acting, Vec3<P>& force) const {
+    bool touched = false;
+    for (std::size_t c = 0; c < pass.collider_count; ++c) {
+      const PlacedCollider<Real>& collider = pass.colliders[c];
+      const Mask<Real> near = present & is_inside(own.x, collider.near_from, collider.near_to);
+      if (!any(near)) continue;
+      const Quad<Real> row = load_rows(pass.collider_pairs + c * pass.material_count, own.material, 0);
+      const ContactCoefficients<P> coefficients{row.a, row.b, row.c};
+      for_each_collider_face(collider, own.x, [&](const ColliderFace<P>& face) {
+        const P overlap = radius - face.distance;
+        const Mask<Real> touching = near & (overlap > P(Real(0)));
+        if (!any(touching)) return;
+        touched = true;
+        const Vec3<P> w = face.velocity - own.v;
+        const ContactForce<P> contact = contact_force(overlap, face.normal, w, coefficients);
+        const P zero(Real(0));
+        const Vec3<P> on_touching = select_vector(touching, contact.force, {zero, zero, zero});
+        acting.force += on_touching;
+        force += on_touching;
+        acting.too_fast = acting.too_fast | (touching & (dot(w, face.normal) > P(pass.speed_limit)));
+      });
+    }
+    return touched;
+  }
+};

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "hooke/backends/cpu/force_pass.h"
+#include "hooke/core/placed_colliders.h"
+#include "hooke/core/scene.h"
+
+namespace hooke {
+
+/// A scene's colliders as the force pass wants them, and where they are.
+template <class Real>
+struct ColliderRules {
+  std::vector<PlacedCollider<Real>> placed;
+  std::vector<PairRow<Real>> pairs;  ///< a row of materials a collider
+
+  void configure(const Scene& scene, std::size_t material_count) {
+    const ContactTable table(scene.materials, scene.contacts);
+    placed.clear();
+    pairs.clear();
+    for (const Collider& collider : scene.colliders) {
+      for (std::size_t m = 0; m < material_count; ++m) {
+        const ContactCoefficients<double>& c = table.collider(m, collider.material);
+        pairs.push_back({static_cast<Real>(c.stiffness),
+                         static_cast<Real>(c.shear),
+                         static_cast<Real>(c.damping),
+                         static_cast<Real>(scene.materials[m].radius),
+                         {}});
+      }
+    }
+  }
+
+  /// Moves them, and aims `pass` at them. `reach`: the largest radius of a particle, m.
+  void place(const Scene& scene, std::span<const ColliderPose> poses, double reach, ForcePass<Real>& pass) {
+    placed.clear();
+    for (std::size_t c = 0; c < poses.size(); ++c) {
+      placed.push_back(place_collider<Real>(scene.colliders[c], poses[c], reach));
+    }
+    pass.colliders = placed.data();
+    pass.collider_count = placed.size();
+    pass.collider_pairs = pairs.data();
+    if (placed.empty()) return;
+    pass.near_colliders_from = placed[0].near_from;
+    pass.near_colliders_to = placed[0].near_to;
+    for (const PlacedCollider<Real>& collider : placed) {
+      for (int axis = 0; axis < 3; ++axis) {
+        Real &from = component(pass.near_colliders_from, axis), &to = component(pass.near_colliders_to, axis);
+        from = std::min(from, component(collider.near_from, axis));
+        to = std::max(to, component(collider.near_to, axis));
+      }
+    }
+  }
+};
+
+}  // namespace hooke
