@@ -32,9 +32,9 @@ std::string type_of(const Json& part) {
   if (type != "array") return type;
   const std::string of =
       part.contains("items") && part.at("items").contains("type") ? type_of(part.at("items")) : "value";
-  if (!part.contains("maxItems")) return "list of " + of + "s";
-  return "list of " + part.at("maxItems").dump() +
-         (part.at("items").contains("enum") ? ", each " + of : " " + of + "s");
+  const std::string many = of.rfind("list ", 0) == 0 ? "lists" + of.substr(4) : of + "s";
+  if (!part.contains("maxItems")) return "list of " + many;
+  return "list of " + part.at("maxItems").dump() + (part.at("items").contains("enum") ? ", each " + of : " " + many);
 }
 
 std::string range_of(const Json& part) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "hooke/scene/csv_fields.h"
 #include "hooke/scene/particle_format.h"
 #include "hooke/scene/words.h"
 
@@ -23,45 +24,7 @@ constexpr std::array<std::pair<std::string_view, Field>, 8> kNames{{{"x", Field:
                                                                     {"id", Field::id},
                                                                     {"material", Field::material}}};
 
-// The fields of one line. Their text is that of the line, or of `unquoted` where quotes had to be taken off.
-struct Fields {
-  std::vector<std::string_view> at;
-  std::vector<std::string> unquoted;
-  bool open_quote = false;
-
-  void split(std::string_view line) {
-    at.clear();
-    unquoted.clear();
-    open_quote = false;
-    if (line.find('"') != std::string_view::npos) return split_quoted(line);
-    while (true) {
-      const auto comma = line.find(',');
-      at.push_back(trimmed(line.substr(0, comma)));
-      if (comma == std::string_view::npos) return;
-      line.remove_prefix(comma + 1);
-    }
-  }
-
- private:
-  void split_quoted(std::string_view line) {
-    std::string field;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      if (line[i] == '"' && open_quote && i + 1 < line.size() && line[i + 1] == '"') {
-        field += line[i++];  // a doubled quote within quotes is one
-      } else if (line[i] == '"') {
-        open_quote = !open_quote;
-      } else if (line[i] == ',' && !open_quote) {
-        unquoted.push_back(std::exchange(field, ""));
-      } else {
-        field += line[i];
-      }
-    }
-    unquoted.push_back(std::move(field));
-    for (const std::string& text : unquoted) at.push_back(trimmed(text));
-  }
-};
-
-std::vector<Column> columns_of(const Fields& header) {
+std::vector<Column> columns_of(const CsvFields& header) {
   std::vector<Column> columns;
   for (const std::string_view title : header.at) {
     const auto* known =
@@ -82,13 +45,11 @@ bool only_blanks_follow(FileScanner& in) {
 
 void read_csv_particles(FileScanner& in, ParticleRows& rows) {
   const std::string first(in.line().value_or(""));
-  std::string_view header = first;
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  if (header.substr(0, kByteOrderMark.size()) == kByteOrderMark) header.remove_prefix(kByteOrderMark.size());
+  const std::string_view header = without_byte_order_mark(first);
   if (trimmed(header).empty() && only_blanks_follow(in)) {
     throw FileFault(1, "is empty; it must start with a header that has columns x, y, z");
   }
-  Fields fields;
+  CsvFields fields;
   fields.split(header);
   if (!rows.set_columns(columns_of(fields), 1)) return;
   // Nothing but the lines themselves says how many there are.

@@ -13,6 +13,7 @@
 #include "hooke/scene/scene_builder.h"
 #include "hooke/scene/schema.h"
 #include "hooke/scene/schema_check.h"
+#include "hooke/scene/structure_maker.h"
 #include "hooke/scene/text_file.h"
 
 namespace hooke {
@@ -38,6 +39,9 @@ Expected<LoadedScene> parse(std::string_view text, const std::string& name, cons
   LoadedScene loaded;
   loaded.scene = build_scene(json, findings);
   loaded.particles = load_particles(json, loaded.scene, folder, options, findings, loaded.warnings);
+  LoadOptions ties = options;
+  ties.with_particles = options.with_particles && !findings.touches("particles");  // whose ids are to be relied on
+  loaded.scene.structure = load_structure(json, loaded.scene, folder, ties, findings, loaded.particles);
   if (!findings.empty()) return refuse();
   loaded.resolved = pretty(json);
   return loaded;

@@ -17,6 +17,9 @@ namespace hooke {
 /// What one particle needs in all: in the back end, in its neighbour list, and on its way to files, bytes.
 inline constexpr double kBytesPerParticle = 260;
 
+/// What one spring needs likewise.
+inline constexpr double kBytesPerSpring = 130;
+
 /// How a scene is read.
 struct LoadOptions {
   /// "PATH=VALUE" each, as of --set: replaces (or adds) the value at a JSON path such as "time.step",

@@ -75,7 +75,11 @@ std::string allowed_list(const Json& schema) {
     return fmt::format("a list{}, each {}", fixed ? " of " + schema.at("minItems").dump() : "", allowed_by(items));
   }
   const std::string type = items.value("type", "");
-  const char* const of = type == "number" ? "numbers" : type == "string" ? "texts" : "objects";
+  const char* const of = type == "number"    ? "numbers"
+                         : type == "string"  ? "texts"
+                         : type == "array"   ? "lists"
+                         : type == "integer" ? "whole numbers"
+                                             : "objects";
   return fixed ? fmt::format("a list of {} {}", schema.at("minItems").dump(), of) : fmt::format("a list of {}", of);
 }
 
@@ -230,6 +234,8 @@ std::string allowed_by(const Json& schema) {
     words = allowed_list(schema);
   } else if (type == "object") {
     words = "an object {...}";
+  } else if (type == "boolean") {
+    words = "true or false";
   } else {
     words = "a text";
     if (schema.contains("examples")) words += " like " + schema.at("examples").front().dump();

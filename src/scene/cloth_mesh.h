@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "hooke/base/expected.h"
+#include "hooke/base/vec3.h"
+
+namespace hooke {
+
+/// Triangles with corners that they share.
+struct ClothMesh {
+  std::vector<Vec3d> position;           ///< of corners, m, in the order of the file
+  std::vector<std::uint32_t> triangles;  ///< three corners each
+};
+
+/// Reads the corners and faces of a Wavefront OBJ file; polygons are cut into triangles from their first corner.
+/// Everything else in it is passed over. The error's only finding has an empty `where`.
+Expected<ClothMesh> read_cloth_mesh(const std::filesystem::path& file);
+
+}  // namespace hooke
