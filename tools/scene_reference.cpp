@@ -29,6 +29,7 @@ std::string type_of(const Json& part) {
   const std::string type = part.at("type");
   if (type == "integer") return "whole number";
   if (type == "string") return "text";
+  if (type == "boolean") return "`true`, `false`";
   if (type != "array") return type;
   const std::string of =
       part.contains("items") && part.at("items").contains("type") ? type_of(part.at("items")) : "value";

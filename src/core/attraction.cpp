@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "hooke/core/scene.h"
 
 namespace hooke {
@@ -15,6 +17,30 @@ namespace {
 int binary_order(double value) { return value > 0 ? std::ilogb(value) : 0; }
 
 }  // namespace
+
+std::vector<Finding> validate_attraction(const Scene& scene) {
+  std::vector<Finding> findings;
+  if (!scene.attraction) return findings;
+  const Attraction& a = *scene.attraction;
+  const auto not_negative = [&](const char* where, double value) {
+    if (std::isfinite(value) && value >= 0) return;
+    findings.push_back({where, fmt::format("{} must be a finite number, 0 or more", value)});
+  };
+  not_negative("attraction.G", a.constant);
+  not_negative("attraction.softening", a.softening);
+  if (!(a.accuracy >= kFinestAccuracy && a.accuracy <= kCoarsestAccuracy)) {
+    findings.push_back({"attraction.accuracy",
+                        fmt::format("{} must be from {} to {}", a.accuracy, kFinestAccuracy, kCoarsestAccuracy)});
+  }
+  for (const Boundary boundary : scene.domain.boundary) {
+    if (boundary != Boundary::periodic) continue;
+    findings.push_back({"attraction",
+                        "is not to be had in a periodic domain, where every particle has images without "
+                        "end; walls must be \"spring\" or \"open\""});
+    break;
+  }
+  return findings;
+}
 
 bool attracts_by_tree(const Attraction& attraction, std::size_t particles) {
   if (attraction.method != Attraction::Method::automatic) return attraction.method == Attraction::Method::tree;

@@ -3,12 +3,21 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <vector>
+
+#include "hooke/base/expected.h"
+#include "hooke/base/vec3.h"
 
 namespace hooke {
 
 struct Scene;
 
-/// Attraction of every particle by every other (docs/theory.md section 9): plain data of a scene.
+/// Bounds of Attraction::accuracy.
+inline constexpr double kFinestAccuracy = 1e-6;
+inline constexpr double kCoarsestAccuracy = 1e-2;
+
+/// Attraction of every particle by every other (docs/theory.md eq. 11): plain data of a scene.
 struct Attraction {
   enum class Method {
     automatic,  ///< whichever of the two is cheaper for so many particles at this accuracy
@@ -21,6 +30,20 @@ struct Attraction {
   double accuracy = 1e-3;  ///< of the tree: root mean square of the error of a particle's force, relative to it
   bool exact = true;       ///< the same bits on every machine, for some of the speed
 };
+
+/// What attraction has done so far; part of Ledger.
+struct AttractionLedger {
+  double work = 0;         ///< on particles, J
+  Vec3d impulse{0, 0, 0};  ///< given to them, N s: what the tree is off from Newton's third law
+  /// Velocity Verlet: the same for the next step's first half kick. Else unused.
+  double next_work = 0;
+  Vec3d next_impulse{0, 0, 0};
+
+  friend bool operator==(const AttractionLedger&, const AttractionLedger&) = default;
+};
+
+/// What makes the attraction of a scene unusable, if it has any; empty where all is well.
+std::vector<Finding> validate_attraction(const Scene& scene);
 
 /// Whether a back end that has both sums `particles` by the tree: by the scene and this number alone.
 bool attracts_by_tree(const Attraction& attraction, std::size_t particles);

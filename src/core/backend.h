@@ -67,6 +67,7 @@ struct Ledger {
   std::uint64_t removed = 0;           ///< particles that left through open faces
   HoldLedger hold;
   SpringLedger springs;
+  AttractionLedger attraction;
   /// Velocity Verlet: the rates of the last evaluation, whose second half the next step books. Else unused.
   StepRates last;
 
@@ -84,6 +85,7 @@ struct Measurements {
   double wall_elastic_energy = 0;         ///< in the springs of walls, J
   std::uint64_t springs = 0;              ///< that hold
   double spring_energy = 0;               ///< in them, J
+  double attraction_energy = 0;           ///< of all particles with each other, J, <= 0
   Vec3d momentum{0, 0, 0};                ///< kg m/s
   Vec3d centre_of_mass{0, 0, 0};          ///< m
   double momentum_scale = 0;              ///< sum of m |v|, kg m/s: what rounding of the momentum is relative to

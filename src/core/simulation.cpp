@@ -271,7 +271,7 @@ Expected<Simulation> Simulation::create(Scene scene, ParticleSet particles, std:
   const auto now = simulation.measure();
   if (!now) return fail(now.error());
   simulation.impl_->initial_energy =
-      now->kinetic_energy + now->potential_energy + now->elastic_energy + now->spring_energy;
+      now->kinetic_energy + now->potential_energy + now->elastic_energy + now->spring_energy + now->attraction_energy;
   simulation.impl_->initial_momentum = now->momentum;
   return simulation;
 }

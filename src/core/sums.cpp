@@ -88,6 +88,28 @@ void SpringSums::book_first(SpringLedger& ledger, double dt) const {
   ledger.last_power = power.value();
 }
 
+void AttractionBooking::add(const AttractionBooking& other) {
+  work.add(other.work);
+  next_work.add(other.next_work);
+  force.add(other.force);
+}
+
+void AttractionBooking::book(AttractionLedger& ledger, double dt, Integrator integrator) const {
+  if (integrator == Integrator::symplectic_euler) {
+    ledger.work += dt / 2 * work.value();
+    ledger.impulse += dt * force.value();
+    return;
+  }
+  ledger.work += ledger.next_work + dt / 4 * work.value();
+  ledger.impulse += ledger.next_impulse + dt / 2 * force.value();
+  book_first(ledger, dt);
+}
+
+void AttractionBooking::book_first(AttractionLedger& ledger, double dt) const {
+  ledger.next_work = dt / 4 * next_work.value();
+  ledger.next_impulse = dt / 2 * force.value();
+}
+
 void HoldSums::add_particle(double mass, const Vec3d& held, const Vec3d& kicked) {
   const Vec3d given = mass * (held - kicked);
   impulse.add(given);

@@ -78,6 +78,19 @@ struct SpringSums {
   void book_first(SpringLedger& ledger, double dt) const;
 };
 
+/// What attraction did in one evaluation of the forces, and does in the next half kick; work as in SpringSums.
+struct AttractionBooking {
+  ExactSum work;         ///< force . (velocity before + velocity after), W
+  ExactSum next_work;    ///< velocity Verlet: the same for the half kick to come
+  ExactVectorSum force;  ///< N
+
+  void add(const AttractionBooking& other);
+  /// Books a step of `dt` (s).
+  void book(AttractionLedger& ledger, double dt, Integrator integrator) const;
+  /// Velocity Verlet, evaluated before a first step: only what the next step books.
+  void book_first(AttractionLedger& ledger, double dt) const;
+};
+
 /// What it took to hold particles still against the kick that forces would have given them.
 struct HoldSums {
   ExactVectorSum impulse;  ///< N s

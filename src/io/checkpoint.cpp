@@ -50,6 +50,18 @@ void for_each_real(State& s, Visit&& visit) {
   }
 }
 
+/// Of the attraction's ledger, likewise.
+template <class Ledger, class Visit>
+void for_each_of_attraction(Ledger& l, Visit&& visit) {
+  visit(l.work);
+  visit(l.next_work);
+  for (auto* v : {&l.impulse, &l.next_impulse}) {
+    visit(v->x);
+    visit(v->y);
+    visit(v->z);
+  }
+}
+
 struct Numbers {
   std::vector<std::uint64_t> integers;
   std::vector<double> reals;
@@ -148,6 +160,9 @@ void write_content(hdf5::File& file, const SimulationState& state, const RunInfo
   write_vectors(root, "position", p.position);
   write_vectors(root, "velocity", p.velocity);
   write_vectors(root, "acceleration", p.acceleration);
+  std::vector<double> attraction;
+  for_each_of_attraction(state.ledger.attraction, [&](double value) { attraction.push_back(value); });
+  hdf5::write_array(root, "attraction", attraction.data(), attraction.size());
   write_structure(root, state);
 }
 
@@ -181,6 +196,12 @@ Checkpoint read_content(const std::filesystem::path& path) {
   for_each_integer(state, [&](std::uint64_t& value) { value = *integer++; });
   auto real = numbers.reals.begin();
   for_each_real(state, [&](double& value) { value = *real++; });
+  if (hdf5::exists(root, "attraction")) {
+    const auto attraction = hdf5::read_array<double>(root, "attraction");
+    std::size_t at = 0;
+    for_each_of_attraction(state.ledger.attraction,
+                           [&](double& value) { value = at < attraction.size() ? attraction[at++] : 0; });
+  }
   read_structure(root, path, state);
   checkpoint.info = parse_run_info(hdf5::read_text(root, "run"), path);
   return checkpoint;

@@ -36,7 +36,7 @@ double RunReport::contacts_per_particle() const {
 
 double RunReport::energy_balance() const {
   const double now = measurements.kinetic_energy + measurements.potential_energy + measurements.elastic_energy +
-                     measurements.spring_energy;
+                     measurements.spring_energy + measurements.attraction_energy;
   const double lost =
       ledger.dissipated + ledger.springs.dissipated + ledger.springs.broken_energy + ledger.removed_energy;
   return now - initial_energy - (ledger.wall_work + ledger.collider_work + ledger.hold.work - lost);
@@ -109,6 +109,8 @@ std::string to_json(const RunReport& r) {
                     {"work_by_springs", r.ledger.springs.work},
                     {"broken_springs", r.ledger.springs.broken_energy},
                     {"work_by_hold", r.ledger.hold.work},
+                    {"attraction", m.attraction_energy},
+                    {"work_by_attraction", r.ledger.attraction.work},
                     {"balance", r.energy_balance()}};
   json["momentum"] = to_array(m.momentum);
   json["momentum_drift"] = r.momentum_drift;

@@ -46,6 +46,8 @@ void for_each_column(const SeriesRow& row, Visit&& column) {
   column("spring_work", l.springs.work);
   column("spring_dissipated", l.springs.dissipated);
   column("spring_broken", l.springs.broken_energy);
+  column("attraction", m.attraction_energy);
+  column("attraction_work", l.attraction.work);
   column("removed", l.removed);
   column("rebuilds", row.rebuilds);
 }

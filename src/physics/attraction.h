@@ -55,7 +55,7 @@ HOOKE_HD R softened_square(const Vec3<R>& towards, const R& softening2) {
       Math::multiply_add(towards.y, towards.y, Math::multiply_add(towards.x, towards.x, softening2)));
 }
 
-/// THE LAW OF ATTRACTION (docs/theory.md eq. 10; the thesis's eq. 4.5, softened by Plummer's length eps): what a
+/// THE LAW OF ATTRACTION (docs/theory.md eq. 11; the thesis's eq. 4.5, softened by Plummer's length eps): what a
 /// particle of mass `mass` (kg) pulls one with that is away from it by -`towards` (m):
 ///
 ///     a = G mass towards / (d^2 + eps^2)^(3/2)
@@ -81,7 +81,7 @@ struct MassCloud {
   R trace;  ///< 1.5 sum m r.r, kg m^2
 };
 
-/// What a cloud of mass pulls with, up to the quadrupole: eq. 11, the derivative of the expansion of eq. 10 in 1 / d.
+/// What a cloud of mass pulls with, up to the quadrupole: eq. 12, the derivative of the expansion of eq. 11 in 1 / d.
 /// `towards` (m) leads to the centre of mass. Without G.
 template <class Math, class R>
 HOOKE_HD Vec3<R> cloud_attraction(const Vec3<R>& towards, const MassCloud<R>& cloud, const R& softening2) {

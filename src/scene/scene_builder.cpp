@@ -9,6 +9,7 @@
 #include <cmath>
 #include <optional>
 
+#include "hooke/scene/attraction_builder.h"
 #include "hooke/scene/json_path.h"
 #include "hooke/scene/nearest.h"
 
@@ -220,6 +221,9 @@ Scene build_scene(Json& json, Findings& findings) {
   build_materials(member(json, "materials"), scene, findings);
   ContactBuilder contacts(scene, findings);
   if (member(json, "contacts").is_array()) contacts.build(json.at("contacts"));
+  if (json.contains("attraction") && !findings.touches("attraction")) {
+    scene.attraction = build_attraction(json.at("attraction"));
+  }
   if (!findings.touches("output")) {
     scene.output.seconds = number_or(member(json.at("output"), "every"), 0);
     scene.output.steps = count_or(member(json.at("output"), "every_steps"), 0);

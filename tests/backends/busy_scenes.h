@@ -85,6 +85,7 @@ inline void expect_same_bits(const Simulation& a, const Simulation& b) {
   EXPECT_EQ(m.potential_energy, n.potential_energy);
   EXPECT_EQ(m.elastic_energy, n.elastic_energy);
   EXPECT_EQ(m.wall_elastic_energy, n.wall_elastic_energy);
+  EXPECT_EQ(m.attraction_energy, n.attraction_energy);
   EXPECT_EQ(m.momentum, n.momentum);
   EXPECT_EQ(m.momentum_scale, n.momentum_scale);
   EXPECT_EQ(m.centre_of_mass, n.centre_of_mass);

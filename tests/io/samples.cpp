@@ -74,6 +74,7 @@ SimulationState state(std::int64_t step, std::size_t n) {
   s.ledger.removed_energy = 12.5;
   s.ledger.removed = 0xffffffffffffffffU;
   s.ledger.springs = {1.5, 1.0 / 7, 2.5e-3, 2, -0.125, 7.0 / 3};
+  s.ledger.attraction = {-1.0 / 3, {1e-9, -2.0 / 7, 4}, 0.5, {2, 1.0 / 9, -1e300}};
   s.ledger.hold = {{1, 2.0 / 3, 3}, 0.1, {-1, 1e-9, 5}, -0.2};
   const auto structure = std::make_shared<Structure>();
   for (std::uint64_t i = 0; i < n; ++i) {

@@ -46,6 +46,27 @@ TEST(LoadScene, FillsInEveryDefault) {
   EXPECT_EQ(loaded->particles.position, (std::vector<Vec3d>{{1, 1, 1}, {2, 1, 1}}));
 }
 
+TEST(LoadScene, AttractsOnlyWhereTheSceneSaysSo) {
+  EXPECT_FALSE(load({})->scene.attraction);
+  const auto loaded = load({"attraction={}"});
+  ASSERT_TRUE(loaded) << loaded.error().text();
+  ASSERT_TRUE(loaded->scene.attraction);
+  EXPECT_EQ(loaded->scene.attraction->constant, 6.674e-11);
+  EXPECT_EQ(loaded->scene.attraction->softening, 0);
+  EXPECT_EQ(loaded->scene.attraction->method, Attraction::Method::automatic);
+  EXPECT_EQ(loaded->scene.attraction->accuracy, 1e-3);
+  EXPECT_TRUE(loaded->scene.attraction->exact);
+  const auto other =
+      load({"attraction={\"G\":2,\"softening\":0.5,\"method\":\"tree\",\"accuracy\":1e-4,\"exact\":false}"});
+  ASSERT_TRUE(other) << other.error().text();
+  EXPECT_EQ(other->scene.attraction->constant, 2);
+  EXPECT_EQ(other->scene.attraction->softening, 0.5);
+  EXPECT_EQ(other->scene.attraction->method, Attraction::Method::tree);
+  EXPECT_EQ(other->scene.attraction->accuracy, 1e-4);
+  EXPECT_FALSE(other->scene.attraction->exact);
+  EXPECT_EQ(load({"attraction.method=direct"})->scene.attraction->method, Attraction::Method::direct);
+}
+
 TEST(LoadScene, EndsWithTheFirstStepAtOrAfterTheEnd) {
   EXPECT_EQ(load({"time.step=0.005", "time.end=10"})->scene.steps, 2000);
   EXPECT_EQ(load({"time.step=0.1", "time.end=0.3"})->scene.steps, 3);

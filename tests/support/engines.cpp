@@ -67,9 +67,9 @@ Measurements measured(const Simulation& simulation) {
 double accounted_energy(const Simulation& simulation) {
   const Measurements now = measured(simulation);
   const Ledger& ledger = simulation.ledger();
-  return now.kinetic_energy + now.potential_energy + now.elastic_energy + now.spring_energy + ledger.dissipated +
-         ledger.springs.dissipated + ledger.springs.broken_energy + ledger.removed_energy - ledger.wall_work -
-         ledger.collider_work - ledger.hold.work;
+  return now.kinetic_energy + now.potential_energy + now.elastic_energy + now.spring_energy + now.attraction_energy +
+         ledger.dissipated + ledger.springs.dissipated + ledger.springs.broken_energy + ledger.removed_energy -
+         ledger.wall_work - ledger.collider_work - ledger.hold.work;
 }
 
 }  // namespace hooke::test

@@ -32,9 +32,10 @@ void load_targets(std::span<const AttractionPoint<Real>> points, AttractionTarge
 
 template <class Real>
 template <class Take>
-void AttractionSums<Real>::sum_directly(std::span<const AttractionPoint<Real>> points, const IdTable& ids,
+void AttractionSums<Real>::sum_directly(std::span<AttractionPoint<Real>> points, const IdTable& ids,
                                         typename AttractionLoops<Real>::Function by_particles, const Take& take) {
   constexpr std::size_t kMost = AttractionTargets<Real>::kMost;
+  std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.rank < b.rank; });
   sources_.resize(points.size());
   std::vector<std::size_t> block_starts;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -46,7 +47,7 @@ void AttractionSums<Real>::sum_directly(std::span<const AttractionPoint<Real>> p
   parallel_ranges(points.size(), kMost, [&](std::size_t first, std::size_t last) {
     AttractionTargets<Real> targets;
     for (std::size_t from = first; from < last; from += kMost) {
-      const auto own = points.subspan(from, std::min(kMost, last - from));
+      const std::span<const AttractionPoint<Real>> own = points.subspan(from, std::min(kMost, last - from));
       load_targets(own, targets);
       for (std::size_t b = 0; b + 1 < block_starts.size(); ++b) {
         AttractionWork<Real> work{&targets,

@@ -20,8 +20,8 @@ class AttractionSums {
  public:
   void configure(const Attraction& attraction, double softening2, const AttractionLoops<Real>& loops);
 
-  /// a[p.index] = what pulls p, a mass over a length squared. Reorders `points`, which come in ascending order of rank;
-  /// `ids` are those of all ranks.
+  /// a[p.index] = what pulls p, a mass over a length squared. Reorders `points`; `ids`
+  /// are those of all ranks.
   void accelerations(std::span<AttractionPoint<Real>> points, const IdTable& ids, Vec3<Real>* a);
 
   /// potential[p.index] = that of all others where p is, a mass over a length, < 0.
@@ -31,7 +31,7 @@ class AttractionSums {
   class Walk;
 
   template <class Take>
-  void sum_directly(std::span<const AttractionPoint<Real>> points, const IdTable& ids,
+  void sum_directly(std::span<AttractionPoint<Real>> points, const IdTable& ids,
                     typename AttractionLoops<Real>::Function by_particles, const Take& take);
   template <class Take>
   void sum_by_tree(std::span<AttractionPoint<Real>> points, typename AttractionLoops<Real>::Function by_particles,

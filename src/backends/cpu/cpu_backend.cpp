@@ -13,6 +13,7 @@
 #include <mutex>
 #include <thread>
 
+#include "hooke/backends/cpu/attraction_forces.h"
 #include "hooke/backends/cpu/boundaries.h"
 #include "hooke/backends/cpu/collider_rules.h"
 #include "hooke/backends/cpu/column_store.h"
@@ -64,6 +65,7 @@ class CpuBackend final : public Backend {
     colliders_.configure(scene, pass_.material_count);
     list_.configure(rules_, loops_.search_group, springs_.apart());
     springs_.configure(scene, rules_.pass, loops_.spring_pass);
+    attraction_.configure(scene, loops_.attraction);
   }
 
   void break_springs(const std::vector<std::uint64_t>& broken) override { springs_.break_springs(broken); }
@@ -159,15 +161,18 @@ class CpuBackend final : public Backend {
     Stopwatch forcing(times_.force);
     StepSums sums;
     SpringSums spring_sums;
+    AttractionBooking attracted;
     HoldSums hold;
     RemovalSums removed;
     Condition condition;
     aim_pass(verlet() ? acceleration_.data() : nullptr);
     const bool released = apply_springs(true, spring_sums);
+    apply_attraction();
     for_ranges(list_.segment_count(), 1, [&](std::size_t first, std::size_t last) {
       SegmentReport report;
       StepSums part;
       SpringSums spring_part;
+      AttractionBooking attracted_part;
       HoldSums hold_part;
       RemovalSums left;
       Condition found;
@@ -176,6 +181,8 @@ class CpuBackend final : public Backend {
         add_up(s, report, part);
         hold_still(s, pass_.acceleration, hold_part);
         springs_.add_work(s, records_.data(), next_.data(), pass_.acceleration, Real(0.5) * pass_.dt, spring_part);
+        attraction_.add_work(s * kSegment, std::min((s + 1) * kSegment, count_), records_.data(), next_.data(),
+                             pass_.acceleration, Real(0.5) * pass_.dt, attracted_part);
         for (std::size_t g = 0; g < kGroups; ++g) {
           if (report.far[g] != 0) list_.note_far(s * kGroups + g, report.far[g]);
           if (report.notes[g] == 0) continue;
@@ -187,11 +194,13 @@ class CpuBackend final : public Backend {
       const std::lock_guard lock(mutex_);
       sums.add(part);
       if (!springs_.empty()) spring_sums.add(spring_part);
+      if (!attraction_.empty()) attracted.add(attracted_part);
       if (hold_part.count > 0) hold.add(hold_part);
       condition = Condition::first(condition, found);
     });
     book_step(ledger_, sums.rates(scene_.gravity, total_mass_), scene_.time_step, scene_.integrator);
     if (!springs_.empty()) spring_sums.book(ledger_.springs, scene_.time_step, scene_.integrator);
+    if (!attraction_.empty()) attracted.book(ledger_.attraction, scene_.time_step, scene_.integrator);
     if (!held_.none()) hold.book(ledger_.hold, scene_.integrator);
     records_.swap(next_);
     forcing.stop();
@@ -231,7 +240,10 @@ class CpuBackend final : public Backend {
       total.add(part);
     });
     Measurements result = total.result(scene_.colliders.size());
-    threads_.run([&] { springs_.measure(records_.data(), place_, result); });
+    threads_.run([&] {
+      springs_.measure(records_.data(), place_, result);
+      if (!attraction_.empty()) result.attraction_energy = attraction_.energy(records_, count_, alive_, ids_);
+    });
     return result;
   }
 
@@ -391,6 +403,20 @@ class CpuBackend final : public Backend {
     return released;
   }
 
+  // After the springs, to whose forces it adds its own.
+  void apply_attraction() {
+    if (attraction_.empty()) return;
+    threads_.run([&] { attraction_.apply(records_, count_, alive_, ids_); });
+    const Vec3<Real>* others = pass_.applied;
+    pass_.applied = attraction_.forces();
+    if (others == nullptr) return;
+    applied_.resize(records_.size());
+    for_ranges(records_.size(), kSegment, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) applied_[i] = others[i] + pass_.applied[i];
+    });
+    pass_.applied = applied_.data();
+  }
+
   // Held particles stay as they were; what they got instead is booked.
   void hold_still(std::size_t s, Vec3<Real>* acceleration, HoldSums& sums) {
     if (held_.none()) return;
@@ -532,6 +558,7 @@ class CpuBackend final : public Backend {
     HoldSums hold;
     aim_pass(evaluated.data());
     (void)apply_springs(false, spring_sums);
+    apply_attraction();
     for_ranges(list_.segment_count(), 1, [&](std::size_t first, std::size_t last) {
       SegmentReport report;
       StepSums part;
@@ -553,6 +580,12 @@ class CpuBackend final : public Backend {
       springs_.add_work(s, records_.data(), records_.data(), acceleration_.data(), Real(0.5) * pass_.dt, spring_sums);
     }
     if (!springs_.empty()) spring_sums.book_first(ledger_.springs, scene_.time_step);
+    if (!attraction_.empty()) {
+      AttractionBooking attracted;
+      attraction_.add_work(0, count_, records_.data(), records_.data(), acceleration_.data(), Real(0.5) * pass_.dt,
+                           attracted);
+      attracted.book_first(ledger_.attraction, scene_.time_step);
+    }
     if (!held_.none()) hold.book_first(ledger_.hold);
     return {};
   }
@@ -621,6 +654,8 @@ class CpuBackend final : public Backend {
   LargeVector<Vec3<Real>> acceleration_;  // velocity Verlet only, m/s^2
   Ledger ledger_;
 
+  AttractionForces<Real> attraction_;
+  LargeVector<Vec3<Real>> applied_;  // where there are springs and attraction: both
   SpringLists<Real> springs_;
   std::vector<std::uint32_t> held_ranks_;  // of what the scene's structure holds
   HeldParticles held_;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "hooke/backends/reference/reference_attraction.h"
 #include "hooke/backends/reference/reference_springs.h"
 #include "hooke/base/stopwatch.h"
 #include "hooke/core/placed_colliders.h"
@@ -29,6 +30,7 @@ class ReferenceBackend final : public Backend {
     scene_ = scene;
     table_ = ContactTable(scene.materials, scene.contacts);
     springs_.configure(scene);
+    attraction_.configure(scene);
     double largest = 0;
     for (const Material& m : scene.materials) largest = std::max(largest, m.radius);
     for (int axis = 0; axis < 3; ++axis) {
@@ -64,8 +66,10 @@ class ReferenceBackend final : public Backend {
     }
     hold.book_first(ledger_.hold);
     SpringSums sums = now.springs;
-    add_next_work(now, sums);
+    AttractionBooking attracted;
+    add_next_work(now, sums, attracted);
     sums.book_first(ledger_.springs, scene_.time_step);
+    attracted.book_first(ledger_.attraction, scene_.time_step);
     ledger_.last = now.sums.rates(scene_.gravity, total_mass());
     return {};
   }
@@ -109,6 +113,7 @@ class ReferenceBackend final : public Backend {
     const std::vector<std::size_t> torn = springs_.torn(p_, forces.springs);
     const double dt = scene_.time_step;
     HoldSums hold;
+    AttractionBooking attracted;
     for (std::size_t i = 0; i < p_.size(); ++i) {
       const Vec3d before = p_.velocity[i];
       const Vec3d kicked = kick(before, forces.a[i], verlet() ? dt / 2 : dt);
@@ -120,13 +125,17 @@ class ReferenceBackend final : public Backend {
         if (!verlet()) p_.position[i] = drift(p_.position[i], p_.velocity[i], dt);
       }
       if (!forces.applied.empty()) forces.springs.work.add(dot(forces.applied[i], before + p_.velocity[i]));
+      if (!forces.attraction.empty()) attracted.work.add(dot(forces.attraction[i], before + p_.velocity[i]));
     }
     if (verlet()) {
       p_.acceleration = forces.a;
-      add_next_work(forces, forces.springs);
+      add_next_work(forces, forces.springs, attracted);
+    } else {
+      for (const Vec3d& force : forces.attraction) attracted.force.add(force);
     }
     book_step(ledger_, forces.sums.rates(scene_.gravity, total_mass()), dt, scene_.integrator);
     forces.springs.book(ledger_.springs, dt, scene_.integrator);
+    attracted.book(ledger_.attraction, dt, scene_.integrator);
     hold.book(ledger_.hold, scene_.integrator);
     springs_.tear(torn);
     if (!verlet()) apply_boundaries();
@@ -161,6 +170,7 @@ class ReferenceBackend final : public Backend {
     }
     Measurements result = sums.result(scene_.colliders.size());
     springs_.measure(p_, result);
+    result.attraction_energy = attraction_.energy(p_);
     return result;
   }
 
@@ -173,6 +183,7 @@ class ReferenceBackend final : public Backend {
     StepSums sums;
     std::vector<Vec3d> applied;  // by springs, N; empty where there are none
     SpringSums springs;
+    std::vector<Vec3d> attraction;  // N, likewise
     Condition condition;
   };
 
@@ -187,12 +198,12 @@ class ReferenceBackend final : public Backend {
   }
 
   // Forces on each particle in canonical order: contacts by (neighbour id, image), walls, colliders, drag, springs by
-  // index; then
-  // gravity.
+  // index and attraction; then gravity.
   Forces accelerations() const {
     Forces out;
     out.a.resize(p_.size());
     out.applied = springs_.forces(p_, out.springs);
+    out.attraction = attraction_.forces(p_);
     const double dt = scene_.time_step;
     for (std::size_t i = 0; i < p_.size(); ++i) {
       const Material& m = material(i);
@@ -243,15 +254,24 @@ class ReferenceBackend final : public Backend {
       out.sums.dissipated_power.add(0.5 * dissipated);
       out.sums.dissipated_power.add(-dot(drag, v));
 
-      if (!out.applied.empty()) force += out.applied[i];
+      Vec3d applied{0, 0, 0};
+      if (!out.applied.empty()) applied += out.applied[i];
+      if (!out.attraction.empty()) applied += out.attraction[i];
+      force += applied;
 
       out.a[i] = (1 / m.mass) * force + scene_.gravity;
     }
     return out;
   }
 
-  // Velocity Verlet: what the springs' forces do in the next half kick, which is known already.
-  void add_next_work(const Forces& forces, SpringSums& sums) const {
+  // Velocity Verlet: what springs and attraction do in the next half kick, which is known already.
+  void add_next_work(const Forces& forces, SpringSums& sums, AttractionBooking& attracted) const {
+    for (std::size_t i = 0; i < forces.attraction.size(); ++i) {
+      const Vec3d& v = p_.velocity[i];
+      const Vec3d next = kick(v, p_.acceleration[i], scene_.time_step / 2);
+      attracted.next_work.add(dot(forces.attraction[i], v + next));
+      attracted.force.add(forces.attraction[i]);
+    }
     for (std::size_t i = 0; i < forces.applied.size(); ++i) {
       const Vec3d& v = p_.velocity[i];
       const Vec3d next = kick(v, p_.acceleration[i], scene_.time_step / 2);
@@ -353,6 +373,7 @@ class ReferenceBackend final : public Backend {
   Scene scene_;
   ContactTable table_;
   ReferenceSprings springs_;
+  ReferenceAttraction attraction_;
   std::array<int, 3> images_{};  // images -n to n of every particle are looked at, a periodic axis
   std::vector<PlacedCollider<double>> colliders_;
   ParticleSet p_;
