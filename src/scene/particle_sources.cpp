@@ -11,6 +11,7 @@
 
 #include "hooke/scene/available_memory.h"
 #include "hooke/scene/block_source.h"
+#include "hooke/scene/cluster_source.h"
 #include "hooke/scene/json_path.h"
 #include "hooke/scene/nearest.h"
 #include "hooke/scene/particle_file.h"
@@ -27,6 +28,7 @@ struct Source {
   std::string path;  // in the scene: "particles[0]"
   ParticleFileRules rules;  // material and velocity hold for a block, too
   std::optional<BlockSource> block;
+  std::optional<ClusterSource> cluster;
   std::string file_name;  // as the scene writes it
   std::filesystem::path file;
 };
@@ -69,8 +71,9 @@ class Loader {
   bool fits() {
     double particles = 0;
     for (const Source& source : sources_) {
-      particles += source.block ? expected_count(*source.block)
-                                : static_cast<double>(count_particles(source.file, source.rules));
+      particles += source.block     ? expected_count(*source.block)
+                   : source.cluster ? static_cast<double>(source.cluster->count)
+                                    : static_cast<double>(count_particles(source.file, source.rules));
     }
     const std::uint64_t limit = options_.memory_limit != 0 ? options_.memory_limit : available_memory();
     const double needed = particles * kBytesPerParticle;
@@ -84,6 +87,8 @@ class Loader {
     for (const Source& source : sources_) {
       if (source.block) {
         append_block(source);
+      } else if (source.cluster) {
+        append_cluster(source);
       } else {
         append_file(source);
       }
@@ -101,16 +106,18 @@ class Loader {
     plan_material(entry, source);
     plan_types_and_frame(entry, source);
     const bool is_block = entry.contains("block");
-    if (is_block && !entry.contains("file") && !entry.contains("material")) {
+    const bool is_cluster = entry.contains("cluster");
+    if ((is_block || is_cluster) && !entry.contains("file") && !entry.contains("material")) {
       findings_.add(join_path(path, "material"),
                     fmt::format("is missing; must be one of the scene's materials: {}", quoted_list(names_)));
     }
     if (entry.contains("file") && !findings_.touches(join_path(path, "file"))) plan_file(entry.at("file"), source);
     if (is_block && !findings_.touches(join_path(path, "block")) && domain_known_)
       plan_block(entry.at("block"), source);
+    if (is_cluster && !findings_.touches(join_path(path, "cluster"))) plan_cluster(entry.at("cluster"), source);
     if (findings_.touches(path)) return;
     source.rules.velocity = vec3_or(entry.at("velocity"), {});
-    if (source.block || !source.file.empty()) sources_.push_back(std::move(source));
+    if (source.block || source.cluster || !source.file.empty()) sources_.push_back(std::move(source));
   }
 
   // Index of the material of this name; a finding at `where` where the scene has none.
@@ -182,6 +189,24 @@ class Loader {
     if (source.block && source.block->lattice == "random" && json.at("jitter") != 0) {
       warnings_.push_back({join_path(path, "jitter"), "is passed over: a random block keeps its centres apart"});
     }
+  }
+
+  void plan_cluster(const Json& json, Source& source) {
+    const ClusterSource cluster = read_cluster(json);
+    if (dot(cluster.normal, cluster.normal) > 0) {
+      source.cluster = cluster;
+    } else {
+      findings_.add(join_path(join_path(source.path, "cluster"), "normal"), "is [0,0,0], which has no direction");
+    }
+  }
+
+  void append_cluster(const Source& source) {
+    ClusterParticles made =
+        make_cluster(*source.cluster, scene_.materials[*source.rules.material].mass, scene_.attraction);
+    for (Vec3d& v : made.velocity) v += source.rules.velocity;
+    const Span span{&source, particles_.size(), particles_.size() + made.position.size(), {}};
+    particles_.position.insert(particles_.position.end(), made.position.begin(), made.position.end());
+    append_common(span, std::vector<std::uint16_t>(made.position.size(), *source.rules.material), made.velocity, {});
   }
 
   void append_block(const Source& source) {
