@@ -11,6 +11,7 @@ hooke=build/hooke
 # What a picture shows best: the time of its moment (s), and more options of hooke render.
 declare -A picture=(
   [ball-pit]="--time 0.95"
+  [galaxy]="--time 5.2"
   [mixed]="--time 2.4"
   [table-6.1]="--color-by height"
   [water]="--time 5.3"
