@@ -123,11 +123,11 @@ class CellLoop {
     const Real distance = std::sqrt(distance2);
     const Real tie = own.index > other.index ? Real(1) : Real(-1);
     const Vec3<Real> normal = contact_normal(x_ip, distance, tie);
-    force += contact_force(Real(2) * radius_ - distance, normal, other.v - own.v, law_).force;
+    force += contact_forces(Real(2) * radius_ - distance, normal, other.v - own.v, law_).total();
   }
 
   void add_wall(const Particle& own, const Vec3<Real>& normal, Real overlap, Vec3<Real>& force) const {
-    if (overlap > 0) force += contact_force(overlap, normal, -own.v, law_).force;
+    if (overlap > 0) force += contact_forces(overlap, normal, -own.v, law_).total();
   }
 
   Real dt_, radius_{}, inverse_mass_{};

@@ -10,6 +10,7 @@
 #include "hooke/base/expected.h"
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
+#include "hooke/core/work.h"
 
 namespace hooke {
 
@@ -39,14 +40,12 @@ struct Condition {
   }
 };
 
-/// Forces and powers at one instant, summed over all particles.
+/// Forces of one evaluation and their powers during a kick, summed over all particles.
 struct StepRates {
-  double dissipated_power = 0;     ///< by the dashpots of contacts between particles, and by drag, W
-  double wall_power = 0;           ///< by walls on particles, W
+  Work power;                      ///< W
   Vec3d wall_force{0, 0, 0};       ///< by walls on particles, N
   Vec3d drag_force{0, 0, 0};       ///< N
   Vec3d gravity_force{0, 0, 0};    ///< N
-  double collider_power = 0;       ///< by colliders on particles, W
   Vec3d collider_force{0, 0, 0};   ///< by colliders on particles, N
 
   friend bool operator==(const StepRates&, const StepRates&) = default;
@@ -55,10 +54,8 @@ struct StepRates {
 /// What steps leave behind beside the particles: sums over all steps so far, the same bits for any number
 /// of threads and across a restart, because each step's sum is exact before it is added.
 struct Ledger {
-  double dissipated = 0;               ///< by the dashpots of contacts between particles, and by drag, J
-  double wall_work = 0;                ///< done by walls on particles, springs and dashpots, J
+  Work work;                           ///< J
   Vec3d wall_impulse{0, 0, 0};         ///< given by walls to particles, N s
-  double collider_work = 0;            ///< done by colliders on particles, springs and dashpots, J
   Vec3d collider_impulse{0, 0, 0};     ///< given by colliders to particles, N s
   Vec3d drag_impulse{0, 0, 0};         ///< given by drag, N s
   Vec3d gravity_impulse{0, 0, 0};      ///< given by gravity, N s
@@ -68,8 +65,11 @@ struct Ledger {
   HoldLedger hold;
   SpringLedger springs;
   AttractionLedger attraction;
-  /// Velocity Verlet: the rates of the last evaluation, whose second half the next step books. Else unused.
+  /// Velocity Verlet: the rates of the last evaluation during the kick that is still to come. Else unused.
   StepRates last;
+
+  /// Taken out by the dashpots of contacts between particles, and by drag, J.
+  double dissipated() const { return -(work[Cause::contact_shear] + work[Cause::contact_damping] + work[Cause::drag]); }
 
   friend bool operator==(const Ledger&, const Ledger&) = default;
 };

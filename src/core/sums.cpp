@@ -11,36 +11,45 @@
 namespace hooke {
 
 void StepSums::add(const StepSums& other) {
-  dissipated_power.add(other.dissipated_power);
-  wall_power.add(other.wall_power);
+  for (std::size_t cause = 0; cause < kCauses; ++cause) {
+    power.of[cause].add(other.power.of[cause]);
+    next_power.of[cause].add(other.next_power.of[cause]);
+  }
   wall_force.add(other.wall_force);
   drag_force.add(other.drag_force);
-  collider_power.add(other.collider_power);
   collider_force.add(other.collider_force);
 }
 
-StepRates StepSums::rates(const Vec3d& gravity, double mass) const {
-  return {dissipated_power.value(), wall_power.value(),     wall_force.value(),    drag_force.value(),
-          mass * gravity,           collider_power.value(), collider_force.value()};
+namespace {
+
+StepRates rates(const StepSums& sums, const ByCause<ExactSum>& twice_power, const Vec3d& gravity, double mass) {
+  StepRates rates{{}, sums.wall_force.value(), sums.drag_force.value(), mass * gravity, sums.collider_force.value()};
+  for (std::size_t cause = 0; cause < kCauses; ++cause) rates.power.of[cause] = 0.5 * twice_power.of[cause].value();
+  return rates;
 }
 
-void book_step(Ledger& ledger, const StepRates& now, double dt, Integrator integrator) {
+}  // namespace
+
+StepRates first_rates(const StepSums& start, const Vec3d& gravity, double mass) {
+  return rates(start, start.power, gravity, mass);
+}
+
+void book_step(Ledger& ledger, const StepSums& now, const Vec3d& gravity, double mass, double dt,
+               Integrator integrator) {
   const auto book = [&ledger](const StepRates& rates, double seconds) {
-    ledger.dissipated += seconds * rates.dissipated_power;
-    ledger.wall_work += seconds * rates.wall_power;
+    for (std::size_t cause = 0; cause < kCauses; ++cause) ledger.work.of[cause] += seconds * rates.power.of[cause];
     ledger.wall_impulse += seconds * rates.wall_force;
-    ledger.collider_work += seconds * rates.collider_power;
     ledger.collider_impulse += seconds * rates.collider_force;
     ledger.drag_impulse += seconds * rates.drag_force;
     ledger.gravity_impulse += seconds * rates.gravity_force;
   };
   if (integrator == Integrator::symplectic_euler) {
-    book(now, dt);
+    book(rates(now, now.power, gravity, mass), dt);
     return;
   }
   book(ledger.last, dt / 2);
-  book(now, dt / 2);
-  ledger.last = now;
+  book(rates(now, now.power, gravity, mass), dt / 2);
+  ledger.last = rates(now, now.next_power, gravity, mass);
 }
 
 void RemovalSums::add_particle(double mass, const Vec3d& x, const Vec3d& v, const Vec3d& gravity) {

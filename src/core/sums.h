@@ -22,11 +22,7 @@ class ExactVectorSum {
   void add(const ExactVectorSum& other) {
     for (std::size_t axis = 0; axis < 3; ++axis) sums_[axis].add(other.sums_[axis]);
   }
-  /// Adds `count` values of one component.
-  template <class Real>
-  void add(std::size_t axis, const Real* values, std::size_t count) {
-    sums_[axis].add(values, count);
-  }
+  ExactSum& operator[](int axis) { return sums_[static_cast<std::size_t>(axis)]; }
   Vec3d value() const { return {sums_[0].value(), sums_[1].value(), sums_[2].value()}; }
 
  private:
@@ -35,26 +31,28 @@ class ExactVectorSum {
 
 /// The rates of one evaluation of the forces, gathered particle by particle in any order.
 struct StepSums {
-  ExactSum dissipated_power;   ///< W; contacts count half from each side
-  ExactSum wall_power;         ///< W
-  ExactVectorSum wall_force;   ///< N
-  ExactVectorSum drag_force;   ///< N
-  ExactSum collider_power;     ///< W
+  /// Powers at twice the mean of the velocities before and after a kick, W: of the kick that comes with the evaluation,
+  /// and, under velocity Verlet, of the one that the next step begins with.
+  ByCause<ExactSum> power, next_power;
+  ExactVectorSum wall_force;  ///< N
+  ExactVectorSum drag_force;  ///< N
   ExactVectorSum collider_force;  ///< N
 
   void add(const StepSums& other);
-  /// As rates; gravity (m/s^2) pulls at `mass` (kg) in all.
-  StepRates rates(const Vec3d& gravity, double mass) const;
 };
 
-/// Books what `now` did over one step of `dt` (s). Symplectic Euler kicks once, by dt; velocity Verlet by half a dt
-/// with the rates of the last evaluation and half a dt with these, which it keeps as the last.
-void book_step(Ledger& ledger, const StepRates& now, double dt, Integrator integrator);
+/// Books what an evaluation did in one step of `dt` (s); gravity (m/s^2) pulls at `mass` (kg) in all. Symplectic Euler
+/// kicks once, by dt; velocity Verlet by half a dt with the last evaluation's forces, and by half a dt with these.
+void book_step(Ledger& ledger, const StepSums& now, const Vec3d& gravity, double mass, double dt,
+               Integrator integrator);
+
+/// What the first half of a step of velocity Verlet will book after an evaluation at the start, whose kick is `power`.
+StepRates first_rates(const StepSums& start, const Vec3d& gravity, double mass);
 
 /// Books a particle that left through an open face.
 struct RemovalSums {
   ExactVectorSum momentum;  ///< kg m/s
-  ExactSum energy;          ///< J
+  ExactSum energy;  ///< J
   std::uint64_t count = 0;
 
   void add_particle(double mass, const Vec3d& x, const Vec3d& v, const Vec3d& gravity);
@@ -65,9 +63,9 @@ struct RemovalSums {
 /// What springs did in one evaluation of the forces. Work is force times time times the mean of the velocities before
 /// and after: what the kick adds to the kinetic energy.
 struct SpringSums {
-  ExactSum work;           ///< force . (velocity before + velocity after), W
-  ExactSum next_work;      ///< velocity Verlet: the same for the half kick to come
-  ExactSum power;          ///< of dampers, W; half from each end
+  ExactSum work;  ///< force . (velocity before + velocity after), W
+  ExactSum next_work;  ///< velocity Verlet: the same for the half kick to come
+  ExactSum power;  ///< of dampers, W; half from each end
   ExactSum broken_energy;  ///< J
   std::uint64_t broken = 0;
 
@@ -94,7 +92,7 @@ struct AttractionBooking {
 /// What it took to hold particles still against the kick that forces would have given them.
 struct HoldSums {
   ExactVectorSum impulse;  ///< N s
-  ExactSum work;           ///< J
+  ExactSum work;  ///< J
   std::uint64_t count = 0;
 
   /// A particle that kept `held` (m/s) in place of `kicked`.

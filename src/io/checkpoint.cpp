@@ -33,14 +33,10 @@ void for_each_integer(State& s, Visit&& visit) {
 
 template <class State, class Visit>
 void for_each_real(State& s, Visit&& visit) {
-  visit(s.ledger.dissipated);
-  visit(s.ledger.wall_work);
+  for (auto& work : s.ledger.work.of) visit(work);
   visit(s.ledger.removed_energy);
-  visit(s.ledger.last.dissipated_power);
-  visit(s.ledger.last.wall_power);
+  for (auto& power : s.ledger.last.power.of) visit(power);
   visit(s.initial_energy);
-  visit(s.ledger.collider_work);
-  visit(s.ledger.last.collider_power);
   for (auto* v : {&s.ledger.wall_impulse, &s.ledger.drag_impulse, &s.ledger.gravity_impulse, &s.ledger.removed_momentum,
                   &s.ledger.last.wall_force, &s.ledger.last.drag_force, &s.ledger.last.gravity_force,
                   &s.initial_momentum, &s.ledger.collider_impulse, &s.ledger.last.collider_force}) {

@@ -37,9 +37,10 @@ double RunReport::contacts_per_particle() const {
 double RunReport::energy_balance() const {
   const double now = measurements.kinetic_energy + measurements.potential_energy + measurements.elastic_energy +
                      measurements.spring_energy + measurements.attraction_energy;
+  const double given = ledger.work[Cause::wall] + ledger.work[Cause::collider] + ledger.hold.work;
   const double lost =
-      ledger.dissipated + ledger.springs.dissipated + ledger.springs.broken_energy + ledger.removed_energy;
-  return now - initial_energy - (ledger.wall_work + ledger.collider_work + ledger.hold.work - lost);
+      ledger.dissipated() + ledger.springs.dissipated + ledger.springs.broken_energy + ledger.removed_energy;
+  return now - initial_energy - (given - lost);
 }
 
 double RunReport::bytes_per_particle() const {
@@ -98,10 +99,10 @@ std::string to_json(const RunReport& r) {
                     {"potential", m.potential_energy},
                     {"elastic", m.elastic_energy},
                     {"wall_elastic", m.wall_elastic_energy},
-                    {"dissipated", r.ledger.dissipated},
-                    {"work_by_walls", r.ledger.wall_work},
+                    {"dissipated", r.ledger.dissipated()},
+                    {"work_by_walls", r.ledger.work[Cause::wall]},
                     {"collider_elastic", m.collider_elastic_energy},
-                    {"work_by_colliders", r.ledger.collider_work},
+                    {"work_by_colliders", r.ledger.work[Cause::collider]},
                     {"removed", r.ledger.removed_energy},
                     {"initial", r.initial_energy},
                     {"springs", m.spring_energy},

@@ -27,10 +27,15 @@ void for_each_column(const SeriesRow& row, Visit&& column) {
   column("potential", m.potential_energy);
   column("elastic", m.elastic_energy);
   column("wall_elastic", m.wall_elastic_energy);
-  column("dissipated", l.dissipated);
-  column("wall_work", l.wall_work);
+  column("dissipated", l.dissipated());
+  column("wall_work", l.work[Cause::wall]);
   column("collider_elastic", m.collider_elastic_energy);
-  column("collider_work", l.collider_work);
+  column("collider_work", l.work[Cause::collider]);
+  column("contact_work", l.work[Cause::contact_spring]);
+  column("shear_work", l.work[Cause::contact_shear]);
+  column("damping_work", l.work[Cause::contact_damping]);
+  column("drag_work", l.work[Cause::drag]);
+  column("gravity_work", l.work[Cause::gravity]);
   vector("momentum_x", "momentum_y", "momentum_z", m.momentum);
   vector("centre_x", "centre_y", "centre_z", m.centre_of_mass);
   column("max_speed", m.max_speed);

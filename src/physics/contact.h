@@ -16,11 +16,37 @@ struct ContactCoefficients {
   friend bool operator==(const ContactCoefficients&, const ContactCoefficients&) = default;
 };
 
-/// What one contact does to particle i; its partner receives -force.
+/// What one contact does to particle i, by cause, N; its partner receives the opposite. Sums of many contacts are kept
+/// apart likewise, so that what each cause does to the energy can be told.
 template <class R>
-struct ContactForce {
-  Vec3<R> force;   ///< on i, N
-  R dissipation;   ///< power that both dashpots take out of the pair, W, >= 0
+struct ContactForces {
+  Vec3<R> spring{R(0), R(0), R(0)};
+  Vec3<R> shear{R(0), R(0), R(0)};    ///< of the dashpot on the tangential part of the relative velocity
+  Vec3<R> damping{R(0), R(0), R(0)};  ///< of the dashpot on the whole relative velocity
+
+  HOOKE_HD Vec3<R> total() const { return (spring + shear) + damping; }
+  HOOKE_HD ContactForces& operator+=(const ContactForces& other) {
+    spring += other.spring;
+    shear += other.shear;
+    damping += other.damping;
+    return *this;
+  }
+};
+
+/// The vectors in which the law is linear. Contacts of the same coefficients can be summed in them, and the
+/// coefficients applied to the sum: where a scene has one material, this is how its forces are defined.
+template <class R>
+struct ContactVectors {
+  Vec3<R> overlap{R(0), R(0), R(0)};   ///< overlap n, m
+  Vec3<R> normal{R(0), R(0), R(0)};    ///< (w . n) n, m/s
+  Vec3<R> relative{R(0), R(0), R(0)};  ///< w, m/s
+
+  HOOKE_HD ContactVectors& operator+=(const ContactVectors& other) {
+    overlap += other.overlap;
+    normal += other.normal;
+    relative += other.relative;
+    return *this;
+  }
 };
 
 /// THE FORCE LAW (docs/theory.md eq. 1; the thesis's Algorithm 11): a spring along the normal, a
@@ -28,18 +54,22 @@ struct ContactForce {
 ///
 ///     F_i = k overlap n + c_s w_t + c_d w        w_t = w - (w . n) n
 ///
-/// and, sorted by direction, F_i = (k overlap - c_s w.n) n + (c_s + c_d) w, which is how it is computed.
-///
+template <class R>
+HOOKE_HD ContactForces<R> contact_forces(const ContactVectors<R>& contact, const ContactCoefficients<R>& c) {
+  return {c.stiffness * contact.overlap, c.shear * (contact.relative - contact.normal), c.damping * contact.relative};
+}
+
 /// `overlap` (m) is r_i + r_p - d, positive when touching; `normal` the unit vector from the partner p
 /// to i; `w` = v_p - v_i (m/s). Only to be applied where overlap > 0. Walls and colliders are partners
 /// of infinite mass and use this same function.
 template <class R>
-HOOKE_HD ContactForce<R> contact_force(const R& overlap, const Vec3<R>& normal, const Vec3<R>& w,
-                                       const ContactCoefficients<R>& c) {
-  const R w_n = dot(w, normal);
-  const R both = c.shear + c.damping;
-  const R shear_n = c.shear * w_n;
-  return {(c.stiffness * overlap - shear_n) * normal + both * w, both * dot(w, w) - shear_n * w_n};
+HOOKE_HD ContactVectors<R> contact_vectors(const R& overlap, const Vec3<R>& normal, const Vec3<R>& w) {
+  return {overlap * normal, dot(w, normal) * normal, w};
+}
+template <class R>
+HOOKE_HD ContactForces<R> contact_forces(const R& overlap, const Vec3<R>& normal, const Vec3<R>& w,
+                                         const ContactCoefficients<R>& c) {
+  return contact_forces(contact_vectors(overlap, normal, w), c);
 }
 
 /// Unit vector from p to i, where `x_ip` = x_i - x_p (m) has length `distance`. Two centres on the very

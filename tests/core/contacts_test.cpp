@@ -49,8 +49,8 @@ std::vector<Contact> all_pairs(const Scene& scene, const ParticleSet& p, Contact
             if (overlap <= 0) continue;
             const Vec3d normal = distance == 0 ? Vec3d{-1, 0, 0} : (1 / distance) * d;
             const Vec3d force =
-                contact_force(overlap, normal, p.velocity[k] - p.velocity[i], table.pair(p.material[i], p.material[k]))
-                    .force;
+                contact_forces(overlap, normal, p.velocity[k] - p.velocity[i], table.pair(p.material[i], p.material[k]))
+                    .total();
             found.push_back({static_cast<std::uint32_t>(i),
                              static_cast<std::uint32_t>(k),
                              Face::none,
@@ -75,7 +75,7 @@ std::vector<Contact> all_pairs(const Scene& scene, const ParticleSet& p, Contact
         if (overlap <= 0) continue;
         Vec3d normal{0, 0, 0};
         component(normal, axis) = is_lower ? 1 : -1;
-        const Vec3d force = contact_force(overlap, normal, -p.velocity[i], table.wall(p.material[i])).force;
+        const Vec3d force = contact_forces(overlap, normal, -p.velocity[i], table.wall(p.material[i])).total();
         found.push_back(
             {static_cast<std::uint32_t>(i), Contact::kWall, is_lower ? lower[a] : upper[a], {}, overlap, force});
         press(i, dot(force, normal));

@@ -8,26 +8,49 @@
 namespace hooke {
 namespace {
 
-StepRates rates(double scale) { return {scale, 2 * scale, {3 * scale, 0, 0}, {0, 4 * scale, 0}, {0, 0, 5 * scale}}; }
+// Powers of this kick and of the next one, and forces, as one evaluation leaves them.
+StepSums sums(double power, double next_power) {
+  StepSums s;
+  for (std::size_t cause = 0; cause < kCauses; ++cause) {
+    s.power.of[cause].add(2 * power * static_cast<double>(cause + 1));  // at twice the mean velocity
+    s.next_power.of[cause].add(2 * next_power * static_cast<double>(cause + 1));
+  }
+  s.wall_force.add({3 * power, 0, 0});
+  s.drag_force.add({0, 4 * power, 0});
+  return s;
+}
+const Vec3d kGravity{0, 0, 5};
 
 TEST(BookStep, BooksAWholeStepUnderSymplecticEuler) {
   Ledger ledger;
-  book_step(ledger, rates(8), 0.5, Integrator::symplectic_euler);
-  EXPECT_EQ(ledger.dissipated, 4);
-  EXPECT_EQ(ledger.wall_work, 8);
+  book_step(ledger, sums(8, 1000), kGravity, 2, 0.5, Integrator::symplectic_euler);
+  for (std::size_t cause = 0; cause < kCauses; ++cause) {
+    EXPECT_EQ(ledger.work.of[cause], 4 * static_cast<double>(cause + 1));
+  }
   EXPECT_EQ(ledger.wall_impulse.x, 12);
   EXPECT_EQ(ledger.drag_impulse.y, 16);
-  EXPECT_EQ(ledger.gravity_impulse.z, 20);
+  EXPECT_EQ(ledger.gravity_impulse.z, 5);
   EXPECT_EQ(ledger.last, StepRates{}) << "not part of its state";
 }
 
 TEST(BookStep, BooksHalvesOfTwoEvaluationsUnderVelocityVerlet) {
   Ledger ledger;
-  ledger.last = rates(8);
-  book_step(ledger, rates(16), 0.5, Integrator::velocity_verlet);
-  EXPECT_EQ(ledger.dissipated, 2 + 4);
+  ledger.last = first_rates(sums(8, 1000), kGravity, 2);
+  book_step(ledger, sums(16, 32), kGravity, 2, 0.5, Integrator::velocity_verlet);
+  EXPECT_EQ(ledger.work.of[0], 2 + 4);
   EXPECT_EQ(ledger.wall_impulse.x, 6 + 12);
-  EXPECT_EQ(ledger.last, rates(16));
+  EXPECT_EQ(ledger.last.power.of[0], 32);
+  EXPECT_EQ(ledger.last.wall_force.x, 48);
+}
+
+TEST(Ledger, CallsDissipatedWhatDashpotsAndDragTookOut) {
+  Ledger ledger;
+  ledger.work[Cause::contact_spring] = 100;
+  ledger.work[Cause::contact_shear] = -1;
+  ledger.work[Cause::contact_damping] = -2;
+  ledger.work[Cause::drag] = -4;
+  ledger.work[Cause::wall] = -1000;
+  EXPECT_EQ(ledger.dissipated(), 7);
 }
 
 TEST(MeasurementSums, SumUpInAnyOrderAndSplit) {

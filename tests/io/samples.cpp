@@ -65,8 +65,7 @@ SimulationState state(std::int64_t step, std::size_t n) {
   s.particles.acceleration = particles(step + 1000, n, Precision::double_precision).position;
   s.step = step;
   s.next_id = 3 * n + 7;
-  s.ledger.dissipated = 0.1;
-  s.ledger.wall_work = -0.2;
+  s.ledger.work.of = {0.5, -0.1, -1.0 / 7, -0.2, 0.3, -5e-324, 9.8};
   s.ledger.wall_impulse = {0.3, 1.0 / 3, -0.0};
   s.ledger.drag_impulse = {5e-324, 1.7976931348623157e308, 2};
   s.ledger.gravity_impulse = {0, -9.8 / 7, 3};

@@ -65,7 +65,7 @@ TEST(BouncingBall, GoesTheSameWayOverEveryShape) {
             EXPECT_NEAR(simulation.positions()[0].y, x.y, tolerance) << shape.index() << " on " << engine.name();
             EXPECT_NEAR(simulation.positions()[0].x, 0, 1e-15);
           }
-          EXPECT_NEAR(simulation.ledger().collider_work, expected.ledger().wall_work, 30 * tolerance)
+          EXPECT_NEAR(simulation.ledger().work[Cause::collider], expected.ledger().work[Cause::wall], 30 * tolerance)
               << "what the collider gave is booked as what a wall gives, to rounding";
           EXPECT_LT(momentum_drift(measured(simulation), simulation.ledger(), simulation.initial_momentum()),
                     engine.precision == Precision::single_precision ? 1e-5 : 1e-12);

@@ -100,8 +100,8 @@ double energy_defect(Integrator integrator, double dt, double duration) {
     if (!advance(simulation, 1)) break;
     worst = std::max(worst, std::abs(accounted_energy(simulation) - simulation.initial_energy()));
   }
-  EXPECT_GT(simulation.ledger().dissipated, 1);
-  EXPECT_GT(std::abs(simulation.ledger().wall_work), 1);
+  EXPECT_GT(simulation.ledger().dissipated(), 1);
+  EXPECT_GT(std::abs(simulation.ledger().work[Cause::wall]), 1);
   return worst / measured(simulation).momentum_scale;
 }
 

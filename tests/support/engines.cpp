@@ -68,8 +68,8 @@ double accounted_energy(const Simulation& simulation) {
   const Measurements now = measured(simulation);
   const Ledger& ledger = simulation.ledger();
   return now.kinetic_energy + now.potential_energy + now.elastic_energy + now.spring_energy + now.attraction_energy +
-         ledger.dissipated + ledger.springs.dissipated + ledger.springs.broken_energy + ledger.removed_energy -
-         ledger.wall_work - ledger.collider_work - ledger.hold.work;
+         ledger.dissipated() + ledger.springs.dissipated + ledger.springs.broken_energy + ledger.removed_energy -
+         ledger.work[Cause::wall] - ledger.work[Cause::collider] - ledger.hold.work;
 }
 
 }  // namespace hooke::test

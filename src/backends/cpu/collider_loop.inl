@@ -21,22 +21,18 @@ struct ColliderLoop {
   const Mask<Real>& present;
   const P& radius;
 
-  HOOKE_HD void run(Acting<Real>& acting, const SegmentWork<Real>& work, std::size_t slot, unsigned char& notes) const {
-    if (pass.collider_count == 0) return;
+  // The force of all of them, and whether there is one.
+  HOOKE_HD Vec3<P> run(Mask<Real>& too_fast, bool& touched) const {
     Vec3<P> force{P(Real(0)), P(Real(0)), P(Real(0))};
-    bool touched = false;
-    if (any(present & is_inside(own.x, pass.near_colliders_from, pass.near_colliders_to)))
-      touched = meet(acting, force);
-    if (!touched && P::kLanes == kGroupLanes) return;  // else the rest of the group may touch
-    store(work.collider_force[0] + slot, force.x);
-    store(work.collider_force[1] + slot, force.y);
-    store(work.collider_force[2] + slot, force.z);
-    store(work.collider_power + slot, dot(force, own.v));
-    if (touched) notes |= kTouchesCollider;
+    if (pass.collider_count == 0) return force;
+    if (any(present & is_inside(own.x, pass.near_colliders_from, pass.near_colliders_to))) {
+      touched = meet(too_fast, force);
+    }
+    return force;
   }
 
   // Whether any lane touches any collider.
-  __attribute__((noinline)) bool meet(Acting<Real>& acting, Vec3<P>& force) const {
+  __attribute__((noinline)) bool meet(Mask<Real>& too_fast, Vec3<P>& force) const {
     bool touched = false;
     for (std::size_t c = 0; c < pass.collider_count; ++c) {
       const PlacedCollider<Real>& collider = pass.colliders[c];
@@ -50,12 +46,8 @@ struct ColliderLoop {
         if (!any(touching)) return;
         touched = true;
         const Vec3<P> w = face.velocity - own.v;
-        const ContactForce<P> contact = contact_force(overlap, face.normal, w, coefficients);
-        const P zero(Real(0));
-        const Vec3<P> on_touching = select_vector(touching, contact.force, {zero, zero, zero});
-        acting.force += on_touching;
-        force += on_touching;
-        acting.too_fast = acting.too_fast | (touching & (dot(w, face.normal) > P(pass.speed_limit)));
+        add_where(touching, force, contact_forces(overlap, face.normal, w, coefficients).total());
+        too_fast = too_fast | (touching & (dot(w, face.normal) > P(pass.speed_limit)));
       });
     }
     return touched;

@@ -12,6 +12,7 @@
 #include <memory>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "hooke/backends/cpu/attraction_forces.h"
 #include "hooke/backends/cpu/boundaries.h"
@@ -178,7 +179,7 @@ class CpuBackend final : public Backend {
       Condition found;
       for (std::size_t s = first; s < last; ++s) {
         run_segment(s, report);
-        add_up(s, report, part);
+        add_up(report, part);
         hold_still(s, pass_.acceleration, hold_part);
         springs_.add_work(s, records_.data(), next_.data(), pass_.acceleration, Real(0.5) * pass_.dt, spring_part);
         attraction_.add_work(s * kSegment, std::min((s + 1) * kSegment, count_), records_.data(), next_.data(),
@@ -198,7 +199,7 @@ class CpuBackend final : public Backend {
       if (hold_part.count > 0) hold.add(hold_part);
       condition = Condition::first(condition, found);
     });
-    book_step(ledger_, sums.rates(scene_.gravity, total_mass_), scene_.time_step, scene_.integrator);
+    book_step(ledger_, sums, scene_.gravity, total_mass_, scene_.time_step, scene_.integrator);
     if (!springs_.empty()) spring_sums.book(ledger_.springs, scene_.time_step, scene_.integrator);
     if (!attraction_.empty()) attracted.book(ledger_.attraction, scene_.time_step, scene_.integrator);
     if (!held_.none()) hold.book(ledger_.hold, scene_.integrator);
@@ -259,10 +260,7 @@ class CpuBackend final : public Backend {
   struct SegmentReport {
     std::array<unsigned char, kGroups> notes;
     std::array<std::uint16_t, kGroups> far;
-    std::array<Real, kSegment> dissipated, wall_power;
-    std::array<std::array<Real, kSegment>, 3> wall_force;
-    std::array<Real, kSegment> collider_power;
-    std::array<std::array<Real, kSegment>, 3> collider_force;
+    std::array<ExactParts, PassSum::count> sums;
   };
 
   void fill_unused(LargeVector<Record>& records) const {
@@ -283,6 +281,7 @@ class CpuBackend final : public Backend {
     pass_.in = records_.data();
     pass_.out = next_.data();
     pass_.acceleration = acceleration;
+    pass_.held = held_.lanes();
     pass_.listed_at = list_.listed_at();
     pass_.anchors = list_.anchors();
     pass_.next_step = list_.next_step();
@@ -434,6 +433,7 @@ class CpuBackend final : public Backend {
     const std::size_t groups = std::min(kGroups, (count_ - s * kSegment + kLanes - 1) / kLanes);
     report.notes.fill(0);
     report.far.fill(0);
+    for (ExactParts& parts : report.sums) parts.count = 0;
     for (std::size_t g = 0; g < groups;) {
       std::size_t end = g + 1;
       if (list_.is_mended(s, g)) {
@@ -448,47 +448,43 @@ class CpuBackend final : public Backend {
     }
   }
 
+  // In the time that so many groups take a record comes from the furthest memory.
+  static constexpr std::size_t kGroupsAhead = 32;
+
   void run_groups(std::size_t s, std::size_t g, std::size_t end, const std::uint32_t* rows,
                   const std::uint32_t* first_row, SegmentReport& report) const {
     SegmentWork<Real> work;
     work.first = s * kSegment + g * kLanes;
     work.group_count = end - g;
     work.rows = rows;
+    work.ahead = list_.ahead() + kLanes * kGroupsAhead;
     work.first_row = first_row;
     work.notes = report.notes.data() + g;
     work.far = report.far.data() + g;
-    work.dissipated = report.dissipated.data() + g * kLanes;
-    work.wall_power = report.wall_power.data() + g * kLanes;
-    work.collider_power = report.collider_power.data() + g * kLanes;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      work.wall_force[axis] = report.wall_force[axis].data() + g * kLanes;
-      work.collider_force[axis] = report.collider_force[axis].data() + g * kLanes;
-    }
+    work.sums = report.sums.data();
     loops_.force_pass(pass_, work);
   }
 
-  void add_up(std::size_t s, const SegmentReport& report, StepSums& sums) const {
-    const std::size_t first = s * kSegment;
-    const std::size_t n = std::min(kSegment, count_ - first);
-    sums.dissipated_power.add(report.dissipated.data(), n);
-    for (std::size_t g = 0; g * kLanes < n; ++g) {
-      const std::size_t k = g * kLanes, lanes = std::min(kLanes, n - k);
-      const auto add = [&](ExactSum& power, const auto& powers, ExactVectorSum& force, const auto& forces) {
-        power.add(powers.data() + k, lanes);
-        for (std::size_t axis = 0; axis < 3; ++axis) force.add(axis, forces[axis].data() + k, lanes);
-      };
-      if ((report.notes[g] & kTouchesWall) != 0) {
-        add(sums.wall_power, report.wall_power, sums.wall_force, report.wall_force);
-      }
-      if ((report.notes[g] & kTouchesCollider) != 0) {
-        add(sums.collider_power, report.collider_power, sums.collider_force, report.collider_force);
-      }
+  static void add_up(const SegmentReport& report, StepSums& sums) {
+    const auto add = [&](int sum, ExactSum& to) {
+      const ExactParts& parts = report.sums[static_cast<std::size_t>(sum)];
+      to.add(parts.values, parts.count);
+    };
+    constexpr std::pair<PassSum::Power, Cause> kPowers[] = {{PassSum::contact_spring, Cause::contact_spring},
+                                                            {PassSum::contact_shear, Cause::contact_shear},
+                                                            {PassSum::contact_damping, Cause::contact_damping},
+                                                            {PassSum::drag, Cause::drag},
+                                                            {PassSum::gravity, Cause::gravity},
+                                                            {PassSum::wall, Cause::wall},
+                                                            {PassSum::collider, Cause::collider}};
+    for (const auto& [power, cause] : kPowers) {
+      add(power, sums.power[cause]);
+      add(PassSum::next + power, sums.next_power[cause]);
     }
-    if (!pass_.has_drag) return;
-    for (std::size_t k = 0; k < n; ++k) {
-      const Record& p = records_[first + k];
-      const Real drag = rules_.materials[static_cast<std::size_t>(p.material)].drag;
-      sums.drag_force.add(vec_cast<double>(drag_force(p.v, drag)));
+    for (int axis = 0; axis < 3; ++axis) {
+      add(PassSum::wall_force + axis, sums.wall_force[axis]);
+      add(PassSum::collider_force + axis, sums.collider_force[axis]);
+      add(PassSum::drag_force + axis, sums.drag_force[axis]);
     }
   }
 
@@ -539,12 +535,12 @@ class CpuBackend final : public Backend {
     scan.for_each_wall(i, [&](const Vec3d& normal, double overlap) {
       const MaterialRow<Real>& m = rules_.materials[scan.material_of(i)];
       const ContactCoefficients<double> c{m.wall_stiffness, m.wall_shear, m.wall_damping};
-      sums.add_wall_contact(c.stiffness, overlap, contact_force(overlap, normal, -v, c).force);
+      sums.add_wall_contact(c.stiffness, overlap, contact_forces(overlap, normal, -v, c).total());
     });
     scan.for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double overlap) {
       const PairRow<Real>& row = pass_.collider_pairs[c * pass_.material_count + scan.material_of(i)];
       const ContactCoefficients<double> k{row.stiffness, row.shear, row.damping};
-      const Vec3d force = contact_force(overlap, face.normal, face.velocity - v, k).force;
+      const Vec3d force = contact_forces(overlap, face.normal, face.velocity - v, k).total();
       sums.add_collider_contact(c, face.point, k.stiffness, overlap, force);
     });
   }
@@ -565,14 +561,14 @@ class CpuBackend final : public Backend {
       HoldSums hold_part;
       for (std::size_t s = first; s < last; ++s) {
         run_segment(s, report);
-        add_up(s, report, part);
+        add_up(report, part);
         hold_still(s, evaluated.data(), hold_part);
       }
       const std::lock_guard lock(mutex_);
       sums.add(part);
       if (hold_part.count > 0) hold.add(hold_part);
     });
-    ledger_.last = sums.rates(scene_.gravity, total_mass_);
+    ledger_.last = first_rates(sums, scene_.gravity, total_mass_);
     for (std::size_t i = 0; i < count_; ++i) {
       if (ids_[rank_of(records_[i].rank)] >= first_new_id) acceleration_[i] = evaluated[i];
     }

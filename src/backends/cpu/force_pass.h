@@ -30,7 +30,8 @@ struct alignas(8 * sizeof(Real)) MaterialRow {
   Real radius;                                    // m
   Real inverse_mass;                              // 1/kg
   Real drag;                                      // kg/s
-  Real unused[2];
+  Real mass;                                      // kg
+  Real unused;
 };
 
 enum class PeriodicKind {
@@ -50,6 +51,7 @@ struct ForcePass {
   const PairRow<Real>* pairs = nullptr;       // material_count squared
   const MaterialRow<Real>* materials = nullptr;
   std::size_t material_count = 1;
+  bool has_levels = false;                    // radii are so different that large particles lie apart in memory
   Real dt{};                                  // s
   Vec3<Real> gravity{};                       // m/s^2
   Vec3<Real> min{}, max{}, length{};          // domain, m
@@ -66,15 +68,30 @@ struct ForcePass {
   PeriodicKind periodic_kind = PeriodicKind::none;
   Real speed_limit{};                         // m/s: contacts that approach faster are looked at closely
   const GroupAnchor<Real>* anchors = nullptr; // a group each: where its particles are expected
+  const std::uint16_t* held = nullptr;        // a bit a particle, one entry a group: held still; null where none is
   Real next_step{};                           // steps of the anchors, this pass's drift included
 };
 
 /// What a group has to say beside its new state.
 enum GroupNote : unsigned char {
-  kTouchesWall = 1,     // wall_force and wall_power hold something
-  kLeftDomain = 2,      // a particle is outside an open or periodic face, or at no number
-  kApproachTooFast = 4, // perhaps: look closely
-  kTouchesCollider = 8, // collider_force and collider_power hold something
+  kLeftDomain = 1,      // a particle is outside an open or periodic face, or at no number
+  kApproachTooFast = 2, // perhaps: look closely
+};
+
+/// What a pass sums over its particles: powers by cause, W, at twice the mean velocity of the kick; the same of the
+/// kick to come, under velocity Verlet; forces, N. `count` is how many there are of each.
+struct PassSum {
+  enum Power { contact_spring, contact_shear, contact_damping, drag, gravity, wall, collider, powers };
+  static constexpr int next = powers;  // and on: powers of the kick to come
+  static constexpr int wall_force = 2 * powers, collider_force = wall_force + 3, drag_force = wall_force + 6;
+  static constexpr int count = drag_force + 3;
+};
+
+/// Numbers whose exact sum stands for that of many more.
+struct ExactParts {
+  static constexpr std::size_t kMost = 1024;
+  std::size_t count;
+  double values[kMost];
 };
 
 /// The part of a pass that one thread does at a time: consecutive groups of 16 particles, their rows of the neighbour
@@ -85,13 +102,10 @@ struct SegmentWork {
   std::size_t group_count = 0;
   const std::uint32_t* rows = nullptr;
   const std::uint32_t* first_row = nullptr;  // group_count + 1
+  std::size_t ahead = 0;  // records: so much later those come that are to be asked for now
   unsigned char* notes = nullptr;            // GroupNote bits, one entry a group
   std::uint16_t* far = nullptr;  // a bit a particle, one entry a group: further from its anchor than allowed
-  Real* dissipated = nullptr;  // W, one entry a particle: half of its contacts', and its drag's
-  Real* wall_power = nullptr;  // W, one entry a particle, where kTouchesWall
-  Real* wall_force[3] = {};  // N, likewise
-  Real* collider_power = nullptr;  // W, one entry a particle, where kTouchesCollider
-  Real* collider_force[3] = {};    // N, likewise
+  ExactParts* sums = nullptr;                // PassSum::count of them, which are added to
 };
 
 template <class Real>

@@ -7,6 +7,7 @@
 
 #include "hooke/backends/cpu/force_pass.h"
 #include "hooke/backends/cpu/pack_records.h"
+#include "hooke/backends/cpu/pack_sums.h"
 // After the packs.
 #include "hooke/backends/cpu/pack_field.h"
 #include "hooke/physics/contact.h"
@@ -99,18 +100,47 @@ struct PairTable<Real, Materials::many> {
   P first;
 };
 
-// What acts on the lanes' particles.
 template <class Real>
-struct Acting {
-  Vec3<Pack<Real>> force{Pack<Real>(0), Pack<Real>(0), Pack<Real>(0)};
-  Pack<Real> dissipated{Real(0)};
-  Mask<Real> too_fast{};  // or on the very same spot as another
+HOOKE_HD void add_where(const Mask<Real>& m, Vec3<Pack<Real>>& sum, const Vec3<Pack<Real>>& b) {
+  sum = {add_where(m, sum.x, b.x), add_where(m, sum.y, b.y), add_where(m, sum.z, b.z)};
+}
 
-  HOOKE_HD void add(const Mask<Real>& touching, const ContactForce<Pack<Real>>& contact) {
-    force = {add_where(touching, force.x, contact.force.x), add_where(touching, force.y, contact.force.y),
-             add_where(touching, force.z, contact.force.z)};
-    dissipated = add_where(touching, dissipated, contact.dissipation);
+// The contacts of the lanes' particles with others: of one material summed before its coefficients are applied.
+template <class Real, Materials kMaterials>
+struct Contacts {
+  ContactForces<Pack<Real>> sum;
+
+  HOOKE_HD void add(const Mask<Real>& touching, const ContactVectors<Pack<Real>>& contact,
+                    const ContactCoefficients<Pack<Real>>& coefficients) {
+    const ContactForces<Pack<Real>> forces = contact_forces(contact, coefficients);
+    add_where(touching, sum.spring, forces.spring);
+    add_where(touching, sum.shear, forces.shear);
+    add_where(touching, sum.damping, forces.damping);
   }
+  HOOKE_HD ContactForces<Pack<Real>> forces(const ForcePass<Real>&) const { return sum; }
+};
+template <class Real>
+struct Contacts<Real, Materials::one> {
+  ContactVectors<Pack<Real>> sum;
+
+  HOOKE_HD void add(const Mask<Real>& touching, const ContactVectors<Pack<Real>>& contact,
+                    const ContactCoefficients<Pack<Real>>&) {
+    add_where(touching, sum.overlap, contact.overlap);
+    add_where(touching, sum.normal, contact.normal);
+    add_where(touching, sum.relative, contact.relative);
+  }
+  HOOKE_HD ContactForces<Pack<Real>> forces(const ForcePass<Real>& pass) const {
+    using P = Pack<Real>;
+    const PairRow<Real>& pair = *pass.pairs;
+    return contact_forces(sum, ContactCoefficients<P>{P(pair.stiffness), P(pair.shear), P(pair.damping)});
+  }
+};
+
+// What other particles do to the lanes'.
+template <class Real, Materials kMaterials>
+struct Acting {
+  Contacts<Real, kMaterials> contacts;
+  Mask<Real> too_fast{};  // or on the very same spot as another
 };
 
 // Contacts with particles in ascending order of id. The first two flags drop what a scene does not need, the third what
@@ -122,7 +152,7 @@ struct ContactLoop {
   const Lanes<Real>& own;
 
   HOOKE_HD void one_image(const Lanes<Real>& other, const Vec3<P>& x_ip, const ContactCoefficients<P>& coefficients,
-                          const P& reach, const Mask<Real>& counts, Acting<Real>& acting) const {
+                          const P& reach, const Mask<Real>& counts, Acting<Real, kMaterials>& acting) const {
     const P distance = sqrt_of(dot(x_ip, x_ip));
     const P overlap = reach - distance;
     const Mask<Real> touching = counts & (overlap > P(Real(0)));
@@ -133,13 +163,13 @@ struct ContactLoop {
       normal = contact_normal(x_ip, distance);
     }
     const Vec3<P> w = other.v - own.v;
-    acting.add(touching, contact_force(overlap, normal, w, coefficients));
+    acting.contacts.add(touching, contact_vectors(overlap, normal, w), coefficients);
     // What is not a number, where centres coincide, counts.
     acting.too_fast = acting.too_fast | (touching & !(dot(w, normal) <= P(pass.speed_limit)));
   }
 
   HOOKE_HD void neighbour(const Lanes<Real>& other, const ContactCoefficients<P>& coefficients, const P& reach,
-                          Acting<Real>& acting) const {
+                          Acting<Real, kMaterials>& acting) const {
     const Mask<Real> all = P(Real(0)) == P(Real(0));
     if constexpr (kPeriodic == PeriodicKind::none) {
       one_image(other, own.x - other.x, coefficients, reach, all, acting);
@@ -168,11 +198,12 @@ struct ContactLoop {
     }
   }
 
-  HOOKE_HD Acting<Real> run(const std::uint32_t* row, const std::uint32_t* end, const std::uint32_t* last_row) const {
-    Acting<Real> acting;
+  HOOKE_HD Acting<Real, kMaterials> run(const std::uint32_t* row, const std::uint32_t* end,
+                                        const std::uint32_t* last_row) const {
+    Acting<Real, kMaterials> acting;
     const PairTable<Real, kMaterials> table(pass, own.material);
     for (; row != end; row += kGroupLanes) {
-      prefetch_row(row, last_row);
+      if (pass.has_levels) prefetch_row(row, last_row);
       const Lanes<Real> other = load_neighbours(pass.in, row);
       const Quad<Real> pair = table.lookup(other.material);
       neighbour(other, {pair.a, pair.b, pair.c}, pair.d, acting);
@@ -180,8 +211,7 @@ struct ContactLoop {
     return acting;
   }
 
-  // Neighbours come in the order of their ids, which no processor foresees: those of about the next group are asked for
-  // now.
+  // Neighbours of other levels are not where the pass goes next: those of about the next group are asked for now.
   HOOKE_HD void prefetch_row(const std::uint32_t* row, const std::uint32_t* last_row) const {
     constexpr std::ptrdiff_t kAhead = 14 * kGroupLanes;
     row = last_row - row > kAhead ? row + kAhead : last_row;
@@ -200,23 +230,18 @@ struct WallLoop {
   const Mask<Real>& present;
   const Quad<Real>& material;  // stiffness, shear, damping against walls; radius
 
-  HOOKE_HD void run(Acting<Real>& acting, const SegmentWork<Real>& work, std::size_t slot, unsigned char& notes) const {
+  // The force of all of them, and whether there is one.
+  HOOKE_HD Vec3<P> run(Mask<Real>& too_fast, bool& touched) const {
     const Vec3<P> w = -own.v;
     const ContactCoefficients<P> coefficients{material.a, material.b, material.c};
     Vec3<P> force{P(Real(0)), P(Real(0)), P(Real(0))};
-    bool touched = false;
     const auto face = [&](int axis, Real sign, const P& overlap) {
       const Mask<Real> touching = present & (overlap > P(Real(0)));
       if (!any(touching)) return;
       touched = true;
       const Vec3<P> normal = wall_normal(axis, P(sign));
-      const ContactForce<P> contact = contact_force(overlap, normal, w, coefficients);
-      const P zero(Real(0));
-      const Vec3<P> on_touching{select(touching, contact.force.x, zero), select(touching, contact.force.y, zero),
-                                select(touching, contact.force.z, zero)};
-      acting.force += on_touching;
-      force += on_touching;
-      acting.too_fast = acting.too_fast | (touching & (dot(w, normal) > P(pass.speed_limit)));
+      add_where(touching, force, contact_forces(overlap, normal, w, coefficients).total());
+      too_fast = too_fast | (touching & (dot(w, normal) > P(pass.speed_limit)));
     };
     for (int axis = 0; axis < 3 && any(is_near()); ++axis) {
       if (!pass.wall[axis]) continue;
@@ -224,12 +249,7 @@ struct WallLoop {
       face(axis, Real(1), lower_wall_overlap(x, P(component(pass.min, axis)), material.d));
       face(axis, Real(-1), upper_wall_overlap(x, P(component(pass.max, axis)), material.d));
     }
-    if (!touched && P::kLanes == kGroupLanes) return;  // else the rest of the group may touch
-    store(work.wall_force[0] + slot, force.x);
-    store(work.wall_force[1] + slot, force.y);
-    store(work.wall_force[2] + slot, force.z);
-    store(work.wall_power + slot, dot(force, own.v));
-    if (touched) notes |= kTouchesWall;
+    return force;
   }
 
   // Mask of lanes that may touch a wall.
@@ -290,9 +310,72 @@ HOOKE_HD Vec3<Pack<Real>> load_vectors(const Vec3<Real>* from) {
   return a;
 }
 
+// Whether any lane touches a wall, or a collider.
+struct Touching {
+  bool wall = false, collider = false;
+};
+
+// What is summed over a segment's particles, a column each. Packs that touch nothing of a kind are left out of its own.
+template <class Real>
+struct PassColumns {
+  std::size_t count = 0, wall_count = 0, collider_count = 0;
+  alignas(64) Real of[PassSum::count][ExactParts::kMost];
+
+  HOOKE_HD std::size_t count_of(int sum) const {
+    const int power = sum < 2 * PassSum::powers ? sum % PassSum::powers : PassSum::powers;
+    if (power == PassSum::wall || (sum >= PassSum::wall_force && sum < PassSum::wall_force + 3)) return wall_count;
+    if (power == PassSum::collider || (sum >= PassSum::collider_force && sum < PassSum::collider_force + 3)) {
+      return collider_count;
+    }
+    return count;
+  }
+  HOOKE_HD void put(int sum, const Pack<Real>& a) { store(of[sum] + count_of(sum), a); }
+  HOOKE_HD void put(int sum, const Vec3<Pack<Real>>& a) {
+    put(sum, a.x);
+    put(sum + 1, a.y);
+    put(sum + 2, a.z);
+  }
+  HOOKE_HD void end_pack(const Touching& touching) {
+    count += Pack<Real>::kLanes;
+    if (touching.wall) wall_count += Pack<Real>::kLanes;
+    if (touching.collider) collider_count += Pack<Real>::kLanes;
+  }
+};
+
+// What acts on the lanes' particles, N.
+template <class Real>
+struct Forces {
+  using P = Pack<Real>;
+  ContactForces<P> contacts;
+  Vec3<P> walls, colliders, drag, weight;
+
+  // Powers at twice a mean velocity, to the columns from `first` on.
+  HOOKE_HD void put_powers(int first, const Vec3<P>& twice_mean, bool has_drag, const Touching& touching,
+                           PassColumns<Real>& to) const {
+    to.put(first + PassSum::contact_spring, dot(contacts.spring, twice_mean));
+    to.put(first + PassSum::contact_shear, dot(contacts.shear, twice_mean));
+    to.put(first + PassSum::contact_damping, dot(contacts.damping, twice_mean));
+    to.put(first + PassSum::gravity, dot(weight, twice_mean));
+    if (has_drag) to.put(first + PassSum::drag, dot(drag, twice_mean));
+    if (touching.wall) to.put(first + PassSum::wall, dot(walls, twice_mean));
+    if (touching.collider) to.put(first + PassSum::collider, dot(colliders, twice_mean));
+  }
+};
+
+// Neighbours come in the order of their ids, which no processor foresees. But all of them lie in a window that moves on
+// with the groups, so each record that enters it is asked for once.
+template <std::size_t kCount, class Real>
+HOOKE_HD void prefetch_records(const ParticleRecord<Real>* records, std::size_t first) {
+  constexpr std::size_t kLine = 64;
+  const std::uintptr_t from = reinterpret_cast<std::uintptr_t>(records) + first * sizeof(*records);  // or past the end
+  for (std::size_t byte = 0; byte < kCount * sizeof(*records); byte += kLine) {
+    prefetch_to_second_level(reinterpret_cast<const void*>(from + byte));
+  }
+}
+
 template <class Real, Materials kMaterials, PeriodicKind kPeriodic>
 HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& work, std::size_t slot,
-                       unsigned char& notes, unsigned& far) {
+                       PassColumns<Real>& columns, unsigned char& notes, unsigned& far) {
   using P = Pack<Real>;
   const std::size_t first = work.first + slot;
   const std::size_t group = slot / kGroupLanes, half = slot % kGroupLanes;
@@ -300,36 +383,37 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
   const std::uint32_t* row = rows + std::size_t{work.first_row[group]} * kGroupLanes;
   const std::uint32_t* end = rows + std::size_t{work.first_row[group + 1]} * kGroupLanes;
   const std::uint32_t* last_row = rows + (std::size_t{work.first_row[work.group_count]} - 1) * kGroupLanes;
+  prefetch_records<Pack<Real>::kLanes>(pass.in, first + work.ahead);
   const Real* own_record = reinterpret_cast<const Real*>(pass.in + first);
   const Lanes<Real> own = load_lanes<Real>([=](int lane) { return own_record + 8 * lane; });
   const Mask<Real> present = own.x.x < P(static_cast<Real>(kNowhere));
 
-  Acting<Real> acting = ContactLoop<Real, kMaterials, kPeriodic, false>{pass, own}.run(row, end, last_row);
+  Acting<Real, kMaterials> acting = ContactLoop<Real, kMaterials, kPeriodic, false>{pass, own}.run(row, end, last_row);
   if (any(acting.too_fast)) acting = ContactLoop<Real, kMaterials, kPeriodic, true>{pass, own}.run(row, end, last_row);
-  acting.dissipated = P(Real(0.5)) * acting.dissipated;
 
   Quad<Real> wall_row, body_row;
   if constexpr (kMaterials == Materials::one) {
     const MaterialRow<Real>& m = pass.materials[0];
     wall_row = {P(m.wall_stiffness), P(m.wall_shear), P(m.wall_damping), P(m.radius)};
-    body_row = {P(m.inverse_mass), P(m.drag), P(Real(0)), P(Real(0))};
+    body_row = {P(m.inverse_mass), P(m.drag), P(m.mass), P(Real(0))};
   } else {
     wall_row = load_rows(pass.materials, own.material, 0);
     body_row = load_rows(pass.materials, own.material, 1);
   }
-  WallLoop<Real>{pass, own, present, wall_row}.run(acting, work, slot, notes);
-  ColliderLoop<Real>{pass, own, present, wall_row.d}.run(acting, work, slot, notes);
-
+  Forces<Real> forces{acting.contacts.forces(pass), {}, {}, {}, {}};
+  Touching touching;
+  forces.walls = WallLoop<Real>{pass, own, present, wall_row}.run(acting.too_fast, touching.wall);
+  forces.colliders = ColliderLoop<Real>{pass, own, present, wall_row.d}.run(acting.too_fast, touching.collider);
+  Vec3<P> force = (forces.contacts.total() + forces.walls) + forces.colliders;
   if (pass.has_drag) {
-    const Vec3<P> drag = drag_force(own.v, body_row.b);
-    acting.force += drag;
-    acting.dissipated = acting.dissipated - dot(drag, own.v);
+    forces.drag = drag_force(own.v, body_row.b);
+    force += forces.drag;
   }
-
-  if (pass.applied != nullptr) acting.force += load_vectors(pass.applied + first);
+  if (pass.applied != nullptr) force += load_vectors(pass.applied + first);
 
   const Vec3<P> gravity{P(pass.gravity.x), P(pass.gravity.y), P(pass.gravity.z)};
-  const Vec3<P> a = body_row.a * acting.force + gravity;
+  forces.weight = body_row.c * gravity;
+  const Vec3<P> a = body_row.a * force + gravity;
   const P dt(pass.dt);
   Vec3<P> v, x = own.x;
   if (pass.acceleration != nullptr) {  // velocity Verlet
@@ -345,25 +429,54 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
   }
   if (any(acting.too_fast)) notes |= kApproachTooFast;
 
-  const P zero(Real(0));
-  x = {select(present, x.x, own.x.x), select(present, x.y, own.x.y), select(present, x.z, own.x.z)};
-  v = {select(present, v.x, zero), select(present, v.y, zero), select(present, v.z, zero)};
-  store(work.dissipated + slot, select(present, acting.dissipated, zero));
+  const Vec3<P> zero{P(Real(0)), P(Real(0)), P(Real(0))};
+  x = select_vector(present, x, own.x);
+  v = select_vector(present, v, zero);
+
+  // What is held keeps its velocity after all.
+  Vec3<P> after = v, next = v;
+  if (pass.acceleration != nullptr) next = select_vector(present, kick(v, a, P(Real(0.5)) * dt), zero);
+  if (pass.held != nullptr && pass.held[first / kGroupLanes] != 0) {
+    const Mask<Real> held = lanes_of<Real>(static_cast<unsigned>(pass.held[first / kGroupLanes]) >> half);
+    after = select_vector(held, own.v, v);
+    next = select_vector(held, own.v, next);
+  }
+  forces.put_powers(0, own.v + after, pass.has_drag, touching, columns);
+  if (pass.acceleration != nullptr) {
+    forces.put_powers(PassSum::next, after + next, pass.has_drag, touching, columns);
+  }
+  if (touching.wall) columns.put(PassSum::wall_force, forces.walls);
+  if (touching.collider) columns.put(PassSum::collider_force, forces.colliders);
+  if (pass.has_drag) columns.put(PassSum::drag_force, select_vector(present, forces.drag, zero));
+  columns.end_pack(touching);
   Real* out_record = reinterpret_cast<Real*>(pass.out + first);
-  const TwoQuads<Real> after{{x.x, x.y, x.z, own.material}, {v.x, v.y, v.z, own.rank}};
-  store_two_quads(after, [=](int lane) { return out_record + 8 * lane; });
+  const TwoQuads<Real> record{{x.x, x.y, x.z, own.material}, {v.x, v.y, v.z, own.rank}};
+  store_two_quads(record, [=](int lane) { return out_record + 8 * lane; });
+}
+
+// Whether the scene has anything for that column.
+template <class Real>
+bool is_summed(const ForcePass<Real>& pass, int sum) {
+  if (sum >= PassSum::drag_force) return pass.has_drag;
+  if (sum >= PassSum::wall_force) return true;
+  if (sum % PassSum::powers == PassSum::drag) return pass.has_drag;
+  return sum < PassSum::next || pass.acceleration != nullptr;
 }
 
 template <class Real, Materials kMaterials, PeriodicKind kPeriodic>
 void run_segment(const ForcePass<Real>& pass, const SegmentWork<Real>& work) {
+  PassColumns<Real> columns;
   for (std::size_t g = 0; g < work.group_count; ++g) {
     unsigned char notes = 0;
     unsigned far = 0;
     for (std::size_t half = 0; half < kGroupLanes; half += Pack<Real>::kLanes) {
-      run_pack<Real, kMaterials, kPeriodic>(pass, work, g * kGroupLanes + half, notes, far);
+      run_pack<Real, kMaterials, kPeriodic>(pass, work, g * kGroupLanes + half, columns, notes, far);
     }
     work.notes[g] = notes;
     work.far[g] = static_cast<std::uint16_t>(far);
+  }
+  for (int sum = 0; sum < PassSum::count; ++sum) {
+    if (is_summed(pass, sum)) add_parts(columns.of[sum], columns.count_of(sum), work.sums[sum]);
   }
 }
 

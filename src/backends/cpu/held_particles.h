@@ -19,8 +19,8 @@ class HeldParticles {
 
   bool none() const { return lanes_.empty(); }
   bool holds(std::size_t i) const { return !none() && (lanes_[i / kLanes] >> i % kLanes & 1U) != 0; }
-  /// A bit for each of the 16 particles of a group.
-  unsigned lanes(std::size_t group) const { return none() ? 0 : lanes_[group]; }
+  /// A bit for each of the 16 particles of a group, one entry a group; null where none is held.
+  const std::uint16_t* lanes() const { return none() ? nullptr : lanes_.data(); }
 
  private:
   std::vector<std::uint16_t> lanes_;

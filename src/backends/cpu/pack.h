@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
+#pragma once
 
 // SIMD packs: with pack_records.h and pack_search.h, where the intrinsics are. Included by a file that is compiled for
-// one instruction set and names its namespace HOOKE_ISA; no include guard is shared between instruction sets.
+// one instruction set and names its namespace HOOKE_ISA.
 // Everything is always inlined, so that no function built for a newer processor can be the copy that the linker keeps.
 
 #include <immintrin.h>
@@ -183,14 +184,27 @@ HOOKE_HD unsigned bits(const Mask<double>& m) { return static_cast<unsigned>(_mm
 
 #endif
 
+/// The lanes whose bits are set; bits beyond the last lane don't count.
+template <class Real>
+HOOKE_HD Mask<Real> lanes_of(unsigned set) {
+#if defined(__AVX512F__)
+  return {static_cast<typename Mask<Real>::Bits>(set)};
+#else
+  Mask<Real> m;
+  for (std::size_t lane = 0; lane < Pack<Real>::kLanes; ++lane) m.v[lane] = (set >> lane & 1U) != 0 ? -1 : 0;
+  return m;
+#endif
+}
+
 // bits() has a bit a lane.
 template <class Real>
 HOOKE_HD bool any(const Mask<Real>& m) {
   return bits(m) != 0;
 }
 
-/// Asks for the cache line of an address ahead of time.
+/// Asks for the cache line of an address ahead of time; the second one leaves it in the second level's cache.
 HOOKE_HD void prefetch(const void* at) { __builtin_prefetch(at); }
+HOOKE_HD void prefetch_to_second_level(const void* at) { __builtin_prefetch(at, 0, 2); }
 
 /// Consecutive numbers, one a lane, at any address.
 template <class Real>

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
+#pragma once
 
 // Packs of records and of table entries, for the force pass: rules of inclusion as in pack.h.
 

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
+#pragma once
 
 // What the search does with packs beside arithmetic: keeps those that are near, and sorts keys. Rules of inclusion as
 // in pack.h.

@@ -51,13 +51,8 @@ struct PassRules {
       const Material& m = scene.materials[a];
       if (!m.is_of_particles()) continue;
       const ContactCoefficients<double>& wall = table.wall(a);
-      materials[a] = {real(wall.stiffness),
-                      real(wall.shear),
-                      real(wall.damping),
-                      real(m.radius),
-                      Real(1) / real(m.mass),
-                      real(m.drag),
-                      {}};
+      materials[a] = {real(wall.stiffness),   real(wall.shear), real(wall.damping), real(m.radius),
+                      Real(1) / real(m.mass), real(m.drag),     real(m.mass),       {}};
       pass.has_drag = pass.has_drag || m.drag > 0;
       largest_radius = std::max(largest_radius, m.radius);
       smallest_radius = std::min(smallest_radius, m.radius);
@@ -71,6 +66,7 @@ struct PassRules {
     pass.pairs = pairs.data();
     pass.materials = materials.data();
     pass.material_count = n;
+    pass.has_levels = level_radius.size() > 1;
   }
 
   // The largest radius of a level is no more than one and a half times the smallest.

@@ -70,7 +70,7 @@ class ReferenceBackend final : public Backend {
     add_next_work(now, sums, attracted);
     sums.book_first(ledger_.springs, scene_.time_step);
     attracted.book_first(ledger_.attraction, scene_.time_step);
-    ledger_.last = now.sums.rates(scene_.gravity, total_mass());
+    ledger_.last = first_rates(now.sums, scene_.gravity, total_mass());
     return {};
   }
 
@@ -133,7 +133,7 @@ class ReferenceBackend final : public Backend {
     } else {
       for (const Vec3d& force : forces.attraction) attracted.force.add(force);
     }
-    book_step(ledger_, forces.sums.rates(scene_.gravity, total_mass()), dt, scene_.integrator);
+    book_step(ledger_, forces.sums, scene_.gravity, total_mass(), dt, scene_.integrator);
     forces.springs.book(ledger_.springs, dt, scene_.integrator);
     attracted.book(ledger_.attraction, dt, scene_.integrator);
     hold.book(ledger_.hold, scene_.integrator);
@@ -160,11 +160,11 @@ class ReferenceBackend final : public Backend {
       });
       for_each_wall(i, [&](const Vec3d& normal, double overlap) {
         const auto& c = table_.wall(p_.material[i]);
-        sums.add_wall_contact(c.stiffness, overlap, contact_force(overlap, normal, -p_.velocity[i], c).force);
+        sums.add_wall_contact(c.stiffness, overlap, contact_forces(overlap, normal, -p_.velocity[i], c).total());
       });
       for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double overlap) {
         const auto& k = collider_pair(i, c);
-        const Vec3d force = contact_force(overlap, face.normal, face.velocity - p_.velocity[i], k).force;
+        const Vec3d force = contact_forces(overlap, face.normal, face.velocity - p_.velocity[i], k).total();
         sums.add_collider_contact(c, face.point, k.stiffness, overlap, force);
       });
     }
@@ -188,6 +188,7 @@ class ReferenceBackend final : public Backend {
   };
 
   bool verlet() const { return scene_.integrator == Integrator::velocity_verlet; }
+  bool has_one_material() const { return scene_.materials.size() == 1; }
   const Material& material(std::size_t i) const { return scene_.materials[p_.material[i]]; }
   const ContactCoefficients<double>& pair(std::size_t i, std::size_t p) const {
     return table_.pair(p_.material[i], p_.material[p]);
@@ -197,8 +198,8 @@ class ReferenceBackend final : public Backend {
     return table_.collider(p_.material[i], scene_.colliders[c].material);
   }
 
-  // Forces on each particle in canonical order: contacts by (neighbour id, image), walls, colliders, drag, springs by
-  // index and attraction; then gravity.
+  // Forces on each particle in canonical order, cause by cause: contacts by (neighbour id, image), walls, colliders,
+  // drag, springs by index and attraction; then gravity.
   Forces accelerations() const {
     Forces out;
     out.a.resize(p_.size());
@@ -208,14 +209,18 @@ class ReferenceBackend final : public Backend {
     for (std::size_t i = 0; i < p_.size(); ++i) {
       const Material& m = material(i);
       const Vec3d& v = p_.velocity[i];
-      Vec3d force{0, 0, 0};
-      double dissipated = 0;
+      ContactVectors<double> alike;  // contacts, where all have the same coefficients
+      ContactForces<double> contacts;
+      Vec3d walls{0, 0, 0}, colliders{0, 0, 0};
 
       for_each_contact(i, [&](std::size_t p, const Vec3d& normal, double overlap) {
         const Vec3d w = p_.velocity[p] - v;
-        const ContactForce<double> contact = contact_force(overlap, normal, w, pair(i, p));
-        force += contact.force;
-        dissipated += contact.dissipation;
+        const ContactVectors<double> contact = contact_vectors(overlap, normal, w);
+        if (has_one_material()) {
+          alike += contact;
+        } else {
+          contacts += contact_forces(contact, pair(i, p));
+        }
         const double approach = dot(w, normal);
         if (approach > std::min(m.radius, material(p).radius) / dt) {
           out.condition =
@@ -224,10 +229,7 @@ class ReferenceBackend final : public Backend {
       });
 
       for_each_wall(i, [&](const Vec3d& normal, double overlap) {
-        const ContactForce<double> contact = contact_force(overlap, normal, -v, table_.wall(p_.material[i]));
-        force += contact.force;
-        out.sums.wall_power.add(dot(contact.force, v));
-        out.sums.wall_force.add(contact.force);
+        walls += contact_forces(overlap, normal, -v, table_.wall(p_.material[i])).total();
         const double approach = dot(-v, normal);
         if (approach > m.radius / dt) {
           out.condition =
@@ -237,29 +239,39 @@ class ReferenceBackend final : public Backend {
 
       for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double overlap) {
         const Vec3d w = face.velocity - v;
-        const ContactForce<double> contact = contact_force(overlap, face.normal, w, collider_pair(i, c));
-        force += contact.force;
-        out.sums.collider_power.add(dot(contact.force, v));
-        out.sums.collider_force.add(contact.force);
+        colliders += contact_forces(overlap, face.normal, w, collider_pair(i, c)).total();
         const double approach = dot(w, face.normal);
         if (approach > m.radius / dt) {
           out.condition =
               Condition::first(out.condition, {Condition::Kind::collider_approach_too_fast, p_.id[i], c, approach});
         }
       });
+      if (has_one_material()) contacts = contact_forces(alike, pair(i, i));
 
       const Vec3d drag = drag_force(v, m.drag);
-      force += drag;
-      out.sums.drag_force.add(drag);
-      out.sums.dissipated_power.add(0.5 * dissipated);
-      out.sums.dissipated_power.add(-dot(drag, v));
-
       Vec3d applied{0, 0, 0};
       if (!out.applied.empty()) applied += out.applied[i];
       if (!out.attraction.empty()) applied += out.attraction[i];
-      force += applied;
-
+      const Vec3d force = (((contacts.total() + walls) + colliders) + drag) + applied;
       out.a[i] = (1 / m.mass) * force + scene_.gravity;
+
+      out.sums.wall_force.add(walls);
+      out.sums.collider_force.add(colliders);
+      out.sums.drag_force.add(drag);
+      const auto add_powers = [&](ByCause<ExactSum>& power, const Vec3d& before, const Vec3d& after) {
+        const Vec3d twice_mean = before + after;
+        power[Cause::contact_spring].add(dot(contacts.spring, twice_mean));
+        power[Cause::contact_shear].add(dot(contacts.shear, twice_mean));
+        power[Cause::contact_damping].add(dot(contacts.damping, twice_mean));
+        power[Cause::wall].add(dot(walls, twice_mean));
+        power[Cause::collider].add(dot(colliders, twice_mean));
+        power[Cause::drag].add(dot(drag, twice_mean));
+        power[Cause::gravity].add(m.mass * dot(scene_.gravity, twice_mean));
+      };
+      const bool held = springs_.is_held(p_.id[i]);
+      const Vec3d after = held ? v : kick(v, out.a[i], verlet() ? dt / 2 : dt);
+      add_powers(out.sums.power, v, after);
+      if (verlet()) add_powers(out.sums.next_power, after, held ? v : kick(after, out.a[i], dt / 2));
     }
     return out;
   }

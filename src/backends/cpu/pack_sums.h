@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Exact sums of many numbers, lane by lane: rules of inclusion as in pack.h.
+
+#include "hooke/backends/cpu/force_pass.h"
+#include "hooke/backends/cpu/pack.h"
+
+namespace hooke::HOOKE_ISA {
+
+/// The lower and the upper half of a pack, in doubles.
+struct Widened {
+  Pack<double> low, high;
+};
+
+#if defined(__AVX512F__)
+
+HOOKE_HD Widened widen(const Pack<float>& a) {
+  const __m256 high = _mm256_castpd_ps(_mm512_extractf64x4_pd(_mm512_castps_pd(a.v), 1));
+  return {Pack<double>(_mm512_cvtps_pd(_mm512_castps512_ps256(a.v))), Pack<double>(_mm512_cvtps_pd(high))};
+}
+
+#elif defined(__AVX2__)
+
+HOOKE_HD Widened widen(const Pack<float>& a) {
+  return {Pack<double>(_mm256_cvtps_pd(_mm256_castps256_ps128(a.v))),
+          Pack<double>(_mm256_cvtps_pd(_mm256_extractf128_ps(a.v, 1)))};
+}
+
+#else
+
+HOOKE_HD Widened widen(const Pack<float>& a) {
+  return {Pack<double>(_mm_cvtps_pd(a.v)), Pack<double>(_mm_cvtps_pd(_mm_movehl_ps(a.v, a.v)))};
+}
+
+#endif
+
+// The processor remembers whether anything was rounded. Nothing that reads or writes memory is moved across these.
+HOOKE_HD void forget_rounding() {
+  _mm_setcsr(_mm_getcsr() & ~static_cast<unsigned>(_MM_EXCEPT_INEXACT));
+  asm volatile("" ::: "memory");
+}
+HOOKE_HD bool has_rounded() {
+  asm volatile("" ::: "memory");
+  return (_mm_getcsr() & _MM_EXCEPT_INEXACT) != 0;
+}
+
+// sum_lanes(values, count, to): writes the sums of whole packs of numbers, a lane each, and returns how many those are;
+// 0 where they would not be exact.
+
+// Doubles hold the sums of floats of not too different size.
+HOOKE_HD std::size_t sum_lanes(const float* values, std::size_t count, double* to) {
+  constexpr std::size_t kLanes = Pack<float>::kLanes;
+  forget_rounding();
+  Pack<double> low(0.0), high(0.0);
+  for (std::size_t k = 0; k < count; k += kLanes) {
+    const Widened wide = widen(load(values + k));
+    low = low + wide.low;
+    high = high + wide.high;
+  }
+  store(to, low);
+  store(to + kLanes / 2, high);
+  return has_rounded() ? 0 : kLanes;
+}
+
+// What a + b leaves when it is rounded to `sum` (Knuth, The Art of Computer Programming, 4.2.2, theorem B).
+HOOKE_HD Pack<double> rounded_off(const Pack<double>& a, const Pack<double>& b, const Pack<double>& sum) {
+  const Pack<double> of_b = sum - a;
+  return (a - (sum - of_b)) + (b - of_b);
+}
+
+// Sums of doubles, and of what they left.
+HOOKE_HD std::size_t sum_lanes(const double* values, std::size_t count, double* to) {
+  constexpr std::size_t kLanes = Pack<double>::kLanes;
+  Pack<double> sum(0.0), left(0.0);
+  const Pack<double> zero(0.0);
+  Mask<double> exact = zero == zero;
+  for (std::size_t k = 0; k < count; k += kLanes) {
+    const Pack<double> value = load(values + k);
+    const Pack<double> next = sum + value;
+    const Pack<double> off = rounded_off(sum, value, next);
+    const Pack<double> next_left = left + off;
+    exact = exact & (rounded_off(left, off, next_left) == zero);
+    sum = next;
+    left = next_left;
+  }
+  if (any(!exact)) return 0;
+  store(to, sum);
+  store(to + kLanes, left);
+  return 2 * kLanes;
+}
+
+/// Adds `count` numbers, whole packs.
+template <class Real>
+HOOKE_HD void add_parts(const Real* values, std::size_t count, ExactParts& parts) {
+  constexpr std::size_t kFew = 8 * Pack<Real>::kLanes;
+  const auto add = [&](const Real* from, std::size_t n) {
+    const std::size_t added = sum_lanes(from, n, parts.values + parts.count);
+    parts.count += added;
+    return added > 0;
+  };
+  if (add(values, count)) return;
+  for (std::size_t few; count > 0; values += few, count -= few) {
+    few = count < kFew ? count : kFew;
+    if (add(values, few)) continue;
+    for (std::size_t k = 0; k < few; ++k) parts.values[parts.count++] = static_cast<double>(values[k]);
+  }
+}
+
+}  // namespace hooke::HOOKE_ISA

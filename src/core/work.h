@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace hooke {
+
+/// What works on the particles: the parts into which the change of their kinetic energy divides.
+enum class Cause : unsigned char {
+  contact_spring,   ///< springs of contacts between particles
+  contact_shear,    ///< dashpots of such contacts on the tangential velocity
+  contact_damping,  ///< dashpots of such contacts on the whole velocity
+  wall,             ///< walls, their springs and dashpots
+  collider,         ///< colliders likewise
+  drag,
+  gravity,
+};
+inline constexpr std::size_t kCauses = 7;
+
+/// One T a cause.
+template <class T>
+struct ByCause {
+  std::array<T, kCauses> of{};
+
+  T& operator[](Cause cause) { return of[static_cast<std::size_t>(cause)]; }
+  const T& operator[](Cause cause) const { return of[static_cast<std::size_t>(cause)]; }
+
+  friend bool operator==(const ByCause&, const ByCause&) = default;
+};
+
+/// Work, J, or power, W, by cause: positive where it adds to the kinetic energy. The work of a force over a step is the
+/// force times the step times the mean of the velocities before and after, so that the sum over all causes is what the
+/// kinetic energy gains, but for rounding (docs/theory.md eq. 10).
+using Work = ByCause<double>;
+
+}  // namespace hooke
