@@ -78,8 +78,8 @@ struct SpringSums {
 
 /// What attraction did in one evaluation of the forces, and does in the next half kick; work as in SpringSums.
 struct AttractionBooking {
-  ExactSum work;         ///< force . (velocity before + velocity after), W
-  ExactSum next_work;    ///< velocity Verlet: the same for the half kick to come
+  ExactSum work;  ///< force . (velocity before + velocity after), W
+  ExactSum next_work;  ///< velocity Verlet: the same for the half kick to come
   ExactVectorSum force;  ///< N
 
   void add(const AttractionBooking& other);

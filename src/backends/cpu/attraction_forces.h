@@ -75,7 +75,7 @@ class AttractionForces {
       }
       booking.work.add(work.data(), n);
       if (acceleration != nullptr) booking.next_work.add(next_work.data(), n);
-      for (std::size_t axis = 0; axis < 3; ++axis) booking.force.add(axis, force[axis].data(), n);
+      for (int axis = 0; axis < 3; ++axis) booking.force[axis].add(force[axis].data(), n);
     }
   }
 
