@@ -10,11 +10,15 @@ hooke=build/hooke
 
 # What a picture shows best: the time of its moment (s), and more options of hooke render.
 declare -A picture=(
+  [avalanche]="--time 2.6"
   [ball-pit]="--time 0.95"
+  [drum]="--time 6"
   [galaxy]="--time 5.2"
+  [hourglass]="--time 3.4"
   [mixed]="--time 2.4"
   [table-6.1]="--color-by height"
   [water]="--time 5.3"
+  [wave-tank]="--time 2.6"
 )
 # How a scene is run where its own length would take an hour: the giant, with the longest step that is stable.
 declare -A run_options=(

@@ -15,6 +15,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string type_of(const Json& part) {
+  if (part.contains("$ref")) {
+    const std::string reference = part.at("$ref"), name = reference.substr(reference.rfind('/') + 1);
+    return "[" + name + "](#" + name + ")";
+  }
   if (part.contains("const")) return part.at("const").dump();
   if (part.contains("anyOf")) {
     std::string types;
@@ -148,7 +152,9 @@ int main(int argc, char** argv) try {
          "`--set PATH=VALUE` puts a JSON value at a path, and is checked like the scene: `--set time.step=0.002`,\n"
          "`--set particles[0].block.count=1000`, `--set 'materials[\"salt water\"].radius=0.1'`. A key that excludes\n"
          "another (`time.end`, `time.steps`) takes its place.\n";
-  write_object(Json::parse(read(argv[1])), "");
+  const Json schema = Json::parse(read(argv[1]));
+  write_object(schema, "");
+  for (const auto& [name, definition] : schema.at("definitions").items()) write_object(definition, name);
   return 0;
 } catch (const std::exception& fault) {
   std::cerr << "scene_reference: " << fault.what() << '\n';

@@ -53,7 +53,8 @@ Expected<OpenedSimulation> open_simulation(const SceneArguments& scene, const De
     return Simulation::resume(std::move(loaded->scene), std::move(checkpoint->state), std::move(*backend));
   }();
   if (!simulation) return fail(std::move(simulation).error());
-  return OpenedSimulation{std::move(*simulation), std::move(loaded->resolved), std::move(loaded->warnings)};
+  return OpenedSimulation{std::move(*simulation), std::move(loaded->resolved), std::move(loaded->files),
+                          std::move(loaded->warnings)};
 }
 
 std::string unstable_step(const Scene& scene) {
@@ -70,7 +71,9 @@ FloatSpacing float_spacing(const Scene& scene) {
         std::max({farthest, std::abs(component(scene.domain.min, axis)), std::abs(component(scene.domain.max, axis))});
   }
   double radius = INFINITY;
-  for (const Material& material : scene.materials) radius = std::min(radius, material.radius);
+  for (const Material& material : scene.materials) {
+    if (material.is_of_particles()) radius = std::min(radius, material.radius);
+  }
   const auto edge = static_cast<float>(farthest);
   const double spacing = static_cast<double>(std::nextafter(edge, INFINITY)) - static_cast<double>(edge);
   return {spacing, spacing / radius};

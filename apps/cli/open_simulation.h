@@ -12,6 +12,7 @@
 #include "hooke/base/expected.h"
 #include "hooke/core/backend.h"
 #include "hooke/core/simulation.h"
+#include "hooke/scene/load_scene.h"
 
 namespace hooke::cli {
 
@@ -19,6 +20,7 @@ namespace hooke::cli {
 struct OpenedSimulation {
   Simulation simulation;
   std::string resolved;           ///< the scene as it was understood, JSON
+  std::vector<SceneFile> files;   ///< that it needs beside itself
   std::vector<Finding> warnings;  ///< of the loader
 };
 

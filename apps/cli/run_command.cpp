@@ -152,6 +152,21 @@ bool resumes_in_place(const RunArguments& arguments) {
   return !checkpoint.empty() && std::filesystem::equivalent(home, output_folder(arguments), ignored);
 }
 
+// Puts the meshes that the scene names beside the scene that the run folder keeps, so that the folder can be drawn
+// wherever it goes. Those that a scene names by an absolute path or by ".." stay where they are.
+Expected<void> keep_files(const std::vector<SceneFile>& files, const std::filesystem::path& folder) {
+  for (const SceneFile& file : files) {
+    const std::filesystem::path name(file.name), kept = folder / name;
+    const bool inside = name.is_relative() && std::find(name.begin(), name.end(), "..") == name.end();
+    std::error_code fault;
+    if (!inside || std::filesystem::equivalent(file.path, kept, fault)) continue;
+    std::filesystem::create_directories(kept.parent_path(), fault);
+    std::filesystem::copy_file(file.path, kept, std::filesystem::copy_options::overwrite_existing, fault);
+    if (fault) return fail(Error::Kind::io, kept.string(), "can't be written: " + fault.message());
+  }
+  return {};
+}
+
 Expected<RunWriter> open_writer(const RunArguments& arguments, const OpenedSimulation& opened) {
   const Simulation& simulation = opened.simulation;
   const RunInfo info = describe_run(simulation);
@@ -159,7 +174,10 @@ Expected<RunWriter> open_writer(const RunArguments& arguments, const OpenedSimul
     return RunWriter::resume(output_folder(arguments), info, opened.resolved, simulation.step_count(),
                              simulation.scene().output);
   }
-  return RunWriter::create(output_folder(arguments), info, opened.resolved, {.overwrite = arguments.overwrite});
+  auto writer = RunWriter::create(output_folder(arguments), info, opened.resolved, {.overwrite = arguments.overwrite});
+  if (!writer) return writer;
+  if (auto kept = keep_files(opened.files, output_folder(arguments)); !kept) return fail(std::move(kept).error());
+  return writer;
 }
 
 void log_start(const OpenedSimulation& opened) {

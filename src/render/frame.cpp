@@ -7,6 +7,7 @@
 
 #include "hooke/base/parallel.h"
 #include "hooke/render/aeration.h"
+#include "hooke/render/collider_mesh.h"
 
 namespace hooke {
 
@@ -83,6 +84,7 @@ Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, 
   frame.tank.min = scene.domain.min - frame.origin;
   frame.tank.max = scene.domain.max - frame.origin;
   for (std::size_t axis = 0; axis < 3; ++axis) frame.tank.walls[axis] = scene.domain.boundary[axis] == Boundary::spring;
+  frame.meshes = collider_meshes(scene, time, frame.origin);
   if (look.scale.by != ColorBy::material) frame.scale = look.scale;
 
   const std::vector<Color> colors = material_colors(scene);

@@ -12,6 +12,7 @@
 #include "hooke/render/camera.h"
 #include "hooke/render/color_map.h"
 #include "hooke/render/coloring.h"
+#include "hooke/render/shaded_mesh.h"
 
 namespace hooke {
 
@@ -33,6 +34,7 @@ struct Tank {
 struct Frame {
   Vec3d origin{0, 0, 0};  ///< what is drawn is relative to this, so that single precision does in any domain, m
   std::vector<Sphere> spheres;
+  std::vector<ShadedMesh> meshes;
   Tank tank;
   Camera camera;  ///< eye and target relative to the origin
   Box action;     ///< relative to the origin

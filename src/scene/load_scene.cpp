@@ -37,7 +37,7 @@ Expected<LoadedScene> parse(std::string_view text, const std::string& name, cons
   fill_defaults(schema_root(), json);
 
   LoadedScene loaded;
-  loaded.scene = build_scene(json, findings);
+  build_scene(json, folder, options, findings, loaded);
   loaded.particles = load_particles(json, loaded.scene, folder, options, findings, loaded.warnings);
   LoadOptions ties = options;
   ties.with_particles = options.with_particles && !findings.touches("particles");  // whose ids are to be relied on

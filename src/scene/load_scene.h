@@ -34,12 +34,19 @@ struct LoadOptions {
   std::uint64_t memory_limit = 0;
 };
 
+/// A file that a scene was read from beside itself, and that is needed to read it again.
+struct SceneFile {
+  std::string name;             ///< as the scene writes it
+  std::filesystem::path path;   ///< where it is
+};
+
 /// A scene file, read, checked and resolved.
 struct LoadedScene {
   Scene scene;
   ParticleSet particles;           ///< what its sources hold, ids from 1 in order of the sources, or the files' own
   std::string resolved;            ///< the scene as it was understood, overrides and defaults written out, JSON;
                                    ///< its paths still relative to the scene's folder
+  std::vector<SceneFile> files;    ///< meshes; files of particles are not among them
   std::vector<Finding> warnings;   ///< e.g. CSV columns that are ignored
 };
 

@@ -123,7 +123,13 @@ class Loader {
   // Index of the material of this name; a finding at `where` where the scene has none.
   std::optional<std::uint16_t> material_named(const std::string& name, const std::string& where) {
     const auto found = std::find(names_.begin(), names_.end(), name);
-    if (found != names_.end()) return static_cast<std::uint16_t>(found - names_.begin());
+    if (found != names_.end()) {
+      const auto index = static_cast<std::size_t>(found - names_.begin());
+      if (scene_.materials[index].is_of_particles()) return static_cast<std::uint16_t>(index);
+      findings_.add(where, fmt::format("is \"{}\", which has neither radius nor mass: only colliders may have it",
+                                       printable(name, 60)));
+      return std::nullopt;
+    }
     const std::string hint = did_you_mean(name, names_);
     findings_.add(where, fmt::format("is \"{}\", which is no material{}{} the scene has {}", printable(name, 60), hint,
                                      hint.empty() ? ";" : "", quoted_list(names_)));

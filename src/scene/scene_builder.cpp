@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "hooke/scene/attraction_builder.h"
+#include "hooke/scene/collider_builder.h"
 #include "hooke/scene/json_path.h"
 #include "hooke/scene/nearest.h"
 
@@ -74,7 +75,24 @@ void build_domain(const Json& domain, Scene& scene, const Findings& findings) {
   }
 }
 
-void build_materials(const Json& materials, Scene& scene, Findings& findings) {
+// Radius and mass may be left out, both, where colliders have the material.
+void find_size(const Json& entry, const std::string& where, const Json& colliders, Material& material,
+               Findings& findings) {
+  const auto has = [&entry](const char* key) { return entry.contains(key); };
+  if (!entry.is_object() || (has("radius") && has("mass"))) return;
+  const bool of_collider = std::any_of(colliders.begin(), colliders.end(), [&](const Json& collider) {
+    return text_or(member(collider, "material"), "") == material.name;
+  });
+  if (of_collider && !has("radius") && !has("mass")) {
+    material.radius = material.mass = 0;
+    return;
+  }
+  for (const auto& [key, unit] : {std::pair{"radius", "m"}, std::pair{"mass", "kg"}}) {
+    if (!has(key)) findings.add(join_path(where, key), fmt::format("is missing; must be a number > 0 ({})", unit));
+  }
+}
+
+void build_materials(const Json& materials, const Json& colliders, Scene& scene, Findings& findings) {
   if (!materials.is_object()) return;
   for (const auto& [name, entry] : materials.items()) {
     Material material;
@@ -87,6 +105,7 @@ void build_materials(const Json& materials, Scene& scene, Findings& findings) {
     };
     material.radius = value("radius", material.radius);
     material.mass = value("mass", material.mass);
+    find_size(entry, where, colliders, material, findings);
     material.contact.stiffness = value("stiffness", 0);
     material.contact.shear = value("shear", 0);
     material.contact.damping = value("damping", 0);
@@ -95,6 +114,21 @@ void build_materials(const Json& materials, Scene& scene, Findings& findings) {
     if (member(entry, "look") == "water") material.look = MaterialLook::water;
     scene.materials.push_back(std::move(material));
   }
+  // Those of colliders alone come last: particles' materials are told apart by fewer numbers then.
+  std::stable_partition(scene.materials.begin(), scene.materials.end(),
+                        [](const Material& m) { return m.is_of_particles(); });
+}
+
+// What distance fields of meshes must serve: the particles' sizes.
+ShapeFiles shape_files(const std::filesystem::path& folder, const LoadOptions& options, LoadedScene& loaded) {
+  ShapeFiles files{folder, options.allow_outside, INFINITY, 0, &loaded.warnings, &loaded.files};
+  for (const Material& m : loaded.scene.materials) {
+    if (!m.is_of_particles()) continue;
+    files.smallest_radius = std::min(files.smallest_radius, m.radius);
+    files.largest_radius = std::max(files.largest_radius, m.radius);
+  }
+  if (std::isinf(files.smallest_radius)) files.smallest_radius = files.largest_radius = 1;
+  return files;
 }
 
 void build_camera(const Json& camera, Scene& scene, Findings& findings) {
@@ -211,18 +245,22 @@ Vec3d vec3_or(const Json& value, const Vec3d& fallback) {
   return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
 }
 
-Scene build_scene(Json& json, Findings& findings) {
-  Scene scene;
+void build_scene(Json& json, const std::filesystem::path& folder, const LoadOptions& options, Findings& findings,
+                 LoadedScene& loaded) {
+  Scene& scene = loaded.scene;
   scene.name = text_or(member(json, "name"), "");
   build_time(member(json, "time"), scene, findings);
   if (member(json, "precision") == "double") scene.precision = Precision::double_precision;
   if (!findings.touches("gravity")) scene.gravity = vec3_or(member(json, "gravity"), scene.gravity);
   build_domain(member(json, "domain"), scene, findings);
-  build_materials(member(json, "materials"), scene, findings);
+  build_materials(member(json, "materials"), member(json, "colliders"), scene, findings);
   ContactBuilder contacts(scene, findings);
   if (member(json, "contacts").is_array()) contacts.build(json.at("contacts"));
   if (json.contains("attraction") && !findings.touches("attraction")) {
     scene.attraction = build_attraction(json.at("attraction"));
+  }
+  if (member(json, "colliders").is_array()) {
+    build_colliders(json.at("colliders"), shape_files(folder, options, loaded), scene, findings);
   }
   if (!findings.touches("output")) {
     scene.output.seconds = number_or(member(json.at("output"), "every"), 0);
@@ -230,7 +268,6 @@ Scene build_scene(Json& json, Findings& findings) {
   }
   build_camera(member(json, "camera"), scene, findings);
   add_core_findings(scene, contacts.index_of, findings);
-  return scene;
 }
 
 }  // namespace hooke

@@ -36,10 +36,30 @@ bool condition_holds(const Json& condition, const Json& value) {
   return true;
 }
 
+// Puts what {"$ref": "#/definitions/NAME", ...} refers to in its place; what else is written there goes before.
+void put_in_definitions(const Json& definitions, Json& schema) {
+  if (schema.is_object() && schema.contains("$ref")) {
+    const std::string name = schema.at("$ref").get<std::string>();
+    Json whole = definitions.at(name.substr(name.rfind('/') + 1));
+    for (const auto& [key, value] : schema.items()) {
+      if (key != "$ref") whole[key] = value;
+    }
+    schema = std::move(whole);
+  }
+  if (!schema.is_structured()) return;
+  for (Json& part : schema) put_in_definitions(definitions, part);
+}
+
 }  // namespace
 
 const Json& schema_root() {
-  static const Json root = Json::parse(scene_schema());
+  static const Json root = [] {
+    Json schema = Json::parse(scene_schema());
+    const Json definitions = schema.at("definitions");
+    schema.erase("definitions");
+    put_in_definitions(definitions, schema);
+    return schema;
+  }();
   return root;
 }
 

@@ -10,7 +10,7 @@
 
 namespace hooke {
 
-/// schema/scene.json, as a value.
+/// schema/scene.json, as a value; what it refers to by "$ref" in its place.
 const Json& schema_root();
 
 /// The part of the schema that rules the value `part` of a value that `schema` rules; null where it rules none

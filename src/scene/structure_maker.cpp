@@ -22,7 +22,12 @@ std::optional<std::uint16_t> StructureMaker::material_of(const Json& entry, cons
   const auto& name = entry.at("material").get_ref<const std::string&>();
   std::vector<std::string> names;
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-    if (scene.materials[m].name == name) return static_cast<std::uint16_t>(m);
+    if (scene.materials[m].name == name) {
+      if (scene.materials[m].is_of_particles()) return static_cast<std::uint16_t>(m);
+      findings.add(where, fmt::format("is \"{}\", which has neither radius nor mass: only colliders may have it",
+                                      printable(name, 60)));
+      return std::nullopt;
+    }
     names.push_back(scene.materials[m].name);
   }
   const std::string hint = did_you_mean(name, names);

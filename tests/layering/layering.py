@@ -26,7 +26,8 @@ MAY_USE["apps"] = set(MAY_USE)
 # Libraries of others that only some of ours may see: the border where they can be exchanged.
 KEPT_TO = {
     r"hdf5|H5\w+\.h": {"io"},
-    r"openvdb/": {"io"},
+    r"openvdb/": {"io", "scene"},
+    r"assimp/": {"scene"},
     r"valijson/": {"scene"},
     r"nlohmann/": {"scene", "io", "apps"},
     r"CLI/": {"apps"},

@@ -94,6 +94,41 @@ int count(const Image& image, const Is& is) {
   return n;
 }
 
+// The same tank with a collider of a green material around or beside the balls.
+Frame with_collider(const std::vector<Vec3d>& balls, const Shape& shape, bool hollow) {
+  PictureScene p{"", ball_tank({8, 4, 6}, 0.5, "#e01010"), {}};
+  ParticleSet high;
+  add(high, {4, 3.5, 3});
+  for (const Vec3d& position : balls) add(p.particles, position);
+  Material green;
+  green.name = "green";
+  green.color = "#10c010";
+  p.scene.materials.push_back(green);
+  p.scene.colliders.resize(1);
+  p.scene.colliders[0].shape = shape;
+  p.scene.colliders[0].hollow = hollow;
+  p.scene.colliders[0].material = p.scene.materials.size() - 1;
+  return make_frame(p.scene, p.particles, 0, make_look(p.scene, high, ColorBy::material), kAspect);
+}
+
+TEST_F(GlRenderer, ASphereOfACollidersIsDrawnLikeABall) {
+  const Image ball = draw(red_balls({{4, 1, 3}})), sphere = draw(with_collider({}, SphereShape{{4, 1, 3}, 0.5}, false));
+  const double area = count(ball, is_red);
+  EXPECT_GT(area, 200);
+  EXPECT_NEAR(count(sphere, is_green) / area, 1, 0.05) << "a polygon of 96 sides, and darker at its edge";
+  EXPECT_EQ(count(sphere, is_red), 0);
+}
+
+TEST_F(GlRenderer, ASolidColliderHidesWhatIsInItAndAHollowOneShowsIt) {
+  const Shape box = BoxShape{{3, 0.1, 2}, {5, 2.1, 4}};
+  const Image solid = draw(with_collider({{4, 1, 3}}, box, false)),
+              hollow = draw(with_collider({{4, 1, 3}}, box, true));
+  EXPECT_EQ(count(solid, is_red), 0);
+  EXPECT_GT(count(solid, is_green), 500);
+  EXPECT_GT(count(hollow, is_red), 0.95 * count(draw(red_balls({{4, 1, 3}})), is_red));
+  EXPECT_GT(count(hollow, is_green), 500) << "its far side";
+}
+
 TEST_F(GlRenderer, DrawsWithTheSoftwareDriver) { EXPECT_THAT(renderer().device(), testing::HasSubstr("llvmpipe")); }
 
 TEST_F(GlRenderer, ABallIsWhereItIsAndNowhereElse) {

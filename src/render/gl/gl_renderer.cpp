@@ -74,6 +74,50 @@ class SphereBuffer {
 };
 static_assert(sizeof(Sphere) == 20 && offsetof(Sphere, foam) == offsetof(Sphere, color) + 3);
 
+// Surfaces on the device, all of a frame in one buffer.
+class MeshBuffer {
+ public:
+  MeshBuffer() : array_(gl::make_vertex_array()), buffer_(gl::make_buffer()) {
+    glBindVertexArray(array_.get());
+    glBindBuffer(GL_ARRAY_BUFFER, buffer_.get());
+    for (GLuint k = 0; k < 2; ++k) {
+      glEnableVertexAttribArray(k);
+      glVertexAttribPointer(k, 3, GL_FLOAT, GL_FALSE, sizeof(ShadedMesh::Corner),
+                            reinterpret_cast<const void*>(k * sizeof(Vec3f)));
+    }
+  }
+
+  void upload(std::span<const ShadedMesh> meshes) {
+    std::vector<ShadedMesh::Corner> corners;
+    first_.clear();
+    for (const ShadedMesh& mesh : meshes) {
+      first_.push_back(static_cast<GLint>(corners.size()));
+      corners.insert(corners.end(), mesh.corners.begin(), mesh.corners.end());
+    }
+    first_.push_back(static_cast<GLint>(corners.size()));
+    glBindBuffer(GL_ARRAY_BUFFER, buffer_.get());
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(ShadedMesh::Corner)), corners.data(),
+                 GL_STREAM_DRAW);
+  }
+
+  // The k-th of those uploaded.
+  void draw(std::size_t k, ShadedMesh::Sides sides) const {
+    glBindVertexArray(array_.get());
+    if (sides == ShadedMesh::Sides::inner) {
+      glEnable(GL_CULL_FACE);
+      glCullFace(GL_FRONT);
+    }
+    glDrawArrays(GL_TRIANGLES, first_[k], first_[k + 1] - first_[k]);
+    glDisable(GL_CULL_FACE);
+  }
+
+ private:
+  VertexArray array_;
+  Buffer buffer_;
+  std::vector<GLint> first_;
+};
+static_assert(sizeof(ShadedMesh::Corner) == 2 * sizeof(Vec3f));
+
 // Between the lines of the ground: the power of ten of which the action is 3 to 30 long, m.
 float ground_step(const Frame& frame) {
   const float size = length_of(frame.action.max - frame.action.min);
@@ -133,12 +177,14 @@ class GlRenderer final : public Renderer {
     figures_ = {seen.size(), seconds_since(start), 0};
 
     const float sphere_size = typical_radius(frame);
+    meshes_.upload(frame.meshes);
     upload(frame.spheres, sunlit);
-    draw_sun_map(sun);
+    draw_sun_map(sun, frame.meshes);
     upload(frame.spheres, seen);
-    draw_spheres(view);
+    draw_surfaces(view, frame.meshes);
     const Projection pixels = project(frame.camera, settings_.width, settings_.height);
-    const PixelRectangle box = bounds_on_picture(frame.spheres, seen, pixels);
+    const PixelRectangle box = frame.meshes.empty() ? bounds_on_picture(frame.spheres, seen, pixels)
+                                                    : PixelRectangle{0, 0, settings_.width, settings_.height};
     begin_surface_passes(box);
     reduce();
     if (water) {
@@ -149,7 +195,7 @@ class GlRenderer final : public Renderer {
     glDisable(GL_SCISSOR_TEST);
     draw_backdrop(frame, pixels, sun, sphere_size);
     clear_shaded();
-    if (!balls_.empty()) shade_balls(frame, view, sun, sphere_size);
+    if (!balls_.empty() || !frame.meshes.empty()) shade_balls(frame, view, sun, sphere_size);
     if (water) shade_water(frame, view, sun, sphere_size);
     resolve();
     draw_tank(frame, pixels);
@@ -202,6 +248,8 @@ class GlRenderer final : public Renderer {
     const auto picture = [](const std::string& fragment) { return Program(whole_picture_vert, fragment.c_str()); };
     sun_program_ = Program(spheres_vert, sun_depth_frag);
     sphere_program_ = Program(spheres_vert, spheres_frag);
+    mesh_program_ = Program(meshes_vert, meshes_frag);
+    mesh_sun_program_ = Program(meshes_vert, meshes_sun_depth_frag);
     reduce_program_ = picture(reduce_frag);
     smooth_program_ = picture(smooth_frag);
     water_normal_program_ = picture(view + water_normal_frag);
@@ -247,7 +295,7 @@ class GlRenderer final : public Renderer {
     water_.upload();
   }
 
-  void draw_sun_map(const Sun& sun) {
+  void draw_sun_map(const Sun& sun, std::span<const ShadedMesh> meshes) {
     begin(to_sun_map_, kSunMap, kSunMap);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
@@ -261,13 +309,22 @@ class GlRenderer final : public Renderer {
     sun_program_.set("range", sun.range);
     balls_.draw();
     water_.draw();
+    mesh_sun_program_.use();
+    set_view(mesh_sun_program_, sun.projection);
+    mesh_sun_program_.set("scale", scale, scale);
+    mesh_sun_program_.set("parallel", 1);
+    mesh_sun_program_.set("range", sun.range);
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+      // What is cut open for the eye is open for the light.
+      if (meshes[k].sides == ShadedMesh::Sides::both) meshes_.draw(k, meshes[k].sides);
+    }
     glDisable(GL_DEPTH_TEST);
   }
 
   // What samples show is told apart by the stencil, so that each kind is shaded by itself.
   enum Stencil { kNothing, kBall, kWater };
 
-  void draw_spheres(const Projection& view) {
+  void draw_surfaces(const Projection& view, std::span<const ShadedMesh> meshes) {
     begin(to_spheres_, width_, height_);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);  // what is stored falls with the distance
@@ -286,6 +343,18 @@ class GlRenderer final : public Renderer {
     balls_.draw();
     glStencilFunc(GL_ALWAYS, kWater, 0xff);
     water_.draw();
+    glStencilFunc(GL_ALWAYS, kBall, 0xff);  // meshes are shaded alike
+    mesh_program_.use();
+    set_view(mesh_program_, view);
+    mesh_program_.set("scale", 2 * view.scale / view.width, 2 * view.scale / view.height);
+    mesh_program_.set("parallel", 0);
+    mesh_program_.set("nearest", view.nearest);
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+      const Color c = meshes[k].color;
+      mesh_program_.set("tint", (1 / 255.0f) * Vec3f{static_cast<float>(c.red), static_cast<float>(c.green),
+                                                     static_cast<float>(c.blue)});
+      meshes_.draw(k, meshes[k].sides);
+    }
     glDisable(GL_STENCIL_TEST);
     glDisable(GL_DEPTH_TEST);
   }
@@ -514,10 +583,12 @@ class GlRenderer final : public Renderer {
       to_result_;
   std::array<Framebuffer, 2> to_surface_;
   SphereBuffer balls_, water_;
+  MeshBuffer meshes_;
   VertexArray nothing_, edge_array_;
   Buffer edge_buffer_;
-  Program sun_program_, sphere_program_, reduce_program_, smooth_program_, water_normal_program_, ambient_program_,
-      blur_program_, backdrop_program_, ball_program_, water_program_, resolve_program_, edge_program_;
+  Program sun_program_, mesh_sun_program_, sphere_program_, mesh_program_, reduce_program_, smooth_program_,
+      water_normal_program_, ambient_program_, blur_program_, backdrop_program_, ball_program_, water_program_,
+      resolve_program_, edge_program_;
 };
 
 }  // namespace

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "hooke/base/vec3.h"
+#include "hooke/core/triangle_mesh.h"
+#include "hooke/render/color_map.h"
+
+namespace hooke {
+
+/// A surface of triangles to be drawn.
+struct ShadedMesh {
+  struct Corner {
+    Vec3f position;  ///< relative to Frame::origin, m
+    Vec3f normal;    ///< unit vector; away from the viewer it is turned around
+  };
+  enum class Sides {
+    both,
+    inner,  ///< only what faces away from the viewer: cut open, so that what is inside can be seen
+  };
+
+  std::vector<Corner> corners;  ///< three a triangle, against the clock as seen from outside
+  Color color;
+  Sides sides = Sides::both;
+};
+
+/// The corners of a mesh with normals that are smooth where triangles meet at less than 40 degrees.
+std::vector<ShadedMesh::Corner> shaded_corners(const TriangleMesh& mesh);
+
+}  // namespace hooke

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/scene/mesh_field.h"
+
+#include <openvdb/tools/MeshToVolume.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hooke/base/parallel.h"
+
+namespace hooke {
+namespace {
+
+constexpr int kCells = DistanceFieldView::kCells, kSamples = DistanceFieldView::kSamples;
+
+// The mesh as OpenVDB asks for it, in cells.
+class CellMesh {
+ public:
+  CellMesh(const TriangleMesh& mesh, double cell) : mesh_(mesh), per_cell_(1 / cell) {}
+
+  std::size_t polygonCount() const { return mesh_.triangles.size(); }
+  std::size_t pointCount() const { return mesh_.vertices.size(); }
+  std::size_t vertexCount(std::size_t) const { return 3; }
+  void getIndexSpacePoint(std::size_t triangle, std::size_t corner, openvdb::Vec3d& place) const {
+    const Vec3d& x = mesh_.vertices[mesh_.triangles[triangle][corner]];
+    place = openvdb::Vec3d(per_cell_ * x.x, per_cell_ * x.y, per_cell_ * x.z);
+  }
+
+ private:
+  const TriangleMesh& mesh_;
+  double per_cell_;
+};
+
+// Bricks lie as the leaves of the grid do; a leaf's first samples are also the last ones of the brick before.
+class BrickLayout {
+ public:
+  explicit BrickLayout(const openvdb::FloatGrid& grid) {
+    const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
+    for (int axis = 0; axis < 3; ++axis) {
+      first_[axis] = floor_to_brick(box.min()[axis]) - 1;
+      count_[axis] = floor_to_brick(box.max()[axis]) - first_[axis] + 1;
+    }
+  }
+
+  static int floor_to_brick(int index) { return index >= 0 ? index / kCells : -((kCells - 1 - index) / kCells); }
+
+  int first(int axis) const { return first_[axis]; }
+  int count(int axis) const { return count_[axis]; }
+  std::size_t size() const {
+    return static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) *
+           static_cast<std::size_t>(count_[2]);
+  }
+  std::size_t at(int x, int y, int z) const {
+    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(count_[1]) + static_cast<std::size_t>(y)) *
+               static_cast<std::size_t>(count_[0]) +
+           static_cast<std::size_t>(x);
+  }
+  openvdb::Coord origin(std::size_t brick) const {
+    const auto columns = static_cast<std::size_t>(count_[0]), rows = static_cast<std::size_t>(count_[1]);
+    return {kCells * (first_[0] + static_cast<int>(brick % columns)),
+            kCells * (first_[1] + static_cast<int>(brick / columns % rows)),
+            kCells * (first_[2] + static_cast<int>(brick / columns / rows))};
+  }
+
+ private:
+  int first_[3], count_[3];
+};
+
+// The bricks that hold a sample of some leaf, in ascending order.
+std::vector<std::size_t> bricks_in_use(const openvdb::FloatGrid& grid, const BrickLayout& layout) {
+  std::vector<std::size_t> used;
+  for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
+    if (leaf->isEmpty()) continue;
+    const openvdb::Coord at = leaf->origin();
+    for (int corner = 0; corner < 8; ++corner) {
+      const int b[3] = {BrickLayout::floor_to_brick(at[0]) - layout.first(0) - (corner & 1),
+                        BrickLayout::floor_to_brick(at[1]) - layout.first(1) - (corner >> 1 & 1),
+                        BrickLayout::floor_to_brick(at[2]) - layout.first(2) - (corner >> 2)};
+      used.push_back(layout.at(b[0], b[1], b[2]));
+    }
+  }
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  return used;
+}
+
+void fill_samples(const openvdb::FloatGrid& grid, const BrickLayout& layout, const std::vector<std::size_t>& used,
+                  double cell, std::vector<float>& samples) {
+  constexpr std::size_t kPerBrick = std::size_t{kSamples} * kSamples * kSamples;
+  samples.resize(used.size() * kPerBrick);
+  parallel_ranges(used.size(), 16, [&](std::size_t first, std::size_t last) {
+    const auto values = grid.getConstAccessor();
+    for (std::size_t brick = first; brick < last; ++brick) {
+      const openvdb::Coord origin = layout.origin(used[brick]);
+      float* out = samples.data() + brick * kPerBrick;
+      for (int z = 0; z < kSamples; ++z) {
+        for (int y = 0; y < kSamples; ++y) {
+          for (int x = 0; x < kSamples; ++x) {
+            *out++ = static_cast<float>(cell * static_cast<double>(values.getValue(origin.offsetBy(x, y, z))));
+          }
+        }
+      }
+    }
+  });
+}
+
+}  // namespace
+
+double expected_samples(const TriangleMesh& mesh, const FieldOptions& options) {
+  double area = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vec3d n = cross(mesh.vertices[t[1]] - mesh.vertices[t[0]], mesh.vertices[t[2]] - mesh.vertices[t[0]]);
+    area += 0.5 * std::sqrt(dot(n, n));
+  }
+  // Bricks that the band only touches are as many again as half a brick on either side.
+  const double band = (options.closed ? 4 : 2) * options.reach + (4 + kCells) * options.cell;
+  return area * band / (options.cell * options.cell * options.cell);
+}
+
+DistanceField make_distance_field(const TriangleMesh& mesh, const FieldOptions& options) {
+  const CellMesh cells(mesh, options.cell);
+  // Distances in cells; three more than asked for, so that all corners of a cell that reaches so far, and of those
+  // around it, are there.
+  const auto outside = static_cast<float>(std::ceil(options.reach / options.cell) + 3);
+  const float inside = options.closed ? 3 * outside : outside;
+  const int flags = options.closed ? 0 : openvdb::tools::UNSIGNED_DISTANCE_FIELD;
+  const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
+  const auto grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(cells, *transform, outside, inside, flags);
+  const BrickLayout layout(*grid);
+  DistanceField field;
+  field.cell = options.cell;
+  field.open = !options.closed;
+  field.band = options.cell * static_cast<double>(outside);
+  field.origin = options.cell * kCells *
+                 Vec3d{static_cast<double>(layout.first(0)), static_cast<double>(layout.first(1)),
+                       static_cast<double>(layout.first(2))};
+  field.bricks = {layout.count(0), layout.count(1), layout.count(2)};
+  const std::vector<std::size_t> used = bricks_in_use(*grid, layout);
+  field.directory.assign(layout.size(), DistanceFieldView::kNothing);
+  for (std::size_t i = 0; i < used.size(); ++i) field.directory[used[i]] = static_cast<std::int32_t>(i);
+  fill_samples(*grid, layout, used, options.cell, field.samples);
+  field.min = field.max = mesh.vertices.front();
+  for (const Vec3d& x : mesh.vertices) {
+    for (int axis = 0; axis < 3; ++axis) {
+      component(field.min, axis) = std::min(component(field.min, axis), component(x, axis));
+      component(field.max, axis) = std::max(component(field.max, axis), component(x, axis));
+    }
+  }
+  return field;
+}
+
+}  // namespace hooke
