@@ -88,15 +88,15 @@ class MotionReader {
   Findings& findings_;
 };
 
-std::optional<std::size_t> material_named(const Json& name, const std::string& where, const Scene& scene,
+std::optional<std::size_t> material_named(const std::string& name, const std::string& where, const Scene& scene,
                                           Findings& findings) {
   std::vector<std::string> names;
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     if (scene.materials[m].name == name) return m;
     names.push_back(scene.materials[m].name);
   }
-  const std::string text = name.get<std::string>(), hint = did_you_mean(text, names);
-  findings.add(where, fmt::format("is \"{}\", which is no material{}{} the scene has {}", printable(text, 60), hint,
+  const std::string hint = did_you_mean(name, names);
+  findings.add(where, fmt::format("is \"{}\", which is no material{}{} the scene has {}", printable(name, 60), hint,
                                   hint.empty() ? ";" : "", quoted_list(names)));
   return {};
 }
@@ -111,7 +111,8 @@ void build_colliders(Json& colliders, const ShapeFiles& files, Scene& scene, Fin
     Collider collider;
     if (!json.contains("name")) json["name"] = fmt::format("collider_{}", i + 1);
     if (json.contains("material") && !findings.touches(join_path(where, "material"))) {
-      collider.material = material_named(json.at("material"), join_path(where, "material"), scene, findings);
+      collider.material =
+          material_named(json.at("material").get<std::string>(), join_path(where, "material"), scene, findings);
     }
     std::optional<Motion> motion = Motion(NoMotion{});
     if (json.contains("motion") && !findings.touches(join_path(where, "motion"))) {
