@@ -4,7 +4,6 @@
 #include "hooke/scene/mesh_field.h"
 
 #include <openvdb/tools/MeshToVolume.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +38,7 @@ class BrickLayout {
  public:
   explicit BrickLayout(const openvdb::FloatGrid& grid) {
     const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
-    for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
       first_[axis] = floor_to_brick(box.min()[axis]) - 1;
       count_[axis] = floor_to_brick(box.max()[axis]) - first_[axis] + 1;
     }
@@ -47,8 +46,8 @@ class BrickLayout {
 
   static int floor_to_brick(int index) { return index >= 0 ? index / kCells : -((kCells - 1 - index) / kCells); }
 
-  int first(int axis) const { return first_[axis]; }
-  int count(int axis) const { return count_[axis]; }
+  int first(std::size_t axis) const { return first_[axis]; }
+  int count(std::size_t axis) const { return count_[axis]; }
   std::size_t size() const {
     return static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) *
            static_cast<std::size_t>(count_[2]);
