@@ -32,7 +32,7 @@ struct ByCause {
 
 /// Work, J, or power, W, by cause: positive where it adds to the kinetic energy. The work of a force over a step is the
 /// force times the step times the mean of the velocities before and after, so that the sum over all causes is what the
-/// kinetic energy gains, but for rounding (docs/theory.md eq. 10).
+/// kinetic energy gains, but for rounding (docs/theory.md eq. 13).
 using Work = ByCause<double>;
 
 }  // namespace hooke

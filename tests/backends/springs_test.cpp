@@ -151,6 +151,40 @@ TEST_P(Springs, OfParticlesThatAreRemovedVanish) {
   }
 }
 
+// What all causes did, J.
+double total_work(const Ledger& ledger) {
+  double sum = ledger.springs.work + ledger.attraction.work + ledger.hold.work;
+  for (const double work : ledger.work.of) sum += work;
+  return sum;
+}
+
+// Contacts, walls, colliders, drag, gravity, springs and what holds particles: together they do what the kinetic energy
+// gains, for any step, where none leaves with its own.
+TEST_P(Springs, AndAllOtherCausesDoTheWorkThatTheKineticEnergyGains) {
+  Scene scene = scene_;
+  if (scene.domain.boundary[0] == Boundary::open)
+    scene.domain.boundary[0] = scene.domain.boundary[2] = Boundary::spring;
+  for (const Engine& on : {engine(2), kReference}) {
+    Simulation s = simulate(scene, particles_, on);
+    const double before = measured(s).kinetic_energy;
+    double throughput = before;
+    for (int k = 0; k < 4; ++k) {
+      ASSERT_TRUE(advance(s, 25));
+      double scale = 0;
+      for (const double work : s.ledger().work.of) scale += std::abs(work);
+      throughput = std::max(throughput, scale);
+      const double gain = measured(s).kinetic_energy - before;
+      // Each step rounds each velocity once: some 1e5 roundings of half a unit, mostly of either sign.
+      const double limit = on.precision == Precision::single_precision ? 1e-5 : 1e-12;
+      EXPECT_NEAR(total_work(s.ledger()), gain, limit * throughput) << on.name() << " after " << s.step_count();
+      EXPECT_GT(std::abs(gain), 0.01 * before);
+    }
+    for (const Cause cause : {Cause::contact_shear, Cause::contact_damping, Cause::drag}) {
+      EXPECT_LT(s.ledger().work[cause], 0) << "they only take";
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, Springs, all_busy_kinds(), [](const auto& instance) { return instance.param.name(); });
 
 }  // namespace
