@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "hooke/io/checkpoint.h"
 #include "hooke/io/export.h"
 #include "hooke/scene/load_scene.h"
 #include "log.h"
@@ -43,6 +44,9 @@ Expected<std::optional<Scene>> scene_of(const std::filesystem::path& run) {
   options.with_particles = false;
   auto loaded = load_scene(file, options);
   if (!loaded) return fail(std::move(loaded.error()));
+  auto structure = read_structure_of_run(run);
+  if (!structure) return fail(std::move(structure.error()));
+  loaded->scene.structure = std::move(*structure);
   return std::move(loaded->scene);
 }
 

@@ -198,7 +198,7 @@ void add_render(CLI::App& app, CommandLine& line) {
 }
 
 constexpr ExportContent kContents[] = {ExportContent::particles, ExportContent::surface, ExportContent::volume,
-                                       ExportContent::contacts};
+                                       ExportContent::contacts, ExportContent::cloths};
 
 // What `export` can write, by content.
 std::string format_list() {

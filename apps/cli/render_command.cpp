@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "commands.h"
+#include "hooke/io/checkpoint.h"
 #include "hooke/io/report.h"
 #include "hooke/io/run_folder.h"
 #include "hooke/render/film.h"
@@ -84,7 +85,13 @@ Expected<LoadedScene> load_kept_scene(const RenderArguments& arguments) {
   options.allow_outside = true;  // the particles that such paths lead to are not read again
   options.with_particles = false;
   const std::filesystem::path& run = arguments.run;
-  return load_scene((std::filesystem::is_directory(run) ? run : run.parent_path()) / kSceneFile, options);
+  const std::filesystem::path folder = std::filesystem::is_directory(run) ? run : run.parent_path();
+  auto loaded = load_scene(folder / kSceneFile, options);
+  if (!loaded) return loaded;
+  auto structure = read_structure_of_run(folder);
+  if (!structure) return fail(std::move(structure).error());
+  loaded->scene.structure = std::move(*structure);
+  return loaded;
 }
 
 Expected<void> check_time(double time, const RunReader& run) {

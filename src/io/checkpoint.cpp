@@ -240,6 +240,20 @@ Expected<Checkpoint> read_checkpoint(const std::filesystem::path& path) {
   });
 }
 
+Expected<std::shared_ptr<const Structure>> read_structure_of_run(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / kCheckpointFile;
+  return guarded(path, [&]() -> std::shared_ptr<const Structure> {
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) return nullptr;
+    check_seal(path);
+    const auto held = hdf5::lock();
+    const hdf5::File file(path, JournaledFile::Mode::read);
+    SimulationState state;
+    read_structure(file.id(), path, state);
+    return state.structure;
+  });
+}
+
 std::vector<Finding> check_resumable(const RunInfo& checkpoint, const RunInfo& scene) {
   std::vector<Finding> findings;
   const auto differs = [&](const char* where, const auto& old_value, const auto& new_value) {

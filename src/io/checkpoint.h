@@ -25,6 +25,10 @@ Expected<void> write_checkpoint(const std::filesystem::path& file, const Simulat
 /// damaged or of a later format is one Error::Kind::bad_input that says which.
 Expected<Checkpoint> read_checkpoint(const std::filesystem::path& file);
 
+/// What ties the particles of a run, from the checkpoint in its folder: null where the run has nothing that does, or
+/// has written no checkpoint yet.
+Expected<std::shared_ptr<const Structure>> read_structure_of_run(const std::filesystem::path& folder);
+
 /// Whether a file bears the mark of a checkpoint; says nothing about its state.
 bool is_checkpoint(const std::filesystem::path& file);
 

@@ -23,6 +23,7 @@ constexpr ExportContent kParticles = ExportContent::particles;
 constexpr ExportContent kContacts = ExportContent::contacts;
 constexpr ExportContent kSurface = ExportContent::surface;
 constexpr ExportContent kVolume = ExportContent::volume;
+constexpr ExportContent kCloths = ExportContent::cloths;
 
 constexpr Format kFormats[] = {
     {{".csv", kParticles, "a table: step,t,id,material,x,y,z,vx,vy,vz"}, export_csv},
@@ -42,6 +43,8 @@ constexpr Format kFormats[] = {
     {{".pvd", kContacts, "ParaView collection of one .vtp a snapshot"}, export_contacts_vtp},
     {{".obj", kSurface, "Wavefront OBJ mesh"}, export_surface_obj},
     {{".ply", kSurface, "binary PLY mesh with velocities"}, export_surface_ply},
+    {{".obj", kCloths, "Wavefront OBJ mesh of triangles"}, export_cloth_obj},
+    {{".ply", kCloths, "binary PLY mesh of triangles with velocities"}, export_cloth_ply},
     {{".vdb", kVolume, "OpenVDB: density, surface (level set), vel"}, export_vdb_volume},
 };
 
@@ -90,6 +93,8 @@ const char* to_string(ExportContent content) {
       return "surface";
     case ExportContent::volume:
       return "volume";
+    case ExportContent::cloths:
+      return "cloths";
   }
   return "";
 }

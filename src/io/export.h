@@ -15,9 +15,9 @@
 namespace hooke {
 
 /// What of a snapshot is written.
-enum class ExportContent { particles, contacts, surface, volume };
+enum class ExportContent { particles, contacts, surface, volume, cloths };
 
-/// "particles", "contacts", "surface", "volume".
+/// "particles", "contacts", "surface", "volume", "cloths".
 const char* to_string(ExportContent content);
 
 /// How the surface of a fluid is drawn around its particles: a smooth skin around spheres. A lone particle's is exactly
@@ -36,7 +36,7 @@ struct ExportOptions {
   ExportContent content = ExportContent::particles;
   /// The rules of the run, with its materials: needed for contacts, which are computed from a snapshot by the law and
   /// its coefficients. Where other formats say the domain, the direction up or colours, they take them from here, and
-  /// leave them out or fall back without.
+  /// leave them out or fall back without. Cloths need its structure.
   const Scene* scene = nullptr;
   SurfaceOptions surface;
 };

@@ -33,6 +33,8 @@ std::vector<std::filesystem::path> export_each(
     const ExportJob& job, const std::function<void(std::size_t, const std::filesystem::path&)>& write);
 
 // One a format, each in a file of its own; export.cpp lists them.
+ExportFunction export_cloth_obj;
+ExportFunction export_cloth_ply;
 ExportFunction export_contacts_csv;
 ExportFunction export_contacts_vtp;
 ExportFunction export_csv;

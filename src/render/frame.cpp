@@ -7,6 +7,7 @@
 
 #include "hooke/base/parallel.h"
 #include "hooke/render/aeration.h"
+#include "hooke/render/cloth_meshes.h"
 #include "hooke/render/collider_mesh.h"
 
 namespace hooke {
@@ -105,6 +106,18 @@ Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, 
       }
     }
   });
+  if (scene.structure && !scene.structure->surfaces.empty()) {
+    std::vector<char> covered(particles.size(), 0);
+    const auto color_of = [&](std::size_t i) { return frame.spheres[i].color; };
+    for (ShadedMesh& mesh : cloth_meshes(scene, particles, frame.origin, color_of, covered)) {
+      frame.meshes.push_back(std::move(mesh));
+    }
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      if (covered[i] == 0) frame.spheres[kept++] = frame.spheres[i];
+    }
+    frame.spheres.resize(kept);
+  }
   return frame;
 }
 

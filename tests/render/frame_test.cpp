@@ -30,6 +30,32 @@ ParticleSet one_of_each(const Vec3d& corner = {0, 0, 0}) {
   return particles;
 }
 
+// A surface takes the place of the spheres of its particles.
+TEST(MakeFrame, SurfacesAreDrawnInPlaceOfTheirParticles) {
+  Scene scene = tank();
+  ParticleSet particles = one_of_each();
+  particles.position[0] = {1, 1, 1};
+  particles.position[1] = {2, 1, 1};
+  particles.position[2] = {2, 1, 3};
+  auto structure = std::make_shared<Structure>();
+  structure->surfaces = {{"linen", {1, 2, 3, 77}, {0, 1, 2, 0, 2, 3}}};  // there is no particle 77 any more
+  scene.structure = structure;
+  const Frame frame = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
+  ASSERT_EQ(frame.spheres.size(), 1u) << "particle 4";
+  ASSERT_EQ(frame.meshes.size(), 1u);
+  const ShadedMesh& mesh = frame.meshes[0];
+  ASSERT_EQ(mesh.corners.size(), 3u) << "one triangle is left";
+  EXPECT_EQ(mesh.corners[0].normal, (Vec3f{0, -1, 0}));
+  EXPECT_EQ(mesh.color, (Color{0xc0, 0x20, 0x40}));
+  EXPECT_EQ(mesh.corners[2].position, vec_cast<float>(particles.position[2] - frame.origin));
+
+  // Across a periodic face its two ends are neighbours, not on a picture.
+  scene.domain.boundary = {Boundary::periodic, Boundary::periodic, Boundary::periodic};
+  particles.position[1].x = scene.domain.min.x + 0.9 * scene.domain.length(0);
+  const Look look = make_look(scene, particles, ColorBy::material);
+  EXPECT_TRUE(make_frame(scene, particles, 0, look, 1.5).meshes[0].corners.empty());
+}
+
 TEST(MakeFrame, SpheresArePlacedColouredAndSizedByTheirParticles) {
   const Scene scene = tank();
   const ParticleSet particles = one_of_each();
