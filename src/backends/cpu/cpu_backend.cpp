@@ -205,8 +205,11 @@ class CpuBackend final : public Backend {
     if (!held_.none()) hold.book(ledger_.hold, scene_.integrator);
     records_.swap(next_);
     forcing.stop();
-    if (released) list_.forget();
-    if (!verlet()) follow_motion();
+    if (!verlet()) {
+      follow_motion();
+    } else if (released) {  // nobody has moved; rows are mended before the next forces, but somebody may look
+      threads_.run([&] { list_.mend_released(records_.data()); });
+    }
     book(removed);
     return condition;
   }
@@ -392,12 +395,16 @@ class CpuBackend final : public Backend {
     }
   }
 
-  // Whether a pair that a spring kept apart may touch from now on.
+  // Whether pairs that springs kept apart may touch from the next step on.
   bool apply_springs(bool may_tear, SpringSums& sums) {
     pass_.applied = nullptr;
     if (springs_.empty()) return false;
     bool released = false;
-    threads_.run([&] { released = springs_.apply(records_.data(), may_tear, sums); });
+    threads_.run([&] {
+      const auto& pairs = springs_.apply(records_.data(), may_tear, sums);
+      list_.release(pairs);
+      released = !pairs.empty();
+    });
     pass_.applied = springs_.forces();
     return released;
   }

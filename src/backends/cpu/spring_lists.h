@@ -143,13 +143,14 @@ class SpringLists {
   const Vec3<Real>* forces() const { return force_.data(); }
 
   /// Sums up the springs of every particle where `records` are. With `may_tear`, those that are stretched too far
-  /// break. Returns whether a pair that was kept apart may touch now.
-  bool apply(const Record* records, bool may_tear, SpringSums& sums) {
+  /// break. Returns the pairs (indices) that were kept apart and may touch from now on.
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& apply(const Record* records, bool may_tear,
+                                                                    SpringSums& sums) {
     pass_.records = records;
     pass_.kinds = kinds_.data();
     pass_.force = force_.data();
     pass_.may_tear = may_tear && tearable_;
-    std::atomic<bool> released{false};
+    released_.clear();
     parallel_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
       SpringSums part;
       for (std::size_t at = first; at < last; at += kSegment) {
@@ -165,13 +166,13 @@ class SpringLists {
         run_(pass_, work);
         part.power.add(power.data(), std::min(kSegment, last - at));
         for (std::size_t g = 0; g < work.group_count; ++g) {
-          if (torn[g] != 0 && settle_torn(records, at / kLanes + g, part)) released = true;
+          if (torn[g] != 0) settle_torn(records, at / kLanes + g, part);
         }
       }
       const std::lock_guard lock(mutex_);
       sums.add(part);
     });
-    return released;
+    return released_;
   }
 
   /// What the forces of the last apply() did to the particles of segment s between two states, and under velocity
@@ -256,14 +257,14 @@ class SpringLists {
   }
 
   // Takes the springs that tore in a group out of its rows. Each of its two ends does so; the lower one counts it.
-  bool settle_torn(const Record* records, std::size_t g, SpringSums& sums) {
-    bool released = false;
+  void settle_torn(const Record* records, std::size_t g, SpringSums& sums) {
     for (std::uint32_t r = first_row_[g]; r < first_row_[g + 1]; ++r) {
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
         if (rows_[r].kind[lane] != kTornSpring) continue;
         rows_[r].kind[lane] = kNoSpring;
         const Record& own = records[g * kLanes + lane];
-        const Record& other = records[rows_[r].partner[lane] / record_offset<Real>(1)];
+        const std::uint32_t partner = rows_[r].partner[lane] / record_offset<Real>(1);
+        const Record& other = records[partner];
         const std::uint32_t rank = rank_of(own.rank);
         const Side& side = sides_[first_side_[rank] + (r - first_row_[g])];
         if (side.partner < rank) continue;
@@ -273,11 +274,10 @@ class SpringLists {
         if (structure_->springs.contact[side.spring] == 0) {
           const std::lock_guard lock(mutex_);
           apart_.release(rank, side.partner);
-          released = true;
+          released_.emplace_back(static_cast<std::uint32_t>(g * kLanes + lane), partner);
         }
       }
     }
-    return released;
   }
 
   double energy_of(std::uint32_t spring, const Record& i, const Record& p) const {
@@ -303,6 +303,8 @@ class SpringLists {
   LargeVector<Side> sides_;  // of rank r: first_side_[r] to first_side_[r + 1]
   std::vector<std::uint32_t> first_side_;
   ApartPairs apart_;
+
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> released_;  // by the last apply(): indices of their ends
 
   std::size_t count_ = 0;  // particles laid out
   LargeVector<SpringRow<Real>> rows_;

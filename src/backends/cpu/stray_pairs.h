@@ -153,12 +153,12 @@ class StrayPairs {
     double range;
   };
 
-  /// Mends the rows that lack a stray, or somebody whom a stray touches. Those without a bit in `strayed` are found
-  /// where place_of(i) says. False where a stray is lost.
+  /// Mends the rows that have `lacks`, and those that lack a stray, or somebody whom a stray touches. Those without a
+  /// bit in `strayed` are found where place_of(i) says. False where a stray is lost.
   template <class PlaceOf>
   bool find(std::span<const std::uint32_t> strays, std::span<const std::uint16_t> strayed, const PlaceOf& place_of,
-            std::uint32_t filling, Room& room, MendedRows& mended) const {
-    room.lacks.clear();
+            std::uint32_t filling, const std::vector<Lack>& lacks, Room& room, MendedRows& mended) const {
+    room.lacks.assign(lacks.begin(), lacks.end());
     std::atomic<bool> lost{false};
     room.ranges.resize(std::max(room.ranges.size(), strays.size() / kGrain + 1));
     parallel_ranges(strays.size(), kGrain, [&](std::size_t first, std::size_t last) {

@@ -99,6 +99,7 @@ class VerletList {
     moved_.resize(groups);
     strayed_.resize(groups);
     mended_.clear(groups);
+    released_.clear();
     const std::size_t many = count / kStrayCost + kLanes;  // a list with more strays does not last
     strays_.reserve(many);
     room_.reserve(many);
@@ -121,6 +122,18 @@ class VerletList {
   std::size_t segment_count() const { return list_.segments.size(); }
   std::size_t entry_count() const { return list_.entry_count(); }
   std::uint64_t build_count() const { return builds_; }
+
+  /// These pairs (indices) were kept apart and may touch from now on: rows get them when they are mended next.
+  void release(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
+    for (const auto& [i, p] : pairs) {
+      released_.push_back({i, order_[p], record_offset<Real>(p)});
+      released_.push_back({p, order_[i], record_offset<Real>(i)});
+    }
+  }
+  /// Mends rows for particles that have not moved since they were mended last.
+  void mend_released(const Record* records) {
+    if (listed_) mend(records);
+  }
 
   // Moving ----------------------------------------------------------------------------------------------------------
 
@@ -155,7 +168,7 @@ class VerletList {
       follow(records);
       follow_helps_ = 2 * strays_.size() < before;
     }
-    const std::size_t cost = kStrayCost * strays_.size();
+    const std::size_t cost = kStrayCost * (strays_.size() + released_.size());
     spent_ += cost;
     // What a step costs falls with the age of a list and rises with its strays: where both meet it has served best.
     if (cost * age_ > count_ + spent_) return forget();
@@ -333,7 +346,7 @@ class VerletList {
   // Finds the pairs of strays that touch and rows that lack them.
   void mend(const Record* records) {
     mended_.clear(anchors_.size());
-    if (strays_.empty()) return;
+    if (strays_.empty() && released_.empty()) return;
     const auto steps = static_cast<Real>(steps_);
     const double mild = MotionBounds<Real>::kMild * limits_.skin, half = 0.5 * skin_ + coarseness_;
     const Vec3<Real> middle = motion_.middle(steps);
@@ -346,7 +359,7 @@ class VerletList {
       }
       return {vec_cast<double>(records[i].x - middle), anywhere};
     };
-    if (!stray_pairs(records).find(strays_, strayed_, place_of, filling_, room_, mended_)) forget();
+    if (!stray_pairs(records).find(strays_, strayed_, place_of, filling_, released_, room_, mended_)) forget();
   }
 
   // Bounds of the displacements of a group, m.
@@ -391,6 +404,7 @@ class VerletList {
   std::vector<std::uint16_t> strayed_;  // a bit a lane
   MendedRows mended_;
   std::vector<std::uint32_t> strays_;
+  std::vector<MendedRows::Lack> released_;  // what rows lack of pairs that were kept apart when they were listed
   typename StrayPairs<Real>::Room room_;
   std::mutex mutex_;  // around strays_
   std::int64_t steps_ = 0, horizon_ = 0;  // since anchors followed last; how many they are good for
