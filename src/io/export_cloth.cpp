@@ -60,7 +60,8 @@ std::vector<fs::path> export_cloths(const ExportJob& job,
                                     void (*write)(OutputFile&, const Snapshot&, const ClothMesh&)) {
   const Scene* scene = job.options.scene;
   if (scene == nullptr || !scene->structure || scene->structure->surfaces.empty()) {
-    throw Failure(Error::Kind::bad_input, job.run.file(), "is of no run with cloths, or of one that has written no checkpoint yet");
+    throw Failure(Error::Kind::bad_input, job.run.file(),
+                  "is of no run with cloths, or of one that has written no checkpoint yet");
   }
   return export_each(job, [&](std::size_t index, const fs::path& file) {
     const Snapshot snapshot = take(job.run.read(index));
