@@ -34,10 +34,8 @@ class NeighbourList {
   struct Segment {
     const std::uint32_t* entries = nullptr;  // rows of kLanes
     std::array<std::uint32_t, kGroups + 1> first_row{};  // group g: rows first_row[g] to first_row[g + 1]
-    std::uint32_t ahead = 0;  // of its level, a group's neighbours are no more than so many particles after its first
   };
   std::vector<Segment> segments;
-  std::uint32_t ahead = 0;  // the most of all segments
 
   /// The rows of group g of segment s.
   std::span<const std::uint32_t> rows(std::size_t s, std::size_t g) const {
@@ -149,7 +147,6 @@ class GroupSearcher {
   template <class Room>
   std::size_t write_rows(std::size_t first, std::size_t end, const Room& room) {
     ranges_.clear();
-    ahead_ = 0;
     std::size_t most = 0, block_count = 0;
     for (std::size_t i = first; i < end; i = blocks_[block_count++].last) {
       most = std::max(most, find_block(i, end, blocks_[block_count]));
@@ -171,9 +168,6 @@ class GroupSearcher {
                                   near_.size() / 4};
     return search_(rule_, group);
   }
-
-  /// How far after the first of the last points written those of their level were looked for.
-  std::uint32_t ahead() const { return ahead_; }
 
  private:
   struct Level {
@@ -206,11 +200,7 @@ class GroupSearcher {
     std::size_t points = 0;
     for (std::size_t other = 0; other < levels_.size(); ++other) {
       const Vec3d reach{level.reach[other], level.reach[other], level.reach[other]};
-      const std::size_t found = ranges_.size();
       points += cells_.find(other, vec_cast<double>(min) - reach, vec_cast<double>(max) + reach, ranges_);
-      for (std::size_t k = found; other == l && k < ranges_.size(); ++k) {
-        if (ranges_[k].to > first) ahead_ = std::max(ahead_, ranges_[k].to - static_cast<std::uint32_t>(first));
-      }
     }
     block.range_count = static_cast<std::uint32_t>(ranges_.size() - before);
     return points;
@@ -255,7 +245,6 @@ class GroupSearcher {
   std::vector<Level> levels_;
   std::array<SearchBlock<Real>, NeighbourList::kLanes> blocks_;
   std::vector<SearchRange> ranges_;
-  std::uint32_t ahead_ = 0;
   std::vector<std::uint64_t> rows_, keys_;
   std::vector<std::int32_t> near_;
   std::vector<Real> x_, y_, z_, square_, radius_;
@@ -280,13 +269,10 @@ void build_neighbour_list(const CellList& cells, const NeighbourRule<Real>& rule
                                                      [&](std::size_t most) { return writer.room(most); });
         writer.add(rows * kLanes);
         segment.first_row[g + 1] = segment.first_row[g] + static_cast<std::uint32_t>(rows);
-        segment.ahead = std::max(segment.ahead, searcher.ahead());
       }
       segment.entries = writer.finish_segment();
     }
   });
-  list.ahead = 0;
-  for (const NeighbourList::Segment& segment : list.segments) list.ahead = std::max(list.ahead, segment.ahead);
 }
 
 }  // namespace hooke

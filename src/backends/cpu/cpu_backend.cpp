@@ -455,16 +455,12 @@ class CpuBackend final : public Backend {
     }
   }
 
-  // In the time that so many groups take a record comes from the furthest memory.
-  static constexpr std::size_t kGroupsAhead = 32;
-
   void run_groups(std::size_t s, std::size_t g, std::size_t end, const std::uint32_t* rows,
                   const std::uint32_t* first_row, SegmentReport& report) const {
     SegmentWork<Real> work;
     work.first = s * kSegment + g * kLanes;
     work.group_count = end - g;
     work.rows = rows;
-    work.ahead = list_.ahead() + kLanes * kGroupsAhead;
     work.first_row = first_row;
     work.notes = report.notes.data() + g;
     work.far = report.far.data() + g;

@@ -51,7 +51,6 @@ struct ForcePass {
   const PairRow<Real>* pairs = nullptr;       // material_count squared
   const MaterialRow<Real>* materials = nullptr;
   std::size_t material_count = 1;
-  bool has_levels = false;                    // radii are so different that large particles lie apart in memory
   Real dt{};                                  // s
   Vec3<Real> gravity{};                       // m/s^2
   Vec3<Real> min{}, max{}, length{};          // domain, m
@@ -102,7 +101,6 @@ struct SegmentWork {
   std::size_t group_count = 0;
   const std::uint32_t* rows = nullptr;
   const std::uint32_t* first_row = nullptr;  // group_count + 1
-  std::size_t ahead = 0;  // records: so much later those come that are to be asked for now
   unsigned char* notes = nullptr;            // GroupNote bits, one entry a group
   std::uint16_t* far = nullptr;  // a bit a particle, one entry a group: further from its anchor than allowed
   ExactParts* sums = nullptr;                // PassSum::count of them, which are added to

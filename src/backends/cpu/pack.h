@@ -202,9 +202,8 @@ HOOKE_HD bool any(const Mask<Real>& m) {
   return bits(m) != 0;
 }
 
-/// Asks for the cache line of an address ahead of time; the second one leaves it in the second level's cache.
+/// Asks for the cache line of an address ahead of time.
 HOOKE_HD void prefetch(const void* at) { __builtin_prefetch(at); }
-HOOKE_HD void prefetch_to_second_level(const void* at) { __builtin_prefetch(at, 0, 2); }
 
 /// Consecutive numbers, one a lane, at any address.
 template <class Real>

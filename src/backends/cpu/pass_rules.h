@@ -66,7 +66,6 @@ struct PassRules {
     pass.pairs = pairs.data();
     pass.materials = materials.data();
     pass.material_count = n;
-    pass.has_levels = level_radius.size() > 1;
   }
 
   // The largest radius of a level is no more than one and a half times the smallest.

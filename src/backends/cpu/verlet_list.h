@@ -118,7 +118,6 @@ class VerletList {
   }
   bool is_mended(std::size_t s, std::size_t g) const { return mended_.holds(s * kGroups + g); }
   const NeighbourList::Segment& segment(std::size_t s) const { return list_.segments[s]; }
-  std::size_t ahead() const { return list_.ahead; }
   std::size_t segment_count() const { return list_.segments.size(); }
   std::size_t entry_count() const { return list_.entry_count(); }
   std::uint64_t build_count() const { return builds_; }
