@@ -69,7 +69,9 @@ struct Ledger {
   StepRates last;
 
   /// Taken out by the dashpots of contacts between particles, and by drag, J.
-  double dissipated() const { return 0 - (work[Cause::contact_shear] + work[Cause::contact_damping] + work[Cause::drag]); }
+  double dissipated() const {
+    return 0 - (work[Cause::contact_shear] + work[Cause::contact_damping] + work[Cause::drag]);
+  }
 
   friend bool operator==(const Ledger&, const Ledger&) = default;
 };
