@@ -6,13 +6,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <memory>
 #include <mutex>
 #include <thread>
-#include <utility>
 
 #include "hooke/backends/cpu/attraction_forces.h"
 #include "hooke/backends/cpu/boundaries.h"
@@ -23,6 +21,7 @@
 #include "hooke/backends/cpu/id_table.h"
 #include "hooke/backends/cpu/isa.h"
 #include "hooke/backends/cpu/pass_rules.h"
+#include "hooke/backends/cpu/segment_report.h"
 #include "hooke/backends/cpu/spring_lists.h"
 #include "hooke/backends/cpu/threads.h"
 #include "hooke/backends/cpu/verlet_list.h"
@@ -179,7 +178,7 @@ class CpuBackend final : public Backend {
       Condition found;
       for (std::size_t s = first; s < last; ++s) {
         run_segment(s, report);
-        add_up(report, part);
+        report.add_to(part);
         hold_still(s, pass_.acceleration, hold_part);
         springs_.add_work(s, records_.data(), next_.data(), pass_.acceleration, Real(0.5) * pass_.dt, spring_part);
         attraction_.add_work(s * kSegment, std::min((s + 1) * kSegment, count_), records_.data(), next_.data(),
@@ -259,13 +258,6 @@ class CpuBackend final : public Backend {
   StageTimes stage_times() const override { return times_; }
 
  private:
-  // Where the groups of one segment report.
-  struct SegmentReport {
-    std::array<unsigned char, kGroups> notes;
-    std::array<std::uint16_t, kGroups> far;
-    std::array<ExactParts, PassSum::count> sums;
-  };
-
   void fill_unused(LargeVector<Record>& records) const {
     std::fill(records.begin() + static_cast<std::ptrdiff_t>(count_), records.end() - 1, nowhere_record<Real>(Real(0)));
     records.back() = filling_record<Real>();
@@ -438,9 +430,7 @@ class CpuBackend final : public Backend {
 
   void run_segment(std::size_t s, SegmentReport& report) const {
     const std::size_t groups = std::min(kGroups, (count_ - s * kSegment + kLanes - 1) / kLanes);
-    report.notes.fill(0);
-    report.far.fill(0);
-    for (ExactParts& parts : report.sums) parts.count = 0;
+    report.clear();
     for (std::size_t g = 0; g < groups;) {
       std::size_t end = g + 1;
       if (list_.is_mended(s, g)) {
@@ -466,29 +456,6 @@ class CpuBackend final : public Backend {
     work.far = report.far.data() + g;
     work.sums = report.sums.data();
     loops_.force_pass(pass_, work);
-  }
-
-  static void add_up(const SegmentReport& report, StepSums& sums) {
-    const auto add = [&](int sum, ExactSum& to) {
-      const ExactParts& parts = report.sums[static_cast<std::size_t>(sum)];
-      to.add(parts.values, parts.count);
-    };
-    constexpr std::pair<PassSum::Power, Cause> kPowers[] = {{PassSum::contact_spring, Cause::contact_spring},
-                                                            {PassSum::contact_shear, Cause::contact_shear},
-                                                            {PassSum::contact_damping, Cause::contact_damping},
-                                                            {PassSum::drag, Cause::drag},
-                                                            {PassSum::gravity, Cause::gravity},
-                                                            {PassSum::wall, Cause::wall},
-                                                            {PassSum::collider, Cause::collider}};
-    for (const auto& [power, cause] : kPowers) {
-      add(power, sums.power[cause]);
-      add(PassSum::next + power, sums.next_power[cause]);
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-      add(PassSum::wall_force + axis, sums.wall_force[axis]);
-      add(PassSum::collider_force + axis, sums.collider_force[axis]);
-      add(PassSum::drag_force + axis, sums.drag_force[axis]);
-    }
   }
 
   // The approach that was too fast, if one was: in double precision, each pair by its own limit.
@@ -564,7 +531,7 @@ class CpuBackend final : public Backend {
       HoldSums hold_part;
       for (std::size_t s = first; s < last; ++s) {
         run_segment(s, report);
-        add_up(report, part);
+        report.add_to(part);
         hold_still(s, evaluated.data(), hold_part);
       }
       const std::lock_guard lock(mutex_);

@@ -14,6 +14,7 @@
 
 #include "hooke/base/parallel.h"
 #include "hooke/render/gl/egl_context.h"
+#include "hooke/render/gl/gl_buffers.h"
 #include "hooke/render/gl/gl_objects.h"
 #include "hooke/render/gl/shaders.h"
 #include "hooke/render/visible_spheres.h"
@@ -35,88 +36,6 @@ constexpr int kSunMap = 1280;  // pixels along each side
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 float length_of(const Vec3d& v) { return static_cast<float>(std::sqrt(dot(v, v))); }
-
-// Spheres on the device, one instance of a triangle each.
-class SphereBuffer {
- public:
-  SphereBuffer() : array_(gl::make_vertex_array()), buffer_(gl::make_buffer()) {
-    glBindVertexArray(array_.get());
-    glBindBuffer(GL_ARRAY_BUFFER, buffer_.get());
-    attribute(0, 3, GL_FLOAT, offsetof(Sphere, x));
-    attribute(1, 1, GL_FLOAT, offsetof(Sphere, radius));
-    attribute(2, 4, GL_UNSIGNED_BYTE, offsetof(Sphere, color));
-  }
-
-  bool empty() const { return spheres_.empty(); }
-  void clear() { spheres_.clear(); }
-  void add(const Sphere& sphere) { spheres_.push_back(sphere); }
-  void upload() const {
-    glBindBuffer(GL_ARRAY_BUFFER, buffer_.get());
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(spheres_.size() * sizeof(Sphere)), spheres_.data(),
-                 GL_STREAM_DRAW);
-  }
-  void draw() const {
-    glBindVertexArray(array_.get());
-    glDrawArraysInstanced(GL_TRIANGLES, 0, 3, static_cast<GLsizei>(spheres_.size()));
-  }
-
- private:
-  static void attribute(GLuint location, GLint components, GLenum type, std::size_t offset) {
-    glEnableVertexAttribArray(location);
-    glVertexAttribPointer(location, components, type, type == GL_UNSIGNED_BYTE, sizeof(Sphere),
-                          reinterpret_cast<const void*>(offset));
-    glVertexAttribDivisor(location, 1);
-  }
-
-  VertexArray array_;
-  Buffer buffer_;
-  std::vector<Sphere> spheres_;
-};
-static_assert(sizeof(Sphere) == 20 && offsetof(Sphere, foam) == offsetof(Sphere, color) + 3);
-
-// Surfaces on the device, all of a frame in one buffer.
-class MeshBuffer {
- public:
-  MeshBuffer() : array_(gl::make_vertex_array()), buffer_(gl::make_buffer()) {
-    glBindVertexArray(array_.get());
-    glBindBuffer(GL_ARRAY_BUFFER, buffer_.get());
-    for (GLuint k = 0; k < 2; ++k) {
-      glEnableVertexAttribArray(k);
-      glVertexAttribPointer(k, 3, GL_FLOAT, GL_FALSE, sizeof(ShadedMesh::Corner),
-                            reinterpret_cast<const void*>(k * sizeof(Vec3f)));
-    }
-  }
-
-  void upload(std::span<const ShadedMesh> meshes) {
-    std::vector<ShadedMesh::Corner> corners;
-    first_.clear();
-    for (const ShadedMesh& mesh : meshes) {
-      first_.push_back(static_cast<GLint>(corners.size()));
-      corners.insert(corners.end(), mesh.corners.begin(), mesh.corners.end());
-    }
-    first_.push_back(static_cast<GLint>(corners.size()));
-    glBindBuffer(GL_ARRAY_BUFFER, buffer_.get());
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(ShadedMesh::Corner)), corners.data(),
-                 GL_STREAM_DRAW);
-  }
-
-  // The k-th of those uploaded.
-  void draw(std::size_t k, ShadedMesh::Sides sides) const {
-    glBindVertexArray(array_.get());
-    if (sides == ShadedMesh::Sides::inner) {
-      glEnable(GL_CULL_FACE);
-      glCullFace(GL_FRONT);
-    }
-    glDrawArrays(GL_TRIANGLES, first_[k], first_[k + 1] - first_[k]);
-    glDisable(GL_CULL_FACE);
-  }
-
- private:
-  VertexArray array_;
-  Buffer buffer_;
-  std::vector<GLint> first_;
-};
-static_assert(sizeof(ShadedMesh::Corner) == 2 * sizeof(Vec3f));
 
 // Between the lines of the ground: the power of ten of which the action is 3 to 30 long, m.
 float ground_step(const Frame& frame) {
