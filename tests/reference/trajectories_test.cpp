@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "deviation_limits.h"
+#include "hooke/base/random.h"
 #include "support/engines.h"
 
 namespace hooke::test {
@@ -96,6 +97,28 @@ TEST_P(LammpsOtherIntegrator, IsFollowedAtEveryStepGiven) {
   }
 }
 
+// The height of the centre of mass, m, at each row of `series`: the mean over runs whose starts differ by the rounding
+// of a float, 1e-7 of each coordinate, so that what chance does to one of them averages out.
+std::vector<double> mean_heights(const LoadedScene& loaded, const Engine& engine, const Table& series) {
+  constexpr std::uint64_t kRuns = 16;
+  std::vector<double> mean(series.rows.size(), 0);
+  for (std::uint64_t run = 0; run < kRuns; ++run) {
+    ParticleSet start = loaded.particles;
+    for (std::size_t i = 0; i < start.size(); ++i) {
+      const auto u = uniform4(run, i, 0);
+      start.position[i].x *= 1 + 1e-7 * (2 * u[0] - 1);
+      start.position[i].y *= 1 + 1e-7 * (2 * u[1] - 1);
+      start.position[i].z *= 1 + 1e-7 * (2 * u[2] - 1);
+    }
+    Simulation simulation = simulate(loaded.scene, start, engine);
+    for (std::size_t row = 0; row < mean.size(); ++row) {
+      if (!advance(simulation, static_cast<std::int64_t>(series.at(row, "step")) - simulation.step_count())) break;
+      mean[row] += measured(simulation).centre_of_mass.z / kRuns;
+    }
+  }
+  return mean;
+}
+
 // Where the paths of single particles have parted, what they do together has not.
 TEST_P(LammpsSeries, IsFollowed) {
   const LoadedScene loaded = reference().load();
@@ -104,6 +127,8 @@ TEST_P(LammpsSeries, IsFollowed) {
   const bool dam_break = series.has("front_position");
   const Limits limits(reference(), loaded, engine().precision);
   const bool single = engine().precision == Precision::single_precision;
+  const bool parts = single && !dam_break;
+  const std::vector<double> mean = parts ? mean_heights(loaded, engine(), series) : std::vector<double>{};
   Simulation simulation = simulate(loaded.scene, loaded.particles, engine());
   double most_energy = 0;
   for (std::size_t row = 0; row < series.rows.size(); ++row) {
@@ -116,18 +141,18 @@ TEST_P(LammpsSeries, IsFollowed) {
     const auto contacts_each = 2 * static_cast<double>(now.contacts) / static_cast<double>(now.particles);
     // README.md of the dam break: "At the last snapshots compare series: xcm, zcm within 1e-2 R, KE within 3 %, mean
     // contacts within 0.03, xmax within 0.5 R, max overlap within 20 %". Of the clusters: "KE to 5-10 % while moving,
-    // zcm to 1e-3 of R", which holds while single particles are followed too: later a dozen runs in double precision
-    // whose starts differ by 1e-7 spread over 0.056 R in zcm, and by more than the energy itself when all but at rest.
-    const bool followed = dam_break || !single || limits.at(step).position.has_value();
+    // zcm to 1e-3 of R", which holds while single particles are followed too. Later a run in single precision is one of
+    // many possible: at the end they spread over 0.04 R (standard deviation) in zcm, runs in double over 0.016 R, and
+    // by more than the energy itself when all but at rest. What they have in common is their mean: the shaking by
+    // rounding lets it settle some 0.04 R deeper.
+    const bool followed = !parts || limits.at(step).position.has_value();
     if (followed) {
       EXPECT_NEAR(now.kinetic_energy, energy, (dam_break ? 0.03 : 0.1) * energy) << "at step " << step;
+      EXPECT_NEAR(now.centre_of_mass.z, series.at(row, "zcm"), (dam_break ? 1e-2 : 1e-3) * radius)
+          << "at step " << step;
+    } else {
+      EXPECT_NEAR(mean[row], series.at(row, "zcm"), 0.1 * radius) << "at step " << step;
     }
-    EXPECT_NEAR(now.centre_of_mass.z, series.at(row, "zcm"),
-                (dam_break  ? 1e-2
-                 : followed ? 1e-3
-                            : 0.1) *
-                    radius)
-        << "at step " << step;
     if (dam_break) {
       EXPECT_NEAR(now.centre_of_mass.x, series.at(row, "xcm"), 1e-2 * radius) << "at step " << step;
       EXPECT_NEAR(contacts_each, series.at(row, "mean_contacts_per_particle"), 0.03) << "at step " << step;
