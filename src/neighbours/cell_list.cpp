@@ -20,7 +20,8 @@ void CellList::lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic
     levels_.back().grid.lay_out(min, max, periodic, reach);
     key_end_ += levels_.back().grid.key_end();
   }
-  const std::uint64_t most_slots = std::max<std::uint64_t>(4096, 2 * most_points);
+  // As much memory as two a point take where each entry stands for several cells, and the points' keys are kept.
+  const std::uint64_t most_slots = std::max<std::uint64_t>(4096, 4 * most_points);
   slot_bits_ = 0;
   while (key_end_ >> slot_bits_ > most_slots) ++slot_bits_;
 }

@@ -13,13 +13,12 @@ HOOKE_HD Mask<Real> is_inside(const Vec3<Pack<Real>>& x, const Vec3<Real>& from,
 
 // All colliders near the lanes' particles, in the scene's order. The first look tells whether any can be touched; what
 // follows is no part of the loop that everybody runs, and so not inlined into it.
-template <class Real>
+template <class Real, Materials kMaterials>
 struct ColliderLoop {
   using P = Pack<Real>;
   const ForcePass<Real>& pass;
   const Lanes<Real>& own;
   const Mask<Real>& present;
-  const P& radius;
 
   // The force of all of them, and whether there is one.
   HOOKE_HD Vec3<P> run(Mask<Real>& too_fast, bool& touched) const {
@@ -34,6 +33,7 @@ struct ColliderLoop {
   // Whether any lane touches any collider.
   __attribute__((noinline)) bool meet(Mask<Real>& too_fast, Vec3<P>& force) const {
     bool touched = false;
+    const P radius = surface_of<Real, kMaterials>(pass, own).d;
     for (std::size_t c = 0; c < pass.collider_count; ++c) {
       const PlacedCollider<Real>& collider = pass.colliders[c];
       const Mask<Real> near = present & is_inside(own.x, collider.near_from, collider.near_to);

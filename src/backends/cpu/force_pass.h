@@ -34,6 +34,14 @@ struct alignas(8 * sizeof(Real)) MaterialRow {
   Real unused;
 };
 
+/// The same numbers a column each, where materials are so few that a register or two hold a column.
+template <class Real>
+struct FewMaterials {
+  static constexpr std::size_t kPairs = 16;
+  alignas(64) Real stiffness[kPairs], shear[kPairs], damping[kPairs], reach[kPairs];  // by pair
+  alignas(64) Real inverse_mass[kPairs], drag[kPairs], mass[kPairs];                  // by material
+};
+
 enum class PeriodicKind {
   none,
   nearest,  // every periodic axis is at least two largest diameters long: only the nearest image can touch
@@ -50,6 +58,7 @@ struct ForcePass {
   Columns<Real> listed_at;                    // positions when the list was built, m
   const PairRow<Real>* pairs = nullptr;       // material_count squared
   const MaterialRow<Real>* materials = nullptr;
+  const FewMaterials<Real>* few = nullptr;    // null where there are more, or one
   std::size_t material_count = 1;
   Real dt{};                                  // s
   Vec3<Real> gravity{};                       // m/s^2

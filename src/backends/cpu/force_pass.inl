@@ -61,11 +61,10 @@ HOOKE_HD Quad<Real> load_rows(const Row* table, const Pack<Real>& index, int par
   });
 }
 
-// Stiffness, shear, damping and reach of the lanes' particles with others of some materials: read from the table of
-// pairs, where there are few kept in registers, for one material always the same.
+// How many materials there are: of a few all coefficients are kept in registers, of one they are always the same.
 enum class Materials { one, few, many };
-constexpr std::size_t kFewPairs = 16;
 
+// Stiffness, shear, damping and reach of the lanes' particles with others of some materials.
 template <class Real, Materials kMaterials>
 struct PairTable;
 template <class Real>
@@ -81,23 +80,17 @@ template <class Real>
 struct PairTable<Real, Materials::few> {
   using P = Pack<Real>;
   HOOKE_HD PairTable(const ForcePass<Real>& pass, const P& material)
-      : PairTable(*pass.pairs, pass.material_count * pass.material_count,
-                  material * P(static_cast<Real>(pass.material_count))) {}
+      : first(material * P(static_cast<Real>(pass.material_count))),
+        stiffness(pass.few->stiffness),
+        shear(pass.few->shear),
+        damping(pass.few->damping),
+        reach(pass.few->reach) {}
   HOOKE_HD Quad<Real> lookup(const P& material) const {
     const P at = first + material;
     return {stiffness.lookup(at), shear.lookup(at), damping.lookup(at), reach.lookup(at)};
   }
   P first;
   SmallTable<Real> stiffness, shear, damping, reach;
-
- private:
-  static constexpr std::size_t kStride = sizeof(PairRow<Real>) / sizeof(Real);
-  HOOKE_HD PairTable(const PairRow<Real>& pairs, std::size_t count, const P& from)
-      : first(from),
-        stiffness(&pairs.stiffness, kStride, count),
-        shear(&pairs.shear, kStride, count),
-        damping(&pairs.damping, kStride, count),
-        reach(&pairs.reach, kStride, count) {}
 };
 template <class Real>
 struct PairTable<Real, Materials::many> {
@@ -109,6 +102,28 @@ struct PairTable<Real, Materials::many> {
   const PairRow<Real>* pairs;
   P first;
 };
+
+// Of the lanes' particles against walls: stiffness, shear, damping; radius.
+template <class Real, Materials kMaterials>
+HOOKE_HD Quad<Real> surface_of(const ForcePass<Real>& pass, const Lanes<Real>& own) {
+  using P = Pack<Real>;
+  if constexpr (kMaterials != Materials::one) return load_rows(pass.materials, own.material, 0);
+  const MaterialRow<Real>& m = pass.materials[0];
+  return {P(m.wall_stiffness), P(m.wall_shear), P(m.wall_damping), P(m.radius)};
+}
+
+// Inverse mass, drag and mass of the lanes' particles.
+template <class Real, Materials kMaterials>
+HOOKE_HD Quad<Real> body_of(const ForcePass<Real>& pass, const Lanes<Real>& own) {
+  using P = Pack<Real>;
+  if constexpr (kMaterials == Materials::many) return load_rows(pass.materials, own.material, 1);
+  if constexpr (kMaterials == Materials::few) {
+    const auto column = [&](const Real* of) { return SmallTable<Real>(of).lookup(own.material); };
+    return {column(pass.few->inverse_mass), column(pass.few->drag), column(pass.few->mass), P(Real(0))};
+  }
+  const MaterialRow<Real>& m = pass.materials[0];
+  return {P(m.inverse_mass), P(m.drag), P(m.mass), P(Real(0))};
+}
 
 template <class Real>
 HOOKE_HD void add_where(const Mask<Real>& m, Vec3<Pack<Real>>& sum, const Vec3<Pack<Real>>& b) {
@@ -233,19 +248,20 @@ struct ContactLoop {
 };
 
 // Contacts with the domain's walls: x, y, z, the lower face first.
-template <class Real>
+template <class Real, Materials kMaterials>
 struct WallLoop {
   using P = Pack<Real>;
   const ForcePass<Real>& pass;
   const Lanes<Real>& own;
   const Mask<Real>& present;
-  const Quad<Real>& material;  // stiffness, shear, damping against walls; radius
 
   // The force of all of them, and whether there is one.
   HOOKE_HD Vec3<P> run(Mask<Real>& too_fast, bool& touched) const {
-    const Vec3<P> w = -own.v;
-    const ContactCoefficients<P> coefficients{material.a, material.b, material.c};
     Vec3<P> force{P(Real(0)), P(Real(0)), P(Real(0))};
+    if (!any(is_near())) return force;
+    const Vec3<P> w = -own.v;
+    const Quad<Real> material = surface_of<Real, kMaterials>(pass, own);
+    const ContactCoefficients<P> coefficients{material.a, material.b, material.c};
     const auto face = [&](int axis, Real sign, const P& overlap) {
       const Mask<Real> touching = present & (overlap > P(Real(0)));
       if (!any(touching)) return;
@@ -254,7 +270,7 @@ struct WallLoop {
       add_where(touching, force, contact_forces(overlap, normal, w, coefficients).total());
       too_fast = too_fast | (touching & (dot(w, normal) > P(pass.speed_limit)));
     };
-    for (int axis = 0; axis < 3 && any(is_near()); ++axis) {
+    for (int axis = 0; axis < 3; ++axis) {
       if (!pass.wall[axis]) continue;
       const P& x = component(own.x, axis);
       face(axis, Real(1), lower_wall_overlap(x, P(component(pass.min, axis)), material.d));
@@ -391,29 +407,21 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
   Acting<Real, kMaterials> acting = ContactLoop<Real, kMaterials, kPeriodic, false>{pass, own}.run(row, end, last_row);
   if (any(acting.too_fast)) acting = ContactLoop<Real, kMaterials, kPeriodic, true>{pass, own}.run(row, end, last_row);
 
-  Quad<Real> wall_row, body_row;
-  if constexpr (kMaterials == Materials::one) {
-    const MaterialRow<Real>& m = pass.materials[0];
-    wall_row = {P(m.wall_stiffness), P(m.wall_shear), P(m.wall_damping), P(m.radius)};
-    body_row = {P(m.inverse_mass), P(m.drag), P(m.mass), P(Real(0))};
-  } else {
-    wall_row = load_rows(pass.materials, own.material, 0);
-    body_row = load_rows(pass.materials, own.material, 1);
-  }
   Forces<Real> forces{acting.contacts.forces(pass), {}, {}, {}, {}};
   Touching touching;
-  forces.walls = WallLoop<Real>{pass, own, present, wall_row}.run(acting.too_fast, touching.wall);
-  forces.colliders = ColliderLoop<Real>{pass, own, present, wall_row.d}.run(acting.too_fast, touching.collider);
+  forces.walls = WallLoop<Real, kMaterials>{pass, own, present}.run(acting.too_fast, touching.wall);
+  forces.colliders = ColliderLoop<Real, kMaterials>{pass, own, present}.run(acting.too_fast, touching.collider);
+  const Quad<Real> body = body_of<Real, kMaterials>(pass, own);
   Vec3<P> force = (forces.contacts.total() + forces.walls) + forces.colliders;
   if (pass.has_drag) {
-    forces.drag = drag_force(own.v, body_row.b);
+    forces.drag = drag_force(own.v, body.b);
     force += forces.drag;
   }
   if (pass.applied != nullptr) force += load_vectors(pass.applied + first);
 
   const Vec3<P> gravity{P(pass.gravity.x), P(pass.gravity.y), P(pass.gravity.z)};
-  forces.weight = body_row.c * gravity;
-  const Vec3<P> a = body_row.a * force + gravity;
+  forces.weight = body.c * gravity;
+  const Vec3<P> a = body.a * force + gravity;
   const P dt(pass.dt);
   Vec3<P> v, x = own.x;
   if (pass.acceleration != nullptr) {  // velocity Verlet
@@ -495,7 +503,7 @@ void choose_periodic(const ForcePass<Real>& pass, const SegmentWork<Real>& work)
 template <class Real>
 void choose_materials(const ForcePass<Real>& pass, const SegmentWork<Real>& work) {
   if (pass.material_count == 1) return choose_periodic<Real, Materials::one>(pass, work);
-  if (pass.material_count * pass.material_count <= kFewPairs) return choose_periodic<Real, Materials::few>(pass, work);
+  if (pass.few != nullptr) return choose_periodic<Real, Materials::few>(pass, work);
   return choose_periodic<Real, Materials::many>(pass, work);
 }
 

@@ -200,14 +200,12 @@ HOOKE_HD void store_two_quads(const TwoQuads<Real>& q, const At& at) {
   store_quads(q.second, [&](int lane) { return at(lane) + 4; });
 }
 
-/// Up to 16 numbers, `stride` apart from `from` on, of which each lane asks for one: lookup() takes whole numbers from
-/// 0 to count - 1. In registers where those can be asked.
+/// The 16 numbers at `from`, which is aligned to all of them, of which each lane asks for one: lookup() takes whole
+/// numbers from 0 to 15. In registers where those can be asked.
 template <class Real>
 struct SmallTable {
-  Real entries[16] = {};
-  HOOKE_HD SmallTable(const Real* from, std::size_t stride, std::size_t count) {
-    for (std::size_t k = 0; k < count; ++k) entries[k] = from[k * stride];
-  }
+  const Real* entries;
+  HOOKE_HD explicit SmallTable(const Real* from) : entries(from) {}
   HOOKE_HD Pack<Real> lookup(const Pack<Real>& index) const {
     Pack<Real> found;
     for (std::size_t lane = 0; lane < Pack<Real>::kLanes; ++lane) {
@@ -222,11 +220,7 @@ struct SmallTable {
 template <>
 struct SmallTable<float> {
   __m512 entries;
-  HOOKE_HD SmallTable(const float* from, std::size_t stride, std::size_t count) {
-    alignas(64) float gathered[16] = {};
-    for (std::size_t k = 0; k < count; ++k) gathered[k] = from[k * stride];
-    entries = _mm512_load_ps(gathered);
-  }
+  HOOKE_HD explicit SmallTable(const float* from) : entries(_mm512_load_ps(from)) {}
   HOOKE_HD Pack<float> lookup(const Pack<float>& index) const {
     return Pack<float>(_mm512_permutexvar_ps(_mm512_cvttps_epi32(index.v), entries));
   }
@@ -234,12 +228,7 @@ struct SmallTable<float> {
 template <>
 struct SmallTable<double> {
   __m512d low, high;
-  HOOKE_HD SmallTable(const double* from, std::size_t stride, std::size_t count) {
-    alignas(64) double gathered[16] = {};
-    for (std::size_t k = 0; k < count; ++k) gathered[k] = from[k * stride];
-    low = _mm512_load_pd(gathered);
-    high = _mm512_load_pd(gathered + 8);
-  }
+  HOOKE_HD explicit SmallTable(const double* from) : low(_mm512_load_pd(from)), high(_mm512_load_pd(from + 8)) {}
   HOOKE_HD Pack<double> lookup(const Pack<double>& index) const {
     return Pack<double>(_mm512_permutex2var_pd(low, _mm512_cvtepi32_epi64(_mm512_cvttpd_epi32(index.v)), high));
   }
@@ -250,12 +239,7 @@ struct SmallTable<double> {
 template <>
 struct SmallTable<float> {
   __m256 low, high;
-  HOOKE_HD SmallTable(const float* from, std::size_t stride, std::size_t count) {
-    alignas(32) float gathered[16] = {};
-    for (std::size_t k = 0; k < count; ++k) gathered[k] = from[k * stride];
-    low = _mm256_load_ps(gathered);
-    high = _mm256_load_ps(gathered + 8);
-  }
+  HOOKE_HD explicit SmallTable(const float* from) : low(_mm256_load_ps(from)), high(_mm256_load_ps(from + 8)) {}
   HOOKE_HD Pack<float> lookup(const Pack<float>& index) const {
     const __m256i at = _mm256_cvttps_epi32(index.v);
     const __m256 is_high = _mm256_castsi256_ps(_mm256_slli_epi32(at, 28));  // 8 to 15

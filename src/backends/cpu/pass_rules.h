@@ -19,6 +19,7 @@ template <class Real>
 struct PassRules {
   std::vector<PairRow<Real>> pairs;  ///< materials squared
   std::vector<MaterialRow<Real>> materials;
+  std::vector<FewMaterials<Real>> few;  ///< none, or one
   double largest_radius = 0, smallest_radius = 1;  ///< m
   double rounding = 0;  ///< m, of displacements across a periodic axis
   std::vector<double> level_radius;  ///< m: materials of similar radius share a level; the largest of each, ascending
@@ -63,9 +64,28 @@ struct PassRules {
       }
     }
     configure_levels();
+    configure_few();
     pass.pairs = pairs.data();
     pass.materials = materials.data();
+    pass.few = few.empty() ? nullptr : few.data();
     pass.material_count = n;
+  }
+
+  void configure_few() {
+    few.clear();
+    if (materials.size() < 2 || pairs.size() > FewMaterials<Real>::kPairs) return;
+    FewMaterials<Real>& columns = few.emplace_back();
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      columns.stiffness[k] = pairs[k].stiffness;
+      columns.shear[k] = pairs[k].shear;
+      columns.damping[k] = pairs[k].damping;
+      columns.reach[k] = pairs[k].reach;
+    }
+    for (std::size_t k = 0; k < materials.size(); ++k) {
+      columns.inverse_mass[k] = materials[k].inverse_mass;
+      columns.drag[k] = materials[k].drag;
+      columns.mass[k] = materials[k].mass;
+    }
   }
 
   // The largest radius of a level is no more than one and a half times the smallest.
