@@ -70,7 +70,8 @@ struct Ledger {
 
   /// Taken out by the dashpots of contacts between particles, and by drag, J.
   double dissipated() const {
-    return 0 - (work[Cause::contact_shear] + work[Cause::contact_damping] + work[Cause::drag]);
+    return 0 - (work[Cause::contact_shear] + work[Cause::contact_damping] + work[Cause::contact_friction] +
+                work[Cause::drag]);
   }
 
   friend bool operator==(const Ledger&, const Ledger&) = default;
@@ -83,7 +84,7 @@ struct Measurements {
   std::uint64_t wall_contacts = 0;
   double kinetic_energy = 0;              ///< J
   double potential_energy = 0;            ///< -sum m g.x, J
-  double elastic_energy = 0;              ///< in the springs between particles, J
+  double elastic_energy = 0;              ///< in the springs between particles, cohesion included, J
   double wall_elastic_energy = 0;         ///< in the springs of walls, J
   std::uint64_t springs = 0;              ///< that hold
   double spring_energy = 0;               ///< in them, J

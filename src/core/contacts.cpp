@@ -225,7 +225,7 @@ class ContactSearch {
     const double overlap = i.radius + p.radius - distance;
     if (!(overlap > 0)) return;
     const Vec3d normal = contact_normal(x_ip, distance, i.index > p.index ? 1.0 : -1.0);  // indices go with ids
-    const Vec3d force = contact_forces(overlap, normal, p.v - i.v, table_.pair(i.material, p.material)).total();
+    const Vec3d force = contact_force(overlap, normal, p.v - i.v, table_.pair(i.material, p.material));
     touches.push_back({{i.index, p.index, Face::none, image, overlap, force}, dot(force, normal)});
   }
 
@@ -234,7 +234,7 @@ class ContactSearch {
     const Sphere& i = spheres_[k];
     const auto add = [&](int face, const Vec3d& normal, double overlap) {
       if (!(overlap > 0)) return;
-      const Vec3d force = contact_forces(overlap, normal, -i.v, table_.wall(i.material)).total();
+      const Vec3d force = contact_force(overlap, normal, -i.v, table_.wall(i.material));
       touches.push_back({{i.index, Contact::kWall, static_cast<Face>(face), {}, overlap, force}, dot(force, normal)});
     };
     for (int axis = 0; axis < 3; ++axis) {

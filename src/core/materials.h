@@ -25,6 +25,7 @@ struct Material {
   double drag = 0;                      ///< k_d, kg/s, >= 0
   std::string color;                    ///< "#rrggbb", or empty
   MaterialLook look = MaterialLook::ball;
+  SurfaceCoefficients<double> surface{};  ///< as `contact`
 
   /// Else only colliders may have it.
   bool is_of_particles() const { return radius > 0; }
@@ -36,29 +37,40 @@ struct ContactEntry {
   std::size_t a = 0;  ///< index into the materials
   std::size_t b = 0;  ///< index into the materials, or kWall
   ContactCoefficients<double> coefficients;
+  SurfaceCoefficients<double> surface{};
 };
 
 /// The mixing rule for a pair without an entry (docs/theory.md eq. 8): stiffness 2 k1 k2/(k1 + k2), as of
 /// two springs in series, twice; shear and damping the arithmetic mean.
 ContactCoefficients<double> mix(const ContactCoefficients<double>& a, const ContactCoefficients<double>& b);
 
-/// The coefficients of every pair of materials and of every material against the walls.
+/// The same for surfaces: the smaller of each.
+SurfaceCoefficients<double> mix(const SurfaceCoefficients<double>& a, const SurfaceCoefficients<double>& b);
+
+/// The laws of every pair of materials and of every material against the walls.
 class ContactTable {
  public:
   ContactTable() = default;
   ContactTable(std::span<const Material> materials, std::span<const ContactEntry> entries);
 
   std::size_t material_count() const { return wall_.size(); }
-  const ContactCoefficients<double>& pair(std::size_t a, std::size_t b) const { return pairs_[a * wall_.size() + b]; }
-  const ContactCoefficients<double>& wall(std::size_t a) const { return wall_[a]; }
+  const ContactLaw<double>& pair(std::size_t a, std::size_t b) const { return pairs_[a * wall_.size() + b]; }
+  const ContactLaw<double>& wall(std::size_t a) const { return wall_[a]; }
   /// Of material `a` against a collider of material `b`; without one the wall's.
-  const ContactCoefficients<double>& collider(std::size_t a, std::optional<std::size_t> b) const {
+  const ContactLaw<double>& collider(std::size_t a, std::optional<std::size_t> b) const {
     return b ? pair(a, *b) : wall(a);
   }
 
+  /// Whether no surface does anything: the law is linear.
+  bool is_linear() const { return linear_; }
+  /// How far apart those may be that act on each other, m.
+  double widest_range() const { return widest_range_; }
+
  private:
-  std::vector<ContactCoefficients<double>> pairs_;  // material_count() squared, symmetric
-  std::vector<ContactCoefficients<double>> wall_;
+  std::vector<ContactLaw<double>> pairs_;  // material_count() squared, symmetric
+  std::vector<ContactLaw<double>> wall_;
+  bool linear_ = true;
+  double widest_range_ = 0;
 };
 
 }  // namespace hooke

@@ -26,7 +26,7 @@ ShapeGeometry<S> rounded(const ShapeGeometry<double>& g) {
 
 }  // namespace detail
 
-/// A collider where it is, in a back end's number type. `reach`: the largest radius of a particle, m.
+/// A collider where it is, in a back end's number type. `reach`: no further from a particle's centre it acts, m.
 template <class S>
 PlacedCollider<S> place_collider(const Collider& collider, const ColliderPose& pose, double reach) {
   PlacedCollider<S> placed;

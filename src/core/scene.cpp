@@ -43,6 +43,12 @@ class Checker {
     not_negative(where + ".shear", c.shear);
     not_negative(where + ".damping", c.damping);
   }
+  void surface(const std::string& where, const SurfaceCoefficients<double>& s) {
+    if (!std::isinf(s.friction)) not_negative(where + ".friction", s.friction);
+    if (!std::isinf(s.tension)) not_negative(where + ".tension", s.tension);
+    not_negative(where + ".cohesion.strength", s.cohesion);
+    not_negative(where + ".cohesion.range", s.range);
+  }
   void add(std::string where, std::string message) { findings.push_back({std::move(where), std::move(message)}); }
 
   std::vector<Finding> findings;
@@ -97,6 +103,7 @@ void check_materials(const Scene& scene, Checker& check) {
       check.positive(where + ".mass", m.mass);
     }
     check.coefficients(where, m.contact);
+    check.surface(where, m.surface);
     check.not_negative(where + ".drag", m.drag);
   }
 }
@@ -114,6 +121,7 @@ void check_contacts(const Scene& scene, Checker& check) {
                           : std::pair{std::min(entry.a, entry.b), std::max(entry.a, entry.b)};
     if (!seen.insert(pair).second) check.add(where + ".between", "a second entry for the same pair");
     check.coefficients(where, entry.coefficients);
+    check.surface(where, entry.surface);
   }
 }
 

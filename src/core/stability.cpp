@@ -41,17 +41,17 @@ StableStep stable_step(const Scene& scene) {
     for (std::size_t b = a; b < scene.materials.size(); ++b) {
       const Material& n = scene.materials[b];
       if (!n.is_of_particles()) continue;
-      consider(table.pair(a, b), effective_mass(m.mass, n.mass), m.name + " - " + n.name);
+      consider(table.pair(a, b).linear, effective_mass(m.mass, n.mass), m.name + " - " + n.name);
     }
     // A wall is one partner that does not move, where a pile has a dozen that do.
     const auto consider_boundary = [&](const ContactCoefficients<double>& c, const std::string& boundary) {
       const double seconds = critical_step(c.stiffness / m.mass, (c.shear + c.damping) / m.mass);
       if (seconds < best.seconds) best = {seconds, fmt::format("stiffness and damping of {} - {}", m.name, boundary)};
     };
-    consider_boundary(table.wall(a), "wall");
+    consider_boundary(table.wall(a).linear, "wall");
     for (const Collider& collider : scene.colliders) {
       if (collider.material)
-        consider_boundary(table.pair(a, *collider.material), scene.materials[*collider.material].name);
+        consider_boundary(table.pair(a, *collider.material).linear, scene.materials[*collider.material].name);
     }
   }
   return best;

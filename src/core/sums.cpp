@@ -184,22 +184,23 @@ void MeasurementSums::add_particle(double mass, const Vec3d& x, const Vec3d& v, 
   ++particles_;
 }
 
-void MeasurementSums::add_contact_side(double stiffness, double overlap, double reach) {
+void MeasurementSums::add_contact_side(const ContactLaw<double>& law, double overlap, double reach) {
+  elastic_.add(0.5 * contact_energy(overlap, law));
+  if (!(overlap > 0)) return;
   ++contact_sides_;
-  elastic_.add(0.5 * contact_energy(overlap, stiffness));
   overlap_ratio_.add(overlap / reach);
   max_overlap_ratio_ = std::max(max_overlap_ratio_, overlap / reach);
 }
 
-void MeasurementSums::add_wall_contact(double stiffness, double overlap, const Vec3d& force) {
-  ++wall_contacts_;
-  wall_elastic_.add(contact_energy(overlap, stiffness));
+void MeasurementSums::add_wall_contact(const ContactLaw<double>& law, double overlap, const Vec3d& force) {
+  if (overlap > 0) ++wall_contacts_;
+  wall_elastic_.add(contact_energy(overlap, law));
   wall_force_.add(force);
 }
 
-void MeasurementSums::add_collider_contact(std::size_t index, const Vec3d& point, double stiffness, double overlap,
-                                           const Vec3d& force) {
-  collider_elastic_.add(contact_energy(overlap, stiffness));
+void MeasurementSums::add_collider_contact(std::size_t index, const Vec3d& point, const ContactLaw<double>& law,
+                                           double overlap, const Vec3d& force) {
+  collider_elastic_.add(contact_energy(overlap, law));
   collider_loads_.add_contact(index, point, force);
 }
 

@@ -126,11 +126,12 @@ class ColliderLoadSums {
 class MeasurementSums {
  public:
   void add_particle(double mass, const Vec3d& x, const Vec3d& v, const Vec3d& gravity);
-  /// One side of a contact between particles: call for each of the two. `reach` is r_i + r_p, m.
-  void add_contact_side(double stiffness, double overlap, double reach);
-  void add_wall_contact(double stiffness, double overlap, const Vec3d& force);
+  /// One side of a contact between particles, which cohesion may hold across a gap: call for each of the two. `reach`
+  /// is r_i + r_p, m.
+  void add_contact_side(const ContactLaw<double>& law, double overlap, double reach);
+  void add_wall_contact(const ContactLaw<double>& law, double overlap, const Vec3d& force);
   /// A particle that touches collider `index` at `point` (m, from the pivot) and gets `force` (N) from it.
-  void add_collider_contact(std::size_t index, const Vec3d& point, double stiffness, double overlap,
+  void add_collider_contact(std::size_t index, const Vec3d& point, const ContactLaw<double>& law, double overlap,
                             const Vec3d& force);
   void add(const MeasurementSums& other);
   /// `colliders`: how many the scene has.

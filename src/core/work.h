@@ -9,15 +9,16 @@ namespace hooke {
 
 /// What works on the particles: the parts into which the change of their kinetic energy divides.
 enum class Cause : unsigned char {
-  contact_spring,   ///< springs of contacts between particles
+  contact_spring,   ///< springs of contacts between particles, and their cohesion
   contact_shear,    ///< dashpots of such contacts on the tangential velocity
   contact_damping,  ///< dashpots of such contacts on the whole velocity
+  contact_friction, ///< in place of both, where such contacts slide
   wall,             ///< walls, their springs and dashpots
   collider,         ///< colliders likewise
   drag,
   gravity,
 };
-inline constexpr std::size_t kCauses = 7;
+inline constexpr std::size_t kCauses = 8;
 
 /// One T a cause.
 template <class T>

@@ -34,6 +34,7 @@ void for_each_column(const SeriesRow& row, Visit&& column) {
   column("contact_work", l.work[Cause::contact_spring]);
   column("shear_work", l.work[Cause::contact_shear]);
   column("damping_work", l.work[Cause::contact_damping]);
+  column("friction_work", l.work[Cause::contact_friction]);
   column("drag_work", l.work[Cause::drag]);
   column("gravity_work", l.work[Cause::gravity]);
   vector("momentum_x", "momentum_y", "momentum_z", m.momentum);

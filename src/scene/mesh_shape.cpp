@@ -61,7 +61,7 @@ std::optional<MeshShape> read_mesh_shape(const Json& json, const std::string& wh
 
   FieldOptions options;
   options.cell = json.contains("voxel") ? json.at("voxel").get<double>() : files.smallest_radius / kCellsPerRadius;
-  options.reach = files.largest_radius;
+  options.reach = files.reach;
   const std::size_t open_edges = count_open_edges(*mesh);
   options.closed = open_edges == 0;
   if (const double samples = expected_samples(*mesh, options); !(samples <= kMostSamples)) {

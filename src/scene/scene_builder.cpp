@@ -92,6 +92,20 @@ void find_size(const Json& entry, const std::string& where, const Json& collider
   }
 }
 
+// Friction, tension and cohesion of a material or of a pair; what is left out, or was refused, is as in `fallback`.
+SurfaceCoefficients<double> read_surface(const Json& entry, const std::string& where,
+                                         const SurfaceCoefficients<double>& fallback, const Findings& findings) {
+  SurfaceCoefficients<double> surface = fallback;
+  const auto given = [&](const char* key) { return entry.contains(key) && !findings.touches(join_path(where, key)); };
+  if (given("friction")) surface.friction = entry.at("friction").get<double>();
+  if (given("tension")) surface.tension = entry.at("tension").get<bool>() ? INFINITY : 0;
+  if (given("cohesion")) {
+    surface.cohesion = entry.at("cohesion").at("strength").get<double>();
+    surface.range = entry.at("cohesion").at("range").get<double>();
+  }
+  return surface;
+}
+
 void build_materials(const Json& materials, const Json& colliders, Scene& scene, Findings& findings) {
   if (!materials.is_object()) return;
   for (const auto& [name, entry] : materials.items()) {
@@ -109,6 +123,7 @@ void build_materials(const Json& materials, const Json& colliders, Scene& scene,
     material.contact.stiffness = value("stiffness", 0);
     material.contact.shear = value("shear", 0);
     material.contact.damping = value("damping", 0);
+    if (entry.is_object()) material.surface = read_surface(entry, where, material.surface, findings);
     material.drag = value("drag", 0);
     material.color = text_or(member(entry, "color"), "");
     if (member(entry, "look") == "water") material.look = MaterialLook::water;
@@ -121,14 +136,15 @@ void build_materials(const Json& materials, const Json& colliders, Scene& scene,
 
 // What distance fields of meshes must serve: the particles' sizes.
 ShapeFiles shape_files(const std::filesystem::path& folder, const LoadOptions& options, LoadedScene& loaded) {
-  ShapeFiles files{folder, options.allow_outside, INFINITY, 0, &loaded.warnings, &loaded.files};
+  double smallest = INFINITY, largest = 0;
   for (const Material& m : loaded.scene.materials) {
     if (!m.is_of_particles()) continue;
-    files.smallest_radius = std::min(files.smallest_radius, m.radius);
-    files.largest_radius = std::max(files.largest_radius, m.radius);
+    smallest = std::min(smallest, m.radius);
+    largest = std::max(largest, m.radius);
   }
-  if (std::isinf(files.smallest_radius)) files.smallest_radius = files.largest_radius = 1;
-  return files;
+  if (std::isinf(smallest)) smallest = largest = 1;
+  const double range = ContactTable(loaded.scene.materials, loaded.scene.contacts).widest_range();
+  return {folder, options.allow_outside, smallest, largest + range, &loaded.warnings, &loaded.files};
 }
 
 void build_camera(const Json& camera, Scene& scene, Findings& findings) {
@@ -215,6 +231,10 @@ class ContactBuilder {
     fill("stiffness", entry.coefficients.stiffness, mixed.stiffness);
     fill("shear", entry.coefficients.shear, mixed.shear);
     fill("damping", entry.coefficients.damping, mixed.damping);
+    const auto& surface = scene_.materials[entry.a].surface;
+    entry.surface = read_surface(
+        json, where, entry.b == ContactEntry::kWall ? surface : mix(surface, scene_.materials[entry.b].surface),
+        findings_);
   }
 
   Scene& scene_;

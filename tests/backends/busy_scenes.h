@@ -16,11 +16,13 @@ struct BusyKind {
   Integrator integrator;
   Precision precision;
   bool colliders = false;
+  bool surfaces = false;
 
   std::string name() const {
     const char* walls = boundary == Boundary::spring ? "spring" : boundary == Boundary::open ? "open" : "periodic";
     return std::string(walls) + (integrator == Integrator::velocity_verlet ? "_verlet" : "_euler") +
-           (precision == Precision::single_precision ? "_single" : "_double") + (colliders ? "_colliders" : "");
+           (precision == Precision::single_precision ? "_single" : "_double") + (colliders ? "_colliders" : "") +
+           (surfaces ? "_surfaces" : "");
   }
 };
 
@@ -37,6 +39,7 @@ inline Scene busy_scene(const BusyKind& kind) {
   scene.domain.min = {-3, 0, -3};
   scene.domain.max = {5, 9, 4};
   scene.domain.boundary = {kind.boundary, Boundary::spring, kind.boundary};
+  if (kind.surfaces) add_surfaces(scene);
   if (kind.colliders) add_every_collider(scene, {1, 4, 0.5}, 8);
   return scene;
 }
@@ -69,6 +72,8 @@ inline auto all_busy_kinds() {
   }
   kinds.push_back({Boundary::spring, Integrator::symplectic_euler, Precision::single_precision, true});
   kinds.push_back({Boundary::open, Integrator::velocity_verlet, Precision::double_precision, true});
+  kinds.push_back({Boundary::periodic, Integrator::velocity_verlet, Precision::single_precision, true, true});
+  kinds.push_back({Boundary::spring, Integrator::symplectic_euler, Precision::double_precision, true, true});
   return testing::ValuesIn(kinds);
 }
 

@@ -146,6 +146,26 @@ void add_colliders(Collection& out) {
   }
 }
 
+// Friction, no tension and cohesion, some of them on everything that can touch.
+void add_surface_laws(Collection& out) {
+  for (std::size_t b = 0; b < std::size(kBoundaries); ++b) {
+    Scene scene = mixed_scene({-4, 2, -4}, {4, 10, 4});
+    add_surfaces(scene);
+    scene.domain.boundary = {kBoundaries[b], Boundary::spring, kBoundaries[b]};
+    add_every_collider(scene, {0, 6, 0}, 7);
+    out.add(std::string("surfaces_") + kBoundaryNames[b], scene,
+            cloud(scene, 300, scene.domain.min, scene.domain.max, 4, 12), 60);
+  }
+  Scene tiny = mixed_scene({0, 0, 0}, {0.8125, 5, 3});
+  add_surfaces(tiny);
+  tiny.domain.boundary[0] = Boundary::periodic;
+  tiny.time_step = 5e-4;
+  out.add_cloud("surfaces_periodic_one_diameter", tiny, 50, 20);
+  Scene alone = uniform_scene({0, 0, 0}, {6, 8, 5});
+  alone.materials[0].surface = {0.5, 0, 3, 0.125};
+  out.add_cloud("surfaces_one_material", alone, 150, 60);
+}
+
 }  // namespace
 
 std::vector<Scenario> scenarios() {
@@ -157,6 +177,7 @@ std::vector<Scenario> scenarios() {
   add_tight(out);
   add_sizes(out);
   add_colliders(out);
+  add_surface_laws(out);
   return std::move(out.all);
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "hooke/scene/json_reader.h"
 #include "minimal_scene.h"
@@ -74,6 +75,26 @@ TEST(LoadScene, EndsWithTheFirstStepAtOrAfterTheEnd) {
   EXPECT_EQ(load({"time.end=0"})->scene.steps, 0);
   EXPECT_EQ(load({"time.step=1e-5", "time.end=1e4"})->scene.steps, 1000000000);
   EXPECT_EQ(load({"time.steps=1e6"})->scene.steps, 1000000);
+}
+
+TEST(LoadScene, ReadsSurfacesOfMaterialsAndOfPairs) {
+  using S = SurfaceCoefficients<double>;
+  const auto loaded =
+      load({"materials.water.friction=0.5", "materials.water.cohesion={\"range\":0.25,\"strength\":5}",
+            "materials.oil={\"radius\":1,\"mass\":1,\"stiffness\":300,\"tension\":false,\"friction\":0.75}",
+            "contacts=[{\"between\":[\"water\",\"oil\"],\"tension\":true},{\"between\":[\"wall\",\"water\"],"
+            "\"friction\":0}]"});
+  ASSERT_TRUE(loaded) << loaded.error().text();
+  const Scene& scene = loaded->scene;
+  const auto of = [&](const char* name) {
+    return std::find_if(scene.materials.begin(), scene.materials.end(),
+                        [&](const Material& m) { return m.name == name; })
+        ->surface;
+  };
+  EXPECT_EQ(of("water"), (S{0.5, INFINITY, 5, 0.25}));
+  EXPECT_EQ(of("oil"), (S{0.75, 0, 0, 0}));
+  EXPECT_EQ(scene.contacts[0].surface, (S{0.5, INFINITY, 0, 0})) << "the weaker, but for what the entry says";
+  EXPECT_EQ(scene.contacts[1].surface, (S{0, INFINITY, 5, 0.25}));
 }
 
 TEST(LoadScene, ContactsTakeTheMixedValueWhereTheyNameNone) {

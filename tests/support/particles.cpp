@@ -3,6 +3,8 @@
 
 #include "support/particles.h"
 
+#include <cmath>
+
 #include "hooke/base/random.h"
 
 namespace hooke::test {
@@ -38,6 +40,15 @@ void mix_materials(Scene& scene, double radius) {
                      {"b", 1.6 * radius, 2.5, {8000, 3, 9}, 0.1, ""},
                      {"c", 0.7 * radius, 0.6, {5000, 1, 4}, 0.02, ""}};
   scene.contacts = {{0, 1, {5500, 2.5, 7}}, {1, ContactEntry::kWall, {9000, 1, 6}}};
+}
+
+void add_surfaces(Scene& scene) {
+  constexpr double kNone = INFINITY;
+  scene.materials[0].surface = {0.4, kNone, 2, 0.09375};
+  scene.materials[1].surface = {0.2, 0, 3, 0.0625};
+  scene.materials[2].surface = {kNone, 0, 0, 0};
+  scene.contacts[0].surface = {0.3, kNone, 1, 0.125};
+  scene.contacts[1].surface = {0.1, 0, 2, 0.03125};
 }
 
 void add(ParticleSet& particles, const Vec3d& position, const Vec3d& velocity, std::uint16_t material) {

@@ -20,6 +20,9 @@ Scene open_scene();
 /// Materials of different radius, mass, stiffness and drag, with entries for one pair and for one wall.
 void mix_materials(Scene& scene, double radius);
 
+/// Friction on the materials of mix_materials(), no tension on one, cohesion on two of them, on a pair and on a wall.
+void add_surfaces(Scene& scene);
+
 /// Adds a particle with the next id.
 void add(ParticleSet& particles, const Vec3d& position, const Vec3d& velocity, std::uint16_t material = 0);
 

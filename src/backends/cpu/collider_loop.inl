@@ -33,21 +33,19 @@ struct ColliderLoop {
   // Whether any lane touches any collider.
   __attribute__((noinline)) bool meet(Mask<Real>& too_fast, Vec3<P>& force) const {
     bool touched = false;
-    const P radius = surface_of<Real, kMaterials>(pass, own).d;
     for (std::size_t c = 0; c < pass.collider_count; ++c) {
       const PlacedCollider<Real>& collider = pass.colliders[c];
       const Mask<Real> near = present & is_inside(own.x, collider.near_from, collider.near_to);
       if (!any(near)) continue;
-      const Quad<Real> row = load_rows(pass.collider_pairs + c * pass.material_count, own.material, 0);
-      const ContactCoefficients<P> coefficients{row.a, row.b, row.c};
+      const auto pair = load_pairs<Real, kMaterials>(pass.collider_pairs + c * pass.material_count, own.material);
       for_each_collider_face(collider, own.x, [&](const ColliderFace<P>& face) {
-        const P overlap = radius - face.distance;
-        const Mask<Real> touching = near & (overlap > P(Real(0)));
-        if (!any(touching)) return;
+        const P overlap = pair.reach - face.distance;
+        const Mask<Real> here = near & acts<Real>(overlap, pair.law);
+        if (!any(here)) return;
         touched = true;
         const Vec3<P> w = face.velocity - own.v;
-        add_where(touching, force, contact_forces(overlap, face.normal, w, coefficients).total());
-        too_fast = too_fast | (touching & (dot(w, face.normal) > P(pass.speed_limit)));
+        add_where(here, force, contact_forces(overlap, face.normal, w, pair.law).total());
+        too_fast = too_fast | (here & (dot(w, face.normal) > P(pass.speed_limit)));
       });
     }
     return touched;

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "hooke/backends/cpu/force_pass.h"
+#include "hooke/backends/cpu/pass_rules.h"
 #include "hooke/core/placed_colliders.h"
 #include "hooke/core/scene.h"
 
@@ -24,17 +24,13 @@ struct ColliderRules {
     pairs.clear();
     for (const Collider& collider : scene.colliders) {
       for (std::size_t m = 0; m < material_count; ++m) {
-        const ContactCoefficients<double>& c = table.collider(m, collider.material);
-        pairs.push_back({static_cast<Real>(c.stiffness),
-                         static_cast<Real>(c.shear),
-                         static_cast<Real>(c.damping),
-                         static_cast<Real>(scene.materials[m].radius),
-                         {}});
+        pairs.push_back(PassRules<Real>::row_of(table.collider(m, collider.material),
+                                                static_cast<Real>(scene.materials[m].radius)));
       }
     }
   }
 
-  /// Moves them, and aims `pass` at them. `reach`: the largest radius of a particle, m.
+  /// Moves them, and aims `pass` at them. `reach`: how far from a particle's centre one acts on it, m.
   void place(const Scene& scene, std::span<const ColliderPose> poses, double reach, ForcePass<Real>& pass) {
     placed.clear();
     for (std::size_t c = 0; c < poses.size(); ++c) {

@@ -13,6 +13,12 @@
 
 namespace hooke {
 
+/// A row's law.
+template <class Real>
+ContactLaw<double> law_of(const PairRow<Real>& row) {
+  return {{row.stiffness, row.shear, row.damping}, {row.friction, row.tension, row.cohesion, row.range}};
+}
+
 /// Walks the contacts of single particles of a force pass in double precision: for figures, and to look closely at what
 /// the pass noted. Not on the hot path.
 template <class Real>
@@ -20,8 +26,8 @@ class ContactScan {
  public:
   ContactScan(const ForcePass<Real>& pass, const ParticleRecord<Real>* records) : pass_(pass), records_(records) {}
 
-  /// visit(p, normal, overlap) for every touching neighbour p of particle i, by id and image. `rows` are those of its
-  /// group in the neighbour list.
+  /// visit(p, normal, overlap) for every neighbour p that acts on particle i, by id and image: those touch it, overlap
+  /// > 0, or cohesion reaches from one to the other. `rows` are those of its group in the neighbour list.
   template <class Visit>
   void for_each_contact(std::size_t i, std::span<const std::uint32_t> rows, const Visit& visit) const {
     constexpr std::size_t kLanes = NeighbourList::kLanes;
@@ -31,31 +37,31 @@ class ContactScan {
     }
   }
 
-  /// visit(normal, overlap) for every wall that particle i touches.
+  /// visit(normal, overlap) for every wall that acts on particle i.
   template <class Visit>
   void for_each_wall(std::size_t i, const Visit& visit) const {
-    const double radius = pass_.materials[material_of(i)].radius;
+    const double radius = wall(i).reach, range = wall(i).range;
     for (int axis = 0; axis < 3; ++axis) {
       if (!pass_.wall[axis]) continue;
       const double x = component(records_[i].x, axis);
       const double lower = lower_wall_overlap<double>(x, component(pass_.min, axis), radius);
       const double upper = upper_wall_overlap<double>(x, component(pass_.max, axis), radius);
-      if (lower > 0) visit(wall_normal(axis, 1.0), lower);
-      if (upper > 0) visit(wall_normal(axis, -1.0), upper);
+      if (lower > -range) visit(wall_normal(axis, 1.0), lower);
+      if (upper > -range) visit(wall_normal(axis, -1.0), upper);
     }
   }
 
-  /// visit(collider, face, overlap) for every face of a collider that particle i touches, in the scene's order.
+  /// visit(collider, face, overlap) for every face of a collider that acts on particle i, in the scene's order.
   template <class Visit>
   void for_each_collider(std::size_t i, const Visit& visit) const {
-    const double radius = pass_.materials[material_of(i)].radius;
     const Vec3d x = vec_cast<double>(records_[i].x);
     for (std::size_t c = 0; c < pass_.collider_count; ++c) {
       const PlacedCollider<Real>& collider = pass_.colliders[c];
       if (!is_between(records_[i].x, collider.near_from, collider.near_to)) continue;
+      const PairRow<Real>& row = this->collider(i, c);
       for_each_collider_face(collider, x, [&](const ColliderFace<double>& face) {
-        const double overlap = radius - face.distance;
-        if (overlap > 0) visit(c, face, overlap);
+        const double overlap = static_cast<double>(row.reach) - face.distance;
+        if (overlap > -static_cast<double>(row.range)) visit(c, face, overlap);
       });
     }
   }
@@ -63,6 +69,10 @@ class ContactScan {
   std::size_t material_of(std::size_t i) const { return static_cast<std::size_t>(records_[i].material); }
   const PairRow<Real>& pair(std::size_t i, std::size_t p) const {
     return pass_.pairs[material_of(i) * pass_.material_count + material_of(p)];
+  }
+  const PairRow<Real>& wall(std::size_t i) const { return pass_.wall_pairs[material_of(i)]; }
+  const PairRow<Real>& collider(std::size_t i, std::size_t c) const {
+    return pass_.collider_pairs[c * pass_.material_count + material_of(i)];
   }
 
  private:
@@ -106,7 +116,7 @@ class ContactScan {
                      image_displacement(x_i.z, x_p.z, s.z, length.z)};
     const double distance = std::sqrt(dot(x_ip, x_ip));
     const double overlap = static_cast<double>(pair(i, p).reach) - distance;
-    if (overlap > 0)
+    if (overlap > -static_cast<double>(pair(i, p).range))
       visit(p, contact_normal(x_ip, distance, records_[i].rank > records_[p].rank ? 1.0 : -1.0), overlap);
   }
 

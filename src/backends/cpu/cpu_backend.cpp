@@ -116,7 +116,7 @@ class CpuBackend final : public Backend {
   }
 
   void place_colliders(std::span<const ColliderPose> poses) override {
-    colliders_.place(scene_, poses, rules_.largest_radius, pass_);
+    colliders_.place(scene_, poses, rules_.largest_radius + rules_.widest_range, pass_);
   }
 
   void half_kick_and_drift() override {
@@ -469,22 +469,22 @@ class CpuBackend final : public Backend {
       const Vec3d v = vec_cast<double>(records_[i].v);
       const double radius = material_of(records_[i]).radius;
       const std::uint64_t id = ids_[rank_of(records_[i].rank)];
-      scan.for_each_contact(i, rows, [&](std::size_t p, const Vec3d& normal, double) {
+      scan.for_each_contact(i, rows, [&](std::size_t p, const Vec3d& normal, double overlap) {
         const double approach = dot(vec_cast<double>(records_[p].v) - v, normal);
-        if (approach > std::min(radius, material_of(records_[p]).radius) / scene_.time_step) {
+        if (overlap > 0 && approach > std::min(radius, material_of(records_[p]).radius) / scene_.time_step) {
           found = Condition::first(found,
                                    {Condition::Kind::approach_too_fast, id, ids_[rank_of(records_[p].rank)], approach});
         }
       });
-      scan.for_each_wall(i, [&](const Vec3d& normal, double) {
+      scan.for_each_wall(i, [&](const Vec3d& normal, double overlap) {
         const double approach = dot(-v, normal);
-        if (approach > radius / scene_.time_step) {
+        if (overlap > 0 && approach > radius / scene_.time_step) {
           found = Condition::first(found, {Condition::Kind::wall_approach_too_fast, id, 0, approach});
         }
       });
-      scan.for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double) {
+      scan.for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double overlap) {
         const double approach = dot(face.velocity - v, face.normal);
-        if (approach > radius / scene_.time_step) {
+        if (overlap > 0 && approach > radius / scene_.time_step) {
           found = Condition::first(found, {Condition::Kind::collider_approach_too_fast, id, c, approach});
         }
       });
@@ -500,18 +500,16 @@ class CpuBackend final : public Backend {
     const Vec3d v = vec_cast<double>(p.v);
     sums.add_particle(material_of(p).mass, vec_cast<double>(p.x), v, scene_.gravity);
     scan.for_each_contact(i, rows, [&](std::size_t q, const Vec3d&, double overlap) {
-      sums.add_contact_side(scan.pair(i, q).stiffness, overlap, scan.pair(i, q).reach);
+      sums.add_contact_side(law_of(scan.pair(i, q)), overlap, scan.pair(i, q).reach);
     });
     scan.for_each_wall(i, [&](const Vec3d& normal, double overlap) {
-      const MaterialRow<Real>& m = rules_.materials[scan.material_of(i)];
-      const ContactCoefficients<double> c{m.wall_stiffness, m.wall_shear, m.wall_damping};
-      sums.add_wall_contact(c.stiffness, overlap, contact_forces(overlap, normal, -v, c).total());
+      const ContactLaw<double> law = law_of(scan.wall(i));
+      sums.add_wall_contact(law, overlap, contact_force(overlap, normal, -v, law));
     });
     scan.for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double overlap) {
-      const PairRow<Real>& row = pass_.collider_pairs[c * pass_.material_count + scan.material_of(i)];
-      const ContactCoefficients<double> k{row.stiffness, row.shear, row.damping};
-      const Vec3d force = contact_forces(overlap, face.normal, face.velocity - v, k).total();
-      sums.add_collider_contact(c, face.point, k.stiffness, overlap, force);
+      const ContactLaw<double> law = law_of(scan.collider(i, c));
+      const Vec3d force = contact_force(overlap, face.normal, face.velocity - v, law);
+      sums.add_collider_contact(c, face.point, law, overlap, force);
     });
   }
 

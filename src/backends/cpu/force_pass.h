@@ -16,22 +16,20 @@ namespace hooke {
 // The force pass as seen from outside: plain data in, plain data out. This header and what it includes are compiled
 // with the flags of every instruction set, so nothing in them may emit an inline function that the linker could share.
 
-/// Coefficients of one pair of materials, or of one material: eight numbers, laid out like a particle record so that a
-/// pack of rows loads like a pack of particles.
+/// The law of one pair of materials, of a material and walls, or of a material and a collider: eight numbers, laid out
+/// like a particle record so that a pack of rows loads like a pack of particles.
 template <class Real>
 struct alignas(8 * sizeof(Real)) PairRow {
-  Real stiffness, shear, damping;  // N/m, N s/m, N s/m
-  Real reach;                      // r_i + r_p, m
-  Real unused[4];
+  Real stiffness, shear, damping;           // N/m, N s/m, N s/m
+  Real reach;                               // r_i + r_p, or r_i, m
+  Real friction, tension, cohesion, range;  // of surfaces: 1, N, N, m
 };
 template <class Real>
-struct alignas(8 * sizeof(Real)) MaterialRow {
-  Real wall_stiffness, wall_shear, wall_damping;  // N/m, N s/m, N s/m
-  Real radius;                                    // m
-  Real inverse_mass;                              // 1/kg
-  Real drag;                                      // kg/s
-  Real mass;                                      // kg
-  Real unused;
+struct alignas(4 * sizeof(Real)) MaterialRow {
+  Real inverse_mass;  // 1/kg
+  Real drag;          // kg/s
+  Real mass;          // kg
+  Real radius;        // m
 };
 
 /// The same numbers a column each, where materials are so few that a register or two hold a column.
@@ -57,6 +55,8 @@ struct ForcePass {
   const Vec3<Real>* applied = nullptr;        // forces of springs and the like, N; null where there are none
   Columns<Real> listed_at;                    // positions when the list was built, m
   const PairRow<Real>* pairs = nullptr;       // material_count squared
+  const PairRow<Real>* wall_pairs = nullptr;  // material_count
+  bool linear = true;                         // surfaces do nothing, here and with colliders
   const MaterialRow<Real>* materials = nullptr;
   const FewMaterials<Real>* few = nullptr;    // null where there are more, or one
   std::size_t material_count = 1;
@@ -89,7 +89,17 @@ enum GroupNote : unsigned char {
 /// What a pass sums over its particles: powers by cause, W, at twice the mean velocity of the kick; the same of the
 /// kick to come, under velocity Verlet; forces, N. `count` is how many there are of each.
 struct PassSum {
-  enum Power { contact_spring, contact_shear, contact_damping, drag, gravity, wall, collider, powers };
+  enum Power {
+    contact_spring,
+    contact_shear,
+    contact_damping,
+    contact_friction,
+    drag,
+    gravity,
+    wall,
+    collider,
+    powers
+  };
   static constexpr int next = powers;  // and on: powers of the kick to come
   static constexpr int wall_force = 2 * powers, collider_force = wall_force + 3, drag_force = wall_force + 6;
   static constexpr int count = drag_force + 3;

@@ -5,6 +5,8 @@
 // their contacts row by row, walls, drag, gravity and the integrator, all in registers. What each lane computes is
 // exactly what ReferenceBackend spells out for one particle.
 
+#include <type_traits>
+
 #include "hooke/backends/cpu/force_pass.h"
 #include "hooke/backends/cpu/pack_records.h"
 #include "hooke/backends/cpu/pack_sums.h"
@@ -62,17 +64,50 @@ HOOKE_HD Quad<Real> load_rows(const Row* table, const Pack<Real>& index, int par
 }
 
 // How many materials there are: of a few all coefficients are kept in registers, of one they are always the same.
-enum class Materials { one, few, many };
+// Of any number, where surfaces act, contacts follow the law with surfaces.
+enum class Materials { one, few, many, surfaces };
 
-// Stiffness, shear, damping and reach of the lanes' particles with others of some materials.
+// What kind of contact a lane has.
+template <class Real>
+struct LinearPair {
+  ContactCoefficients<Pack<Real>> law;
+  Pack<Real> reach;
+};
+template <class Real>
+struct SurfacePair {
+  ContactLaw<Pack<Real>> law;
+  Pack<Real> reach;
+};
+
+// A row a lane of a table of pairs.
 template <class Real, Materials kMaterials>
-struct PairTable;
+HOOKE_HD auto load_pairs(const PairRow<Real>* table, const Pack<Real>& index) {
+  const Quad<Real> linear = load_rows(table, index, 0);
+  if constexpr (kMaterials == Materials::surfaces) {
+    const Quad<Real> surface = load_rows(table, index, 1);
+    return SurfacePair<Real>{{{linear.a, linear.b, linear.c}, {surface.a, surface.b, surface.c, surface.d}}, linear.d};
+  } else {
+    return LinearPair<Real>{{linear.a, linear.b, linear.c}, linear.d};
+  }
+}
+
+// What the lanes' particles have with others of some materials.
+template <class Real, Materials kMaterials>
+struct PairTable {
+  using P = Pack<Real>;
+  HOOKE_HD PairTable(const ForcePass<Real>& pass, const P& material)
+      : pairs(pass.pairs),
+        first(material * P(static_cast<Real>(pass.material_count))) {}
+  HOOKE_HD auto lookup(const P& material) const { return load_pairs<Real, kMaterials>(pairs, first + material); }
+  const PairRow<Real>* pairs;
+  P first;
+};
 template <class Real>
 struct PairTable<Real, Materials::one> {
   using P = Pack<Real>;
   HOOKE_HD PairTable(const ForcePass<Real>& pass, const P&) : only(*pass.pairs) {}
-  HOOKE_HD Quad<Real> lookup(const P&) const {
-    return {P(only.stiffness), P(only.shear), P(only.damping), P(only.reach)};
+  HOOKE_HD LinearPair<Real> lookup(const P&) const {
+    return {{P(only.stiffness), P(only.shear), P(only.damping)}, P(only.reach)};
   }
   const PairRow<Real>& only;
 };
@@ -85,44 +120,41 @@ struct PairTable<Real, Materials::few> {
         shear(pass.few->shear),
         damping(pass.few->damping),
         reach(pass.few->reach) {}
-  HOOKE_HD Quad<Real> lookup(const P& material) const {
+  HOOKE_HD LinearPair<Real> lookup(const P& material) const {
     const P at = first + material;
-    return {stiffness.lookup(at), shear.lookup(at), damping.lookup(at), reach.lookup(at)};
+    return {{stiffness.lookup(at), shear.lookup(at), damping.lookup(at)}, reach.lookup(at)};
   }
   P first;
   SmallTable<Real> stiffness, shear, damping, reach;
 };
-template <class Real>
-struct PairTable<Real, Materials::many> {
-  using P = Pack<Real>;
-  HOOKE_HD PairTable(const ForcePass<Real>& pass, const P& material)
-      : pairs(pass.pairs),
-        first(material * P(static_cast<Real>(pass.material_count))) {}
-  HOOKE_HD Quad<Real> lookup(const P& material) const { return load_rows(pairs, first + material, 0); }
-  const PairRow<Real>* pairs;
-  P first;
-};
 
-// Of the lanes' particles against walls: stiffness, shear, damping; radius.
+// What the lanes' particles have with walls.
 template <class Real, Materials kMaterials>
-HOOKE_HD Quad<Real> surface_of(const ForcePass<Real>& pass, const Lanes<Real>& own) {
+HOOKE_HD auto wall_pairs_of(const ForcePass<Real>& pass, const Lanes<Real>& own) {
   using P = Pack<Real>;
-  if constexpr (kMaterials != Materials::one) return load_rows(pass.materials, own.material, 0);
-  const MaterialRow<Real>& m = pass.materials[0];
-  return {P(m.wall_stiffness), P(m.wall_shear), P(m.wall_damping), P(m.radius)};
+  if constexpr (kMaterials == Materials::one) {
+    const PairRow<Real>& m = *pass.wall_pairs;
+    return LinearPair<Real>{{P(m.stiffness), P(m.shear), P(m.damping)}, P(m.reach)};
+  } else {
+    return load_pairs<Real, kMaterials>(pass.wall_pairs, own.material);
+  }
 }
 
 // Inverse mass, drag and mass of the lanes' particles.
 template <class Real, Materials kMaterials>
 HOOKE_HD Quad<Real> body_of(const ForcePass<Real>& pass, const Lanes<Real>& own) {
   using P = Pack<Real>;
-  if constexpr (kMaterials == Materials::many) return load_rows(pass.materials, own.material, 1);
-  if constexpr (kMaterials == Materials::few) {
+  if constexpr (kMaterials == Materials::one) {
+    const MaterialRow<Real>& m = pass.materials[0];
+    return {P(m.inverse_mass), P(m.drag), P(m.mass), P(Real(0))};
+  } else if constexpr (kMaterials == Materials::few) {
     const auto column = [&](const Real* of) { return SmallTable<Real>(of).lookup(own.material); };
     return {column(pass.few->inverse_mass), column(pass.few->drag), column(pass.few->mass), P(Real(0))};
+  } else {
+    return load_quads(Real{}, [&](int lane) {
+      return reinterpret_cast<const Real*>(pass.materials + static_cast<std::size_t>(own.material.v[lane]));
+    });
   }
-  const MaterialRow<Real>& m = pass.materials[0];
-  return {P(m.inverse_mass), P(m.drag), P(m.mass), P(Real(0))};
 }
 
 template <class Real>
@@ -130,36 +162,59 @@ HOOKE_HD void add_where(const Mask<Real>& m, Vec3<Pack<Real>>& sum, const Vec3<P
   sum = {add_where(m, sum.x, b.x), add_where(m, sum.y, b.y), add_where(m, sum.z, b.z)};
 }
 
-// The contacts of the lanes' particles with others: of one material summed before its coefficients are applied.
+// The contacts of the lanes' particles with others: of one material summed before its coefficients are applied. The
+// vectors are handed over as they are computed: of a local copy of them GCC 12 keeps one in memory.
 template <class Real, Materials kMaterials>
 struct Contacts {
-  ContactForces<Pack<Real>> sum;
+  using P = Pack<Real>;
+  ContactForces<P> sum;
 
-  HOOKE_HD void add(const Mask<Real>& touching, const ContactVectors<Pack<Real>>& contact,
-                    const ContactCoefficients<Pack<Real>>& coefficients) {
-    const ContactForces<Pack<Real>> forces = contact_forces(contact, coefficients);
-    add_where(touching, sum.spring, forces.spring);
-    add_where(touching, sum.shear, forces.shear);
-    add_where(touching, sum.damping, forces.damping);
+  HOOKE_HD void add(const Mask<Real>& acting, const ContactVectors<P>& contact, const ContactCoefficients<P>& law) {
+    const ContactForces<P> forces = contact_forces(contact, law);
+    add_where(acting, sum.spring, forces.spring);
+    add_where(acting, sum.shear, forces.shear);
+    add_where(acting, sum.damping, forces.damping);
   }
-  HOOKE_HD ContactForces<Pack<Real>> forces(const ForcePass<Real>&) const { return sum; }
+  HOOKE_HD ContactForces<P> forces(const ForcePass<Real>&) const { return sum; }
 };
 template <class Real>
 struct Contacts<Real, Materials::one> {
-  ContactVectors<Pack<Real>> sum;
+  using P = Pack<Real>;
+  ContactVectors<P> sum;
 
-  HOOKE_HD void add(const Mask<Real>& touching, const ContactVectors<Pack<Real>>& contact,
-                    const ContactCoefficients<Pack<Real>>&) {
-    add_where(touching, sum.overlap, contact.overlap);
-    add_where(touching, sum.normal, contact.normal);
-    add_where(touching, sum.relative, contact.relative);
+  HOOKE_HD void add(const Mask<Real>& acting, const ContactVectors<P>& contact, const ContactCoefficients<P>&) {
+    add_where(acting, sum.overlap, contact.overlap);
+    add_where(acting, sum.normal, contact.normal);
+    add_where(acting, sum.relative, contact.relative);
   }
-  HOOKE_HD ContactForces<Pack<Real>> forces(const ForcePass<Real>& pass) const {
-    using P = Pack<Real>;
+  HOOKE_HD ContactForces<P> forces(const ForcePass<Real>& pass) const {
     const PairRow<Real>& pair = *pass.pairs;
     return contact_forces(sum, ContactCoefficients<P>{P(pair.stiffness), P(pair.shear), P(pair.damping)});
   }
 };
+template <class Real>
+struct Contacts<Real, Materials::surfaces> {
+  using P = Pack<Real>;
+  SurfaceForces<P> sum;
+
+  HOOKE_HD void add(const Mask<Real>& acting, const SurfaceForces<P>& forces) {
+    add_where(acting, sum.linear.spring, forces.linear.spring);
+    add_where(acting, sum.linear.shear, forces.linear.shear);
+    add_where(acting, sum.linear.damping, forces.linear.damping);
+    add_where(acting, sum.friction, forces.friction);
+  }
+  HOOKE_HD SurfaceForces<P> forces(const ForcePass<Real>&) const { return sum; }
+};
+
+// Mask of lanes on which something acts that overlaps so far: it touches them, or cohesion reaches across the gap.
+template <class Real>
+HOOKE_HD Mask<Real> acts(const Pack<Real>& overlap, const ContactCoefficients<Pack<Real>>&) {
+  return overlap > Pack<Real>(Real(0));
+}
+template <class Real>
+HOOKE_HD Mask<Real> acts(const Pack<Real>& overlap, const ContactLaw<Pack<Real>>& law) {
+  return overlap > -law.surface.range;
+}
 
 // What other particles do to the lanes'.
 template <class Real, Materials kMaterials>
@@ -176,11 +231,12 @@ struct ContactLoop {
   const ForcePass<Real>& pass;
   const Lanes<Real>& own;
 
-  HOOKE_HD void one_image(const Lanes<Real>& other, const Vec3<P>& x_ip, const ContactCoefficients<P>& coefficients,
-                          const P& reach, const Mask<Real>& counts, Acting<Real, kMaterials>& acting) const {
+  template <class Pair>
+  HOOKE_HD void one_image(const Lanes<Real>& other, const Vec3<P>& x_ip, const Pair& pair, const Mask<Real>& counts,
+                          Acting<Real, kMaterials>& acting) const {
     const P distance = sqrt_of(dot(x_ip, x_ip));
-    const P overlap = reach - distance;
-    const Mask<Real> touching = counts & (overlap > P(Real(0)));
+    const P overlap = pair.reach - distance;
+    const Mask<Real> here = counts & acts<Real>(overlap, pair.law);
     Vec3<P> normal;
     if constexpr (kTies) {
       normal = contact_normal(x_ip, distance, select(own.rank > other.rank, P(Real(1)), P(Real(-1))));
@@ -188,16 +244,20 @@ struct ContactLoop {
       normal = contact_normal(x_ip, distance);
     }
     const Vec3<P> w = other.v - own.v;
-    acting.contacts.add(touching, contact_vectors(overlap, normal, w), coefficients);
-    // What is not a number, where centres coincide, counts.
-    acting.too_fast = acting.too_fast | (touching & !(dot(w, normal) <= P(pass.speed_limit)));
+    if constexpr (kMaterials == Materials::surfaces) {
+      acting.contacts.add(here, contact_forces(overlap, normal, w, pair.law));
+    } else {
+      acting.contacts.add(here, contact_vectors(overlap, normal, w), pair.law);
+    }
+    // What is not a number, where centres coincide, counts. So do those that only cohesion holds: they are looked at.
+    acting.too_fast = acting.too_fast | (here & !(dot(w, normal) <= P(pass.speed_limit)));
   }
 
-  HOOKE_HD void neighbour(const Lanes<Real>& other, const ContactCoefficients<P>& coefficients, const P& reach,
-                          Acting<Real, kMaterials>& acting) const {
+  template <class Pair>
+  HOOKE_HD void neighbour(const Lanes<Real>& other, const Pair& pair, Acting<Real, kMaterials>& acting) const {
     const Mask<Real> all = P(Real(0)) == P(Real(0));
     if constexpr (kPeriodic == PeriodicKind::none) {
-      one_image(other, own.x - other.x, coefficients, reach, all, acting);
+      one_image(other, own.x - other.x, pair, all, acting);
     } else if constexpr (kPeriodic == PeriodicKind::nearest) {
       const auto displacement = [&](const P& x_i, const P& x_p, bool periodic, Real length) {
         if (!periodic) return x_i - x_p;
@@ -206,7 +266,7 @@ struct ContactLoop {
       const Vec3<P> x_ip{displacement(own.x.x, other.x.x, pass.periodic[0], pass.length.x),
                          displacement(own.x.y, other.x.y, pass.periodic[1], pass.length.y),
                          displacement(own.x.z, other.x.z, pass.periodic[2], pass.length.z)};
-      one_image(other, x_ip, coefficients, reach, all, acting);
+      one_image(other, x_ip, pair, all, acting);
     } else {
       const Mask<Real> another = !(own.rank == other.rank);
       for (int sx = -pass.images[0]; sx <= pass.images[0]; ++sx) {
@@ -216,7 +276,7 @@ struct ContactLoop {
                                image_displacement(own.x.y, other.x.y, P(static_cast<Real>(sy)), P(pass.length.y)),
                                image_displacement(own.x.z, other.x.z, P(static_cast<Real>(sz)), P(pass.length.z))};
             const bool itself = sx == 0 && sy == 0 && sz == 0;
-            one_image(other, x_ip, coefficients, reach, itself ? another : all, acting);
+            one_image(other, x_ip, pair, itself ? another : all, acting);
           }
         }
       }
@@ -230,8 +290,7 @@ struct ContactLoop {
     for (; row != end; row += kGroupLanes) {
       prefetch_row(row, last_row);
       const Lanes<Real> other = load_neighbours(pass.in, row);
-      const Quad<Real> pair = table.lookup(other.material);
-      neighbour(other, {pair.a, pair.b, pair.c}, pair.d, acting);
+      neighbour(other, table.lookup(other.material), acting);
     }
     return acting;
   }
@@ -260,21 +319,20 @@ struct WallLoop {
     Vec3<P> force{P(Real(0)), P(Real(0)), P(Real(0))};
     if (!any(is_near())) return force;
     const Vec3<P> w = -own.v;
-    const Quad<Real> material = surface_of<Real, kMaterials>(pass, own);
-    const ContactCoefficients<P> coefficients{material.a, material.b, material.c};
+    const auto pair = wall_pairs_of<Real, kMaterials>(pass, own);
     const auto face = [&](int axis, Real sign, const P& overlap) {
-      const Mask<Real> touching = present & (overlap > P(Real(0)));
-      if (!any(touching)) return;
+      const Mask<Real> here = present & acts<Real>(overlap, pair.law);
+      if (!any(here)) return;
       touched = true;
       const Vec3<P> normal = wall_normal(axis, P(sign));
-      add_where(touching, force, contact_forces(overlap, normal, w, coefficients).total());
-      too_fast = too_fast | (touching & (dot(w, normal) > P(pass.speed_limit)));
+      add_where(here, force, contact_forces(overlap, normal, w, pair.law).total());
+      too_fast = too_fast | (here & (dot(w, normal) > P(pass.speed_limit)));
     };
     for (int axis = 0; axis < 3; ++axis) {
       if (!pass.wall[axis]) continue;
       const P& x = component(own.x, axis);
-      face(axis, Real(1), lower_wall_overlap(x, P(component(pass.min, axis)), material.d));
-      face(axis, Real(-1), upper_wall_overlap(x, P(component(pass.max, axis)), material.d));
+      face(axis, Real(1), lower_wall_overlap(x, P(component(pass.min, axis)), pair.reach));
+      face(axis, Real(-1), upper_wall_overlap(x, P(component(pass.max, axis)), pair.reach));
     }
     return force;
   }
@@ -370,22 +428,33 @@ struct PassColumns {
 };
 
 // What acts on the lanes' particles, N.
-template <class Real>
+template <class Real, class ByContacts>
 struct Forces {
   using P = Pack<Real>;
-  ContactForces<P> contacts;
+  ByContacts contacts;
   Vec3<P> walls, colliders, drag, weight;
 
   // Powers at twice a mean velocity, to the columns from `first` on.
   HOOKE_HD void put_powers(int first, const Vec3<P>& twice_mean, bool has_drag, const Touching& touching,
                            PassColumns<Real>& to) const {
-    to.put(first + PassSum::contact_spring, dot(contacts.spring, twice_mean));
-    to.put(first + PassSum::contact_shear, dot(contacts.shear, twice_mean));
-    to.put(first + PassSum::contact_damping, dot(contacts.damping, twice_mean));
+    put_contacts(first, contacts, twice_mean, to);
     to.put(first + PassSum::gravity, dot(weight, twice_mean));
     if (has_drag) to.put(first + PassSum::drag, dot(drag, twice_mean));
     if (touching.wall) to.put(first + PassSum::wall, dot(walls, twice_mean));
     if (touching.collider) to.put(first + PassSum::collider, dot(colliders, twice_mean));
+  }
+
+ private:
+  HOOKE_HD static void put_contacts(int first, const ContactForces<P>& by, const Vec3<P>& twice_mean,
+                                    PassColumns<Real>& to) {
+    to.put(first + PassSum::contact_spring, dot(by.spring, twice_mean));
+    to.put(first + PassSum::contact_shear, dot(by.shear, twice_mean));
+    to.put(first + PassSum::contact_damping, dot(by.damping, twice_mean));
+  }
+  HOOKE_HD static void put_contacts(int first, const SurfaceForces<P>& by, const Vec3<P>& twice_mean,
+                                    PassColumns<Real>& to) {
+    put_contacts(first, by.linear, twice_mean, to);
+    to.put(first + PassSum::contact_friction, dot(by.friction, twice_mean));
   }
 };
 
@@ -407,7 +476,8 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
   Acting<Real, kMaterials> acting = ContactLoop<Real, kMaterials, kPeriodic, false>{pass, own}.run(row, end, last_row);
   if (any(acting.too_fast)) acting = ContactLoop<Real, kMaterials, kPeriodic, true>{pass, own}.run(row, end, last_row);
 
-  Forces<Real> forces{acting.contacts.forces(pass), {}, {}, {}, {}};
+  const auto by_contacts = acting.contacts.forces(pass);
+  Forces<Real, std::remove_const_t<decltype(by_contacts)>> forces{by_contacts, {}, {}, {}, {}};
   Touching touching;
   forces.walls = WallLoop<Real, kMaterials>{pass, own, present}.run(acting.too_fast, touching.wall);
   forces.colliders = ColliderLoop<Real, kMaterials>{pass, own, present}.run(acting.too_fast, touching.collider);
@@ -467,7 +537,8 @@ template <class Real>
 bool is_summed(const ForcePass<Real>& pass, int sum) {
   if (sum >= PassSum::drag_force) return pass.has_drag;
   if (sum >= PassSum::wall_force) return true;
-  if (sum % PassSum::powers == PassSum::drag) return pass.has_drag;
+  if (sum % PassSum::powers == PassSum::drag && !pass.has_drag) return false;
+  if (sum % PassSum::powers == PassSum::contact_friction && pass.linear) return false;
   return sum < PassSum::next || pass.acceleration != nullptr;
 }
 
@@ -502,6 +573,7 @@ void choose_periodic(const ForcePass<Real>& pass, const SegmentWork<Real>& work)
 
 template <class Real>
 void choose_materials(const ForcePass<Real>& pass, const SegmentWork<Real>& work) {
+  if (!pass.linear) return choose_periodic<Real, Materials::surfaces>(pass, work);
   if (pass.material_count == 1) return choose_periodic<Real, Materials::one>(pass, work);
   if (pass.few != nullptr) return choose_periodic<Real, Materials::few>(pass, work);
   return choose_periodic<Real, Materials::many>(pass, work);

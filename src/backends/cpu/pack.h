@@ -150,7 +150,12 @@ HOOKE_HD Mask<Real> operator==(const Pack<Real>& a, const Pack<Real>& b) {
 }
 template <class Real>
 HOOKE_HD Pack<Real> select(const Mask<Real>& m, const Pack<Real>& a, const Pack<Real>& b) {
+#if defined(__AVX2__)
   return Pack<Real>(m.v ? a.v : b.v);
+#else  // as the processor does it; left to itself GCC 12 fails on some uses
+  using Bits = typename Mask<Real>::Bits;
+  return Pack<Real>((typename Pack<Real>::Vector)(((Bits)a.v & m.v) | ((Bits)b.v & ~m.v)));
+#endif
 }
 
 /// a + b where m holds, else a: of what is not -0, so that adding 0 does not alter it.

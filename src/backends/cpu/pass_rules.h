@@ -18,13 +18,25 @@ namespace hooke {
 template <class Real>
 struct PassRules {
   std::vector<PairRow<Real>> pairs;  ///< materials squared
+  std::vector<PairRow<Real>> wall_pairs;  ///< a material each
   std::vector<MaterialRow<Real>> materials;
   std::vector<FewMaterials<Real>> few;  ///< none, or one
   double largest_radius = 0, smallest_radius = 1;  ///< m
+  double widest_range = 0;  ///< m: particles act on each other, and walls on them, across gaps up to this
   double rounding = 0;  ///< m, of displacements across a periodic axis
-  std::vector<double> level_radius;  ///< m: materials of similar radius share a level; the largest of each, ascending
+  std::vector<double> level_radius;  ///< m: materials of similar reach share a level; the largest of each, ascending
   std::vector<std::size_t> level_of;  ///< by material
   ForcePass<Real> pass;  ///< all but the buffers
+
+  /// How far a particle reaches, m: two act on each other no further apart than the sum.
+  double reach_of(std::size_t material) const { return materials[material].radius + widest_range / 2; }
+  double largest_reach() const { return largest_radius + widest_range / 2; }
+
+  static PairRow<Real> row_of(const ContactLaw<double>& law, Real reach) {
+    const auto& [linear, surface] = law;
+    return {real(linear.stiffness), real(linear.shear),    real(linear.damping),   reach,
+            real(surface.friction), real(surface.tension), real(surface.cohesion), real(surface.range)};
+  }
 
   void configure(const Scene& scene) {
     configure_materials(scene);
@@ -44,28 +56,29 @@ struct PassRules {
     std::size_t n = scene.materials.size();
     while (n > 0 && !scene.materials[n - 1].is_of_particles()) --n;
     pairs.assign(n * n, PairRow<Real>{});
+    wall_pairs.assign(n, PairRow<Real>{});
     materials.assign(n, MaterialRow<Real>{});
     largest_radius = 0;
     smallest_radius = n == 0 ? 1 : std::numeric_limits<double>::infinity();
+    widest_range = table.widest_range();
+    pass.linear = table.is_linear();
     pass.has_drag = false;
     for (std::size_t a = 0; a < n; ++a) {
       const Material& m = scene.materials[a];
       if (!m.is_of_particles()) continue;
-      const ContactCoefficients<double>& wall = table.wall(a);
-      materials[a] = {real(wall.stiffness),   real(wall.shear), real(wall.damping), real(m.radius),
-                      Real(1) / real(m.mass), real(m.drag),     real(m.mass),       {}};
+      materials[a] = {Real(1) / real(m.mass), real(m.drag), real(m.mass), real(m.radius)};
       pass.has_drag = pass.has_drag || m.drag > 0;
       largest_radius = std::max(largest_radius, m.radius);
       smallest_radius = std::min(smallest_radius, m.radius);
+      wall_pairs[a] = row_of(table.wall(a), real(m.radius));
       for (std::size_t b = 0; b < n; ++b) {
-        const ContactCoefficients<double>& c = table.pair(a, b);
-        pairs[a * n + b] = {
-            real(c.stiffness), real(c.shear), real(c.damping), real(m.radius) + real(scene.materials[b].radius), {}};
+        pairs[a * n + b] = row_of(table.pair(a, b), real(m.radius) + real(scene.materials[b].radius));
       }
     }
     configure_levels();
     configure_few();
     pass.pairs = pairs.data();
+    pass.wall_pairs = wall_pairs.data();
     pass.materials = materials.data();
     pass.few = few.empty() ? nullptr : few.data();
     pass.material_count = n;
@@ -99,7 +112,7 @@ struct PassRules {
     level_of.assign(materials.size(), 0);
     double smallest = 0;  // of the level
     for (const std::size_t m : by_radius) {
-      const auto radius = static_cast<double>(materials[m].radius);
+      const double radius = reach_of(m);
       if (level_radius.empty() || radius > 1.5 * smallest) {
         level_radius.push_back(radius);
         smallest = radius;
@@ -124,8 +137,8 @@ struct PassRules {
       pass.images[axis] = 0;
       if (!pass.periodic[axis]) continue;
       const double length = component(pass.length, axis);
-      pass.images[axis] = static_cast<int>(2 * largest_radius / length) + 1;
-      const bool only_nearest = length > 4.001 * largest_radius;
+      pass.images[axis] = static_cast<int>(2 * largest_reach() / length) + 1;
+      const bool only_nearest = length > 4.001 * largest_reach();
       if (!only_nearest) pass.periodic_kind = PeriodicKind::images;
       if (pass.periodic_kind == PeriodicKind::none) pass.periodic_kind = PeriodicKind::nearest;
       rounding = std::max(rounding, 4 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * length);
@@ -137,9 +150,9 @@ struct PassRules {
     constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
     Real from = -kInfinite, to = kInfinite;
     if (pass.wall[axis]) {
-      const double radius = largest_radius;
-      from = std::nextafter(std::nextafter(real(component(pass.min, axis) + radius), kInfinite), kInfinite);
-      to = std::nextafter(std::nextafter(real(component(pass.max, axis) - radius), -kInfinite), -kInfinite);
+      const double reach = largest_radius + widest_range;
+      from = std::nextafter(std::nextafter(real(component(pass.min, axis) + reach), kInfinite), kInfinite);
+      to = std::nextafter(std::nextafter(real(component(pass.max, axis) - reach), -kInfinite), -kInfinite);
     }
     component(pass.clear_of_walls_from, axis) = from;
     component(pass.clear_of_walls_to, axis) = to;

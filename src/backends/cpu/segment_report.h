@@ -28,6 +28,7 @@ struct SegmentReport {
     constexpr std::pair<PassSum::Power, Cause> kPowers[] = {{PassSum::contact_spring, Cause::contact_spring},
                                                             {PassSum::contact_shear, Cause::contact_shear},
                                                             {PassSum::contact_damping, Cause::contact_damping},
+                                                            {PassSum::contact_friction, Cause::contact_friction},
                                                             {PassSum::drag, Cause::drag},
                                                             {PassSum::gravity, Cause::gravity},
                                                             {PassSum::wall, Cause::wall},

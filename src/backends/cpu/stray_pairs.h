@@ -173,7 +173,7 @@ class StrayPairs {
         const Place place = place_of(i);
         ranges.clear();
         for (std::size_t level = 0; level < cells_.level_count(); ++level) {
-          const double reach = place.range + radius(i) + cells_.largest_radius(level) + margin();
+          const double reach = place.range + reach_of(i) + cells_.largest_radius(level) + margin();
           cells_.find(level, place.at - Vec3d{reach, reach, reach}, place.at + Vec3d{reach, reach, reach}, ranges);
         }
         for (const SearchRange& range : ranges) {
@@ -192,17 +192,17 @@ class StrayPairs {
   }
 
   /// Whether two particles overlap where they are now.
-  bool overlap(std::size_t i, std::size_t p) const { return are_nearer(i, p, radius(i) + radius(p)); }
+  bool overlap(std::size_t i, std::size_t p) const { return are_nearer(i, p, reach_of(i) + reach_of(p)); }
 
  private:
-  double radius(std::size_t i) const { return rules_.materials[static_cast<std::size_t>(records_[i].material)].radius; }
+  double reach_of(std::size_t i) const { return rules_.reach_of(static_cast<std::size_t>(records_[i].material)); }
   double margin() const { return 1e-3 * rules_.smallest_radius; }  // what the force pass rounds differently
   static bool is_somewhere(const Record& p) {
     const auto near = [](Real x) { return std::abs(x) < static_cast<Real>(kFurthest); };
     return near(p.x.x) && near(p.x.y) && near(p.x.z);
   }
 
-  bool touch(std::size_t i, std::size_t p) const { return are_nearer(i, p, radius(i) + radius(p) + margin()); }
+  bool touch(std::size_t i, std::size_t p) const { return are_nearer(i, p, reach_of(i) + reach_of(p) + margin()); }
 
   bool are_nearer(std::size_t i, std::size_t p, double reach) const {
     Vec3<Real> d = records_[i].x - records_[p].x;
@@ -236,7 +236,7 @@ class StrayPairs {
     using Stray = typename Room::Stray;
     std::vector<Stray>& sorted = room.sorted;
     sorted.clear();
-    const auto reach = static_cast<Real>(2 * rules_.largest_radius + margin());
+    const auto reach = static_cast<Real>(2 * rules_.largest_reach() + margin());
     for (const std::uint32_t i : strays) {
       if (!is_nowhere(records_[i])) add_with_images(i, records_[i].x, 0, reach, sorted);
     }

@@ -82,13 +82,13 @@ class VerletList {
       for (std::size_t i = first; i < last; ++i) {
         listed_at_.put(i, records[i].x);
         ranks[i] = rank_of(records[i].rank);
-        if (!radii_.empty()) radii_[i] = radius_of(records[i]);
+        if (!radii_.empty()) radii_[i] = static_cast<Real>(reach_of(records[i]));
       }
     });
     build_neighbour_list(cells_, neighbour_rule(), search_, list_);
     strike_apart();
 
-    limits_.diameter = 2 * rules_->largest_radius;
+    limits_.diameter = 2 * rules_->largest_reach();
     find_coarseness();
     // A thousandth covers what rounding takes of displacements.
     limits_.skin = std::max(0.0, 0.999 * skin_ - 2 * rules_->rounding - coarseness_);
@@ -189,7 +189,7 @@ class VerletList {
         const Vec3d at = vec_cast<double>(records[i].x);
         std::vector<SearchRange> ranges;
         for (std::size_t level = 0; level < cells.level_count(); ++level) {
-          const double reach = radius_of(records[i]) + cells.largest_radius(level);
+          const double reach = reach_of(records[i]) + cells.largest_radius(level);
           cells.find(level, at - Vec3d{reach, reach, reach}, at + Vec3d{reach, reach, reach}, ranges);
         }
         for (const SearchRange& range : ranges) {
@@ -227,7 +227,7 @@ class VerletList {
   // Skins as a part of the smallest diameter.
   static constexpr double kFirstSkin = 0.25, kThinnestSkin = 0.12, kThickestSkin = 0.4;
 
-  Real radius_of(const Record& p) const { return rules_->materials[static_cast<std::size_t>(p.material)].radius; }
+  double reach_of(const Record& p) const { return rules_->reach_of(static_cast<std::size_t>(p.material)); }
 
   // The wider the skin, the longer a list lasts, and the longer are its rows. With rows as (1 + s)^3 and a force pass
   // over rows without a skin at about a ninth of a build, the cost of a step is least where 1/3 s^2 (1 + s)^2 is the
@@ -263,7 +263,7 @@ class VerletList {
     rule.radius = radii_.empty() ? nullptr : radii_.data();
     rule.rank = order_.data();
     rule.reach = static_cast<Real>(kRounding * rules_->smallest_radius +
-                                   (radii_.empty() ? 2 * rules_->largest_radius : 0) + skin_);
+                                   (radii_.empty() ? 2 * rules_->largest_reach() : 0) + skin_);
     std::copy(std::begin(rules_->pass.periodic), std::end(rules_->pass.periodic), rule.periodic);
     rule.length = rules_->pass.length;
     rule.list_self = rules_->pass.periodic_kind == PeriodicKind::images;

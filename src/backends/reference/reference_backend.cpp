@@ -31,13 +31,11 @@ class ReferenceBackend final : public Backend {
     table_ = ContactTable(scene.materials, scene.contacts);
     springs_.configure(scene);
     attraction_.configure(scene);
-    double largest = 0;
-    for (const Material& m : scene.materials) largest = std::max(largest, m.radius);
+    const double reach = 2 * largest_radius() + table_.widest_range();
     for (int axis = 0; axis < 3; ++axis) {
       // Inside the domain, images further away than this can't touch.
       const bool periodic = scene.domain.boundary[static_cast<std::size_t>(axis)] == Boundary::periodic;
-      images_[static_cast<std::size_t>(axis)] =
-          periodic ? static_cast<int>(2 * largest / scene.domain.length(axis)) + 1 : 0;
+      images_[static_cast<std::size_t>(axis)] = periodic ? static_cast<int>(reach / scene.domain.length(axis)) + 1 : 0;
     }
   }
 
@@ -78,10 +76,9 @@ class ReferenceBackend final : public Backend {
 
   void place_colliders(std::span<const ColliderPose> poses) override {
     colliders_.clear();
-    double largest = 0;
-    for (const Material& m : scene_.materials) largest = std::max(largest, m.radius);
+    const double reach = largest_radius() + table_.widest_range();
     for (std::size_t c = 0; c < poses.size(); ++c) {
-      colliders_.push_back(place_collider<double>(scene_.colliders[c], poses[c], largest));
+      colliders_.push_back(place_collider<double>(scene_.colliders[c], poses[c], reach));
     }
   }
 
@@ -156,16 +153,16 @@ class ReferenceBackend final : public Backend {
     for (std::size_t i = 0; i < p_.size(); ++i) {
       sums.add_particle(material(i).mass, p_.position[i], p_.velocity[i], scene_.gravity);
       for_each_contact(i, [&](std::size_t p, const Vec3d&, double overlap) {
-        sums.add_contact_side(pair(i, p).stiffness, overlap, material(i).radius + material(p).radius);
+        sums.add_contact_side(pair(i, p), overlap, material(i).radius + material(p).radius);
       });
       for_each_wall(i, [&](const Vec3d& normal, double overlap) {
         const auto& c = table_.wall(p_.material[i]);
-        sums.add_wall_contact(c.stiffness, overlap, contact_forces(overlap, normal, -p_.velocity[i], c).total());
+        sums.add_wall_contact(c, overlap, contact_force(overlap, normal, -p_.velocity[i], c));
       });
       for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double overlap) {
         const auto& k = collider_pair(i, c);
-        const Vec3d force = contact_forces(overlap, face.normal, face.velocity - p_.velocity[i], k).total();
-        sums.add_collider_contact(c, face.point, k.stiffness, overlap, force);
+        const Vec3d force = contact_force(overlap, face.normal, face.velocity - p_.velocity[i], k);
+        sums.add_collider_contact(c, face.point, k, overlap, force);
       });
     }
     Measurements result = sums.result(scene_.colliders.size());
@@ -190,12 +187,23 @@ class ReferenceBackend final : public Backend {
   bool verlet() const { return scene_.integrator == Integrator::velocity_verlet; }
   bool has_one_material() const { return scene_.materials.size() == 1; }
   const Material& material(std::size_t i) const { return scene_.materials[p_.material[i]]; }
-  const ContactCoefficients<double>& pair(std::size_t i, std::size_t p) const {
+  double largest_radius() const {
+    double largest = 0;
+    for (const Material& m : scene_.materials) largest = std::max(largest, m.radius);
+    return largest;
+  }
+  const ContactLaw<double>& pair(std::size_t i, std::size_t p) const {
     return table_.pair(p_.material[i], p_.material[p]);
   }
 
-  const ContactCoefficients<double>& collider_pair(std::size_t i, std::size_t c) const {
+  const ContactLaw<double>& collider_pair(std::size_t i, std::size_t c) const {
     return table_.collider(p_.material[i], scene_.colliders[c].material);
+  }
+
+  // Of a contact with a wall or a collider: all contacts of a scene follow the same law.
+  Vec3d force(double overlap, const Vec3d& normal, const Vec3d& w, const ContactLaw<double>& law) const {
+    return table_.is_linear() ? contact_forces(overlap, normal, w, law.linear).total()
+                              : contact_forces(overlap, normal, w, law).total();
   }
 
   // Forces on each particle in canonical order, cause by cause: contacts by (neighbour id, image), walls, colliders,
@@ -210,28 +218,29 @@ class ReferenceBackend final : public Backend {
       const Material& m = material(i);
       const Vec3d& v = p_.velocity[i];
       ContactVectors<double> alike;  // contacts, where all have the same coefficients
-      ContactForces<double> contacts;
+      SurfaceForces<double> contacts;
       Vec3d walls{0, 0, 0}, colliders{0, 0, 0};
 
       for_each_contact(i, [&](std::size_t p, const Vec3d& normal, double overlap) {
         const Vec3d w = p_.velocity[p] - v;
-        const ContactVectors<double> contact = contact_vectors(overlap, normal, w);
-        if (has_one_material()) {
-          alike += contact;
+        if (!table_.is_linear()) {
+          contacts += contact_forces(overlap, normal, w, pair(i, p));
+        } else if (has_one_material()) {
+          alike += contact_vectors(overlap, normal, w);
         } else {
-          contacts += contact_forces(contact, pair(i, p));
+          contacts.linear += contact_forces(overlap, normal, w, pair(i, p).linear);
         }
         const double approach = dot(w, normal);
-        if (approach > std::min(m.radius, material(p).radius) / dt) {
+        if (overlap > 0 && approach > std::min(m.radius, material(p).radius) / dt) {
           out.condition =
               Condition::first(out.condition, {Condition::Kind::approach_too_fast, p_.id[i], p_.id[p], approach});
         }
       });
 
       for_each_wall(i, [&](const Vec3d& normal, double overlap) {
-        walls += contact_forces(overlap, normal, -v, table_.wall(p_.material[i])).total();
+        walls += force(overlap, normal, -v, table_.wall(p_.material[i]));
         const double approach = dot(-v, normal);
-        if (approach > m.radius / dt) {
+        if (overlap > 0 && approach > m.radius / dt) {
           out.condition =
               Condition::first(out.condition, {Condition::Kind::wall_approach_too_fast, p_.id[i], 0, approach});
         }
@@ -239,30 +248,32 @@ class ReferenceBackend final : public Backend {
 
       for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double overlap) {
         const Vec3d w = face.velocity - v;
-        colliders += contact_forces(overlap, face.normal, w, collider_pair(i, c)).total();
+        colliders += force(overlap, face.normal, w, collider_pair(i, c));
         const double approach = dot(w, face.normal);
-        if (approach > m.radius / dt) {
+        if (overlap > 0 && approach > m.radius / dt) {
           out.condition =
               Condition::first(out.condition, {Condition::Kind::collider_approach_too_fast, p_.id[i], c, approach});
         }
       });
-      if (has_one_material()) contacts = contact_forces(alike, pair(i, i));
+      if (table_.is_linear() && has_one_material()) contacts.linear = contact_forces(alike, pair(i, i).linear);
+      const Vec3d by_contacts = table_.is_linear() ? contacts.linear.total() : contacts.total();
 
       const Vec3d drag = drag_force(v, m.drag);
       Vec3d applied{0, 0, 0};
       if (!out.applied.empty()) applied += out.applied[i];
       if (!out.attraction.empty()) applied += out.attraction[i];
-      const Vec3d force = (((contacts.total() + walls) + colliders) + drag) + applied;
-      out.a[i] = (1 / m.mass) * force + scene_.gravity;
+      const Vec3d sum = (((by_contacts + walls) + colliders) + drag) + applied;
+      out.a[i] = (1 / m.mass) * sum + scene_.gravity;
 
       out.sums.wall_force.add(walls);
       out.sums.collider_force.add(colliders);
       out.sums.drag_force.add(drag);
       const auto add_powers = [&](ByCause<ExactSum>& power, const Vec3d& before, const Vec3d& after) {
         const Vec3d twice_mean = before + after;
-        power[Cause::contact_spring].add(dot(contacts.spring, twice_mean));
-        power[Cause::contact_shear].add(dot(contacts.shear, twice_mean));
-        power[Cause::contact_damping].add(dot(contacts.damping, twice_mean));
+        power[Cause::contact_spring].add(dot(contacts.linear.spring, twice_mean));
+        power[Cause::contact_shear].add(dot(contacts.linear.shear, twice_mean));
+        power[Cause::contact_damping].add(dot(contacts.linear.damping, twice_mean));
+        power[Cause::contact_friction].add(dot(contacts.friction, twice_mean));
         power[Cause::wall].add(dot(walls, twice_mean));
         power[Cause::collider].add(dot(colliders, twice_mean));
         power[Cause::drag].add(dot(drag, twice_mean));
@@ -291,7 +302,8 @@ class ReferenceBackend final : public Backend {
     }
   }
 
-  // visit(p, normal, overlap) for every touching particle p and image of it, by id, then image.
+  // visit(p, normal, overlap) for every particle p that acts on i and image of it, by id, then image: those touch it,
+  // overlap > 0, or cohesion reaches from one to the other.
   template <class Visit>
   void for_each_contact(std::size_t i, Visit&& visit) const {
     const Domain& domain = scene_.domain;
@@ -306,35 +318,37 @@ class ReferenceBackend final : public Backend {
                              image_displacement<double>(p_.position[i].z, p_.position[p].z, sz, domain.length(2))};
             const double distance = sqrt_of(dot(x_ip, x_ip));
             const double overlap = (material(i).radius + material(p).radius) - distance;
-            if (overlap > 0) visit(p, contact_normal(x_ip, distance, p_.id[i] > p_.id[p] ? 1.0 : -1.0), overlap);
+            if (overlap > -pair(i, p).surface.range)
+              visit(p, contact_normal(x_ip, distance, p_.id[i] > p_.id[p] ? 1.0 : -1.0), overlap);
           }
         }
       }
     }
   }
 
-  // visit(normal, overlap) for every wall that particle i touches: x, y, z, the lower face first.
+  // visit(normal, overlap) for every wall that acts on particle i: x, y, z, the lower face first.
   template <class Visit>
   void for_each_wall(std::size_t i, Visit&& visit) const {
+    const double range = table_.wall(p_.material[i]).surface.range;
     for (int axis = 0; axis < 3; ++axis) {
       if (scene_.domain.boundary[static_cast<std::size_t>(axis)] != Boundary::spring) continue;
       const double x = component(p_.position[i], axis);
       const double radius = material(i).radius;
       const double lower = lower_wall_overlap(x, component(scene_.domain.min, axis), radius);
       const double upper = upper_wall_overlap(x, component(scene_.domain.max, axis), radius);
-      if (lower > 0) visit(wall_normal(axis, 1.0), lower);
-      if (upper > 0) visit(wall_normal(axis, -1.0), upper);
+      if (lower > -range) visit(wall_normal(axis, 1.0), lower);
+      if (upper > -range) visit(wall_normal(axis, -1.0), upper);
     }
   }
 
-  // visit(collider, face, overlap) for every face of a collider that particle i touches, in the scene's order.
+  // visit(collider, face, overlap) for every face of a collider that acts on particle i, in the scene's order.
   template <class Visit>
   void for_each_collider(std::size_t i, Visit&& visit) const {
     const double radius = material(i).radius;
     for (std::size_t c = 0; c < colliders_.size(); ++c) {
       for_each_collider_face(colliders_[c], p_.position[i], [&](const ColliderFace<double>& face) {
         const double overlap = radius - face.distance;
-        if (overlap > 0) visit(c, face, overlap);
+        if (overlap > -collider_pair(i, c).surface.range) visit(c, face, overlap);
       });
     }
   }
