@@ -161,6 +161,15 @@ void add_surface_laws(Collection& out) {
   tiny.domain.boundary[0] = Boundary::periodic;
   tiny.time_step = 5e-4;
   out.add_cloud("surfaces_periodic_one_diameter", tiny, 50, 20);
+  Scene many = mixed_scene({0, 0, 0}, {6, 8, 5});
+  add_surfaces(many);
+  for (const char* name : {"d", "e"}) {
+    Material material = many.materials[1];
+    material.name = name;
+    material.surface.friction *= 2;
+    many.materials.push_back(material);
+  }
+  out.add_cloud("surfaces_five_materials", many, 200, 60);
   Scene alone = uniform_scene({0, 0, 0}, {6, 8, 5});
   alone.materials[0].surface = {0.5, 0, 3, 0.125};
   out.add_cloud("surfaces_one_material", alone, 150, 60);

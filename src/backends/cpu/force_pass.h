@@ -36,7 +36,8 @@ struct alignas(4 * sizeof(Real)) MaterialRow {
 template <class Real>
 struct FewMaterials {
   static constexpr std::size_t kPairs = 16;
-  alignas(64) Real stiffness[kPairs], shear[kPairs], damping[kPairs], reach[kPairs];  // by pair
+  alignas(64) Real stiffness[kPairs], shear[kPairs], damping[kPairs], reach[kPairs];       // by pair
+  alignas(64) Real friction[kPairs], tension[kPairs], cohesion[kPairs], range[kPairs];     // likewise
   alignas(64) Real inverse_mass[kPairs], drag[kPairs], mass[kPairs];                  // by material
 };
 
@@ -58,7 +59,7 @@ struct ForcePass {
   const PairRow<Real>* wall_pairs = nullptr;  // material_count
   bool linear = true;                         // surfaces do nothing, here and with colliders
   const MaterialRow<Real>* materials = nullptr;
-  const FewMaterials<Real>* few = nullptr;    // null where there are more, or one
+  const FewMaterials<Real>* few = nullptr;    // null where there are more
   std::size_t material_count = 1;
   Real dt{};                                  // s
   Vec3<Real> gravity{};                       // m/s^2

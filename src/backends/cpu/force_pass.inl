@@ -63,9 +63,11 @@ HOOKE_HD Quad<Real> load_rows(const Row* table, const Pack<Real>& index, int par
   });
 }
 
-// How many materials there are: of a few all coefficients are kept in registers, of one they are always the same.
-// Of any number, where surfaces act, contacts follow the law with surfaces.
-enum class Materials { one, few, many, surfaces };
+// How many materials there are, and whether their surfaces act: then contacts follow the law with surfaces. Of a few
+// all coefficients are kept in registers, of one without surfaces they are always the same.
+enum class Materials { one, few, many, few_surfaces, many_surfaces };
+constexpr bool have_surfaces(Materials m) { return m == Materials::few_surfaces || m == Materials::many_surfaces; }
+constexpr bool are_few(Materials m) { return m == Materials::few || m == Materials::few_surfaces; }
 
 // What kind of contact a lane has.
 template <class Real>
@@ -83,7 +85,7 @@ struct SurfacePair {
 template <class Real, Materials kMaterials>
 HOOKE_HD auto load_pairs(const PairRow<Real>* table, const Pack<Real>& index) {
   const Quad<Real> linear = load_rows(table, index, 0);
-  if constexpr (kMaterials == Materials::surfaces) {
+  if constexpr (have_surfaces(kMaterials)) {
     const Quad<Real> surface = load_rows(table, index, 1);
     return SurfacePair<Real>{{{linear.a, linear.b, linear.c}, {surface.a, surface.b, surface.c, surface.d}}, linear.d};
   } else {
@@ -127,6 +129,23 @@ struct PairTable<Real, Materials::few> {
   P first;
   SmallTable<Real> stiffness, shear, damping, reach;
 };
+template <class Real>
+struct PairTable<Real, Materials::few_surfaces> {
+  using P = Pack<Real>;
+  HOOKE_HD PairTable(const ForcePass<Real>& pass, const P& material)
+      : linear(pass, material),
+        friction(pass.few->friction),
+        tension(pass.few->tension),
+        cohesion(pass.few->cohesion),
+        range(pass.few->range) {}
+  HOOKE_HD SurfacePair<Real> lookup(const P& material) const {
+    const LinearPair<Real> pair = linear.lookup(material);
+    const P at = linear.first + material;
+    return {{pair.law, {friction.lookup(at), tension.lookup(at), cohesion.lookup(at), range.lookup(at)}}, pair.reach};
+  }
+  PairTable<Real, Materials::few> linear;
+  SmallTable<Real> friction, tension, cohesion, range;
+};
 
 // What the lanes' particles have with walls.
 template <class Real, Materials kMaterials>
@@ -147,7 +166,7 @@ HOOKE_HD Quad<Real> body_of(const ForcePass<Real>& pass, const Lanes<Real>& own)
   if constexpr (kMaterials == Materials::one) {
     const MaterialRow<Real>& m = pass.materials[0];
     return {P(m.inverse_mass), P(m.drag), P(m.mass), P(Real(0))};
-  } else if constexpr (kMaterials == Materials::few) {
+  } else if constexpr (are_few(kMaterials)) {
     const auto column = [&](const Real* of) { return SmallTable<Real>(of).lookup(own.material); };
     return {column(pass.few->inverse_mass), column(pass.few->drag), column(pass.few->mass), P(Real(0))};
   } else {
@@ -164,7 +183,7 @@ HOOKE_HD void add_where(const Mask<Real>& m, Vec3<Pack<Real>>& sum, const Vec3<P
 
 // The contacts of the lanes' particles with others: of one material summed before its coefficients are applied. The
 // vectors are handed over as they are computed: of a local copy of them GCC 12 keeps one in memory.
-template <class Real, Materials kMaterials>
+template <class Real, Materials kMaterials, bool = have_surfaces(kMaterials)>
 struct Contacts {
   using P = Pack<Real>;
   ContactForces<P> sum;
@@ -178,7 +197,7 @@ struct Contacts {
   HOOKE_HD ContactForces<P> forces(const ForcePass<Real>&) const { return sum; }
 };
 template <class Real>
-struct Contacts<Real, Materials::one> {
+struct Contacts<Real, Materials::one, false> {
   using P = Pack<Real>;
   ContactVectors<P> sum;
 
@@ -192,8 +211,8 @@ struct Contacts<Real, Materials::one> {
     return contact_forces(sum, ContactCoefficients<P>{P(pair.stiffness), P(pair.shear), P(pair.damping)});
   }
 };
-template <class Real>
-struct Contacts<Real, Materials::surfaces> {
+template <class Real, Materials kMaterials>
+struct Contacts<Real, kMaterials, true> {
   using P = Pack<Real>;
   SurfaceForces<P> sum;
 
@@ -244,7 +263,7 @@ struct ContactLoop {
       normal = contact_normal(x_ip, distance);
     }
     const Vec3<P> w = other.v - own.v;
-    if constexpr (kMaterials == Materials::surfaces) {
+    if constexpr (have_surfaces(kMaterials)) {
       acting.contacts.add(here, contact_forces(overlap, normal, w, pair.law));
     } else {
       acting.contacts.add(here, contact_vectors(overlap, normal, w), pair.law);
@@ -573,7 +592,8 @@ void choose_periodic(const ForcePass<Real>& pass, const SegmentWork<Real>& work)
 
 template <class Real>
 void choose_materials(const ForcePass<Real>& pass, const SegmentWork<Real>& work) {
-  if (!pass.linear) return choose_periodic<Real, Materials::surfaces>(pass, work);
+  if (!pass.linear && pass.few != nullptr) return choose_periodic<Real, Materials::few_surfaces>(pass, work);
+  if (!pass.linear) return choose_periodic<Real, Materials::many_surfaces>(pass, work);
   if (pass.material_count == 1) return choose_periodic<Real, Materials::one>(pass, work);
   if (pass.few != nullptr) return choose_periodic<Real, Materials::few>(pass, work);
   return choose_periodic<Real, Materials::many>(pass, work);

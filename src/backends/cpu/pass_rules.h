@@ -86,13 +86,17 @@ struct PassRules {
 
   void configure_few() {
     few.clear();
-    if (materials.size() < 2 || pairs.size() > FewMaterials<Real>::kPairs) return;
+    if (pairs.size() > FewMaterials<Real>::kPairs) return;
     FewMaterials<Real>& columns = few.emplace_back();
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       columns.stiffness[k] = pairs[k].stiffness;
       columns.shear[k] = pairs[k].shear;
       columns.damping[k] = pairs[k].damping;
       columns.reach[k] = pairs[k].reach;
+      columns.friction[k] = pairs[k].friction;
+      columns.tension[k] = pairs[k].tension;
+      columns.cohesion[k] = pairs[k].cohesion;
+      columns.range[k] = pairs[k].range;
     }
     for (std::size_t k = 0; k < materials.size(); ++k) {
       columns.inverse_mass[k] = materials[k].inverse_mass;
