@@ -31,17 +31,6 @@ struct Attraction {
   bool exact = true;       ///< the same bits on every machine, for some of the speed
 };
 
-/// What attraction has done so far; part of Ledger.
-struct AttractionLedger {
-  double work = 0;         ///< on particles, J
-  Vec3d impulse{0, 0, 0};  ///< given to them, N s: what the tree is off from Newton's third law
-  /// Velocity Verlet: the same for the next step's first half kick. Else unused.
-  double next_work = 0;
-  Vec3d next_impulse{0, 0, 0};
-
-  friend bool operator==(const AttractionLedger&, const AttractionLedger&) = default;
-};
-
 /// What makes the attraction of a scene unusable, if it has any; empty where all is well.
 std::vector<Finding> validate_attraction(const Scene& scene);
 

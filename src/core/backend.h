@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "hooke/base/expected.h"
+#include "hooke/core/ledger.h"
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
-#include "hooke/core/work.h"
 
 namespace hooke {
 
@@ -38,43 +38,6 @@ struct Condition {
     if (b.good()) return a;
     return b.particle < a.particle ? b : a;
   }
-};
-
-/// Forces of one evaluation and their powers during a kick, summed over all particles.
-struct StepRates {
-  Work power;                      ///< W
-  Vec3d wall_force{0, 0, 0};       ///< by walls on particles, N
-  Vec3d drag_force{0, 0, 0};       ///< N
-  Vec3d gravity_force{0, 0, 0};    ///< N
-  Vec3d collider_force{0, 0, 0};   ///< by colliders on particles, N
-
-  friend bool operator==(const StepRates&, const StepRates&) = default;
-};
-
-/// What steps leave behind beside the particles: sums over all steps so far, the same bits for any number
-/// of threads and across a restart, because each step's sum is exact before it is added.
-struct Ledger {
-  Work work;                           ///< J
-  Vec3d wall_impulse{0, 0, 0};         ///< given by walls to particles, N s
-  Vec3d collider_impulse{0, 0, 0};     ///< given by colliders to particles, N s
-  Vec3d drag_impulse{0, 0, 0};         ///< given by drag, N s
-  Vec3d gravity_impulse{0, 0, 0};      ///< given by gravity, N s
-  Vec3d removed_momentum{0, 0, 0};     ///< taken along by particles that left, kg m/s
-  double removed_energy = 0;           ///< kinetic and potential, taken along likewise, J
-  std::uint64_t removed = 0;           ///< particles that left through open faces
-  HoldLedger hold;
-  SpringLedger springs;
-  AttractionLedger attraction;
-  /// Velocity Verlet: the rates of the last evaluation during the kick that is still to come. Else unused.
-  StepRates last;
-
-  /// Taken out by the dashpots of contacts between particles, and by drag, J.
-  double dissipated() const {
-    return 0 - (work[Cause::contact_shear] + work[Cause::contact_damping] + work[Cause::contact_friction] +
-                work[Cause::drag]);
-  }
-
-  friend bool operator==(const Ledger&, const Ledger&) = default;
 };
 
 /// Figures of one instant. Sums are exact before one last rounding.
@@ -165,6 +128,9 @@ class Backend {
 
   /// All particles, by id. `out.acceleration` is filled under velocity Verlet only.
   virtual void download(ParticleSet& out) const = 0;
+
+  /// The scene's clock, s, for all that follows: what fields go by. Before upload, and before every step.
+  virtual void set_time(double seconds) = 0;
 
   /// Moves the colliders of the scene, one pose each, for all that follows. Before upload, and before every step.
   virtual void place_colliders(std::span<const ColliderPose> poses) = 0;

@@ -168,6 +168,7 @@ std::vector<Finding> validate(const Scene& scene) {
   check.not_negative("output.every", scene.output.seconds);
   if (scene.output.steps < 0) check.add("output.every_steps", fmt::format("{} must be 1 or more", scene.output.steps));
   check_camera(scene.camera, check);
+  for (Finding& finding : check_fields(scene)) check.findings.push_back(std::move(finding));
   for (Finding& finding : validate_attraction(scene)) check.findings.push_back(std::move(finding));
   if (scene.structure) {
     for (Finding& finding : validate(*scene.structure, single)) check.findings.push_back(std::move(finding));

@@ -13,6 +13,7 @@
 #include "hooke/base/vec3.h"
 #include "hooke/core/attraction.h"
 #include "hooke/core/colliders.h"
+#include "hooke/core/fields.h"
 #include "hooke/core/materials.h"
 #include "hooke/core/springs.h"
 
@@ -41,6 +42,14 @@ struct Domain {
   std::array<Boundary, 3> boundary{Boundary::spring, Boundary::spring, Boundary::spring};
 
   double length(int axis) const { return component(max, axis) - component(min, axis); }
+  /// Of periodic axes; 0 for the others, m.
+  Vec3d period() const {
+    Vec3d lengths{0, 0, 0};
+    for (int axis = 0; axis < 3; ++axis) {
+      if (boundary[static_cast<std::size_t>(axis)] == Boundary::periodic) component(lengths, axis) = length(axis);
+    }
+    return lengths;
+  }
 };
 
 /// When a run writes: the first step at or after each multiple of `seconds`, or every `steps`.
@@ -74,6 +83,7 @@ struct Scene {
   std::vector<ContactEntry> contacts;     ///< pairs that do not follow the mixing rule
   std::vector<Collider> colliders;
   std::shared_ptr<const Structure> structure;  ///< springs, and what holds particles; null where there is nothing
+  std::vector<Field> fields;
   std::optional<Attraction> attraction;  ///< of all particles by each other
   OutputCadence output;
   SceneCamera camera;

@@ -204,10 +204,11 @@ struct Simulation::Impl {
                 "the scene asks for double, the back end computes in single precision");
   }
 
-  // Where they are after `at_step` steps.
-  void place_colliders(std::int64_t at_step) {
-    if (scene.colliders.empty()) return;
+  // What goes by the clock, as it is after `at_step` steps.
+  void set_time(std::int64_t at_step) {
     const double time = static_cast<double>(at_step) * scene.time_step;
+    backend->set_time(time);
+    if (scene.colliders.empty()) return;
     poses.clear();
     for (const Collider& collider : scene.colliders) poses.push_back(pose_at(collider, time));
     backend->place_colliders(poses);
@@ -219,7 +220,7 @@ struct Simulation::Impl {
     try {
       backend->configure(scene);
       backend->break_springs(broken_springs);
-      place_colliders(step);
+      set_time(step);
       return check(backend->upload(particles, first_new, ledger));
     } catch (const std::bad_alloc&) {
       return fail(Error::Kind::bad_input, "particles",
@@ -233,10 +234,10 @@ struct Simulation::Impl {
       for (std::int64_t i = 0; i < count; ++i) {
         host_current = false;
         // Velocity Verlet looks at the forces where particles arrive, symplectic Euler where they start.
-        if (verlet()) place_colliders(step + 1);
+        if (verlet()) set_time(step + 1);
         if (auto taken = check(take_step(*backend, scene.integrator)); !taken) return taken;
         ++step;
-        if (!verlet()) place_colliders(step);
+        if (!verlet()) set_time(step);
       }
       // What the next step would begin with. Done now, it reports what the last step has lost before anyone saves it.
       if (count > 0 && backend->neighbours_stale()) return check(backend->build_neighbours());
@@ -439,7 +440,7 @@ Expected<void> Simulation::set_collider_motion(const std::string& name, const Mo
       s.scene.colliders[k].motion = before;
       return fail(Error{Error::Kind::bad_input, std::move(findings)});
     }
-    s.place_colliders(s.step);
+    s.set_time(s.step);
     return {};
   }
   return fail(Error::Kind::bad_input, "colliders", fmt::format("there is none of the name \"{}\"", name));

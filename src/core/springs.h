@@ -70,30 +70,6 @@ struct Structure {
   friend bool operator==(const Structure&, const Structure&) = default;
 };
 
-/// What springs have done so far; part of Ledger.
-struct SpringLedger {
-  double work = 0;           ///< done on particles, dampers included, J
-  double dissipated = 0;     ///< by dampers, J
-  double broken_energy = 0;  ///< that was in springs as they broke, J
-  std::uint64_t broken = 0;  ///< springs
-  /// Velocity Verlet: of the last evaluation, what its forces do in the next step's first half kick (J), and the power
-  /// of its dampers (W). Else unused.
-  double next_work = 0, last_power = 0;
-
-  friend bool operator==(const SpringLedger&, const SpringLedger&) = default;
-};
-
-/// What it took to hold particles still; part of Ledger.
-struct HoldLedger {
-  Vec3d impulse{0, 0, 0};  ///< given to them, N s
-  double work = 0;  ///< done on held particles that have a velocity, J
-  /// Velocity Verlet: the same for the next step's first half kick. Else unused.
-  Vec3d next_impulse{0, 0, 0};
-  double next_work = 0;
-
-  friend bool operator==(const HoldLedger&, const HoldLedger&) = default;
-};
-
 /// What makes a structure unusable whatever its particles are; empty where all is well. At most 20 findings of a kind.
 /// `single` asks that values survive the rounding to float.
 std::vector<Finding> validate(const Structure& structure, bool single);

@@ -58,13 +58,14 @@ StableStep stable_step(const Scene& scene) {
 }
 
 double momentum_drift(const Measurements& now, const Ledger& ledger, const Vec3d& initial_momentum) {
-  const Vec3d given = ledger.wall_impulse + ledger.collider_impulse + ledger.drag_impulse + ledger.gravity_impulse +
-                      ledger.hold.impulse + ledger.attraction.impulse;
-  const Vec3d unexplained = now.momentum + ledger.removed_momentum - initial_momentum - given;
   const auto norm = [](const Vec3d& a) { return std::sqrt(dot(a, a)); };
-  const double scale = now.momentum_scale + norm(initial_momentum) + norm(ledger.wall_impulse) +
-                       norm(ledger.collider_impulse) + norm(ledger.hold.impulse) + norm(ledger.attraction.impulse) +
-                       norm(ledger.drag_impulse) + norm(ledger.gravity_impulse) + norm(ledger.removed_momentum);
+  Vec3d given{0, 0, 0};
+  double scale = now.momentum_scale + norm(initial_momentum) + norm(ledger.removed_momentum);
+  for (const Vec3d& impulse : ledger.impulse.of) {
+    given += impulse;
+    scale += norm(impulse);
+  }
+  const Vec3d unexplained = now.momentum + ledger.removed_momentum - initial_momentum - given;
   return scale > 0 ? norm(unexplained) / scale : 0;
 }
 

@@ -11,7 +11,7 @@
 namespace hooke {
 
 void StepSums::add(const StepSums& other) {
-  for (std::size_t cause = 0; cause < kCauses; ++cause) {
+  for (std::size_t cause = 0; cause < kPassCauses; ++cause) {
     power.of[cause].add(other.power.of[cause]);
     next_power.of[cause].add(other.next_power.of[cause]);
   }
@@ -20,36 +20,76 @@ void StepSums::add(const StepSums& other) {
   collider_force.add(other.collider_force);
 }
 
+void SpringSums::add(const SpringSums& other) {
+  dissipation.add(other.dissipation);
+  broken_energy.add(other.broken_energy);
+  broken += other.broken;
+}
+
+void AppliedSums::add_held(double mass, const Vec3d& held, const Vec3d& kicked, double seconds) {
+  const Vec3d given = (mass / seconds) * (held - kicked);
+  Rates& hold = (*this)[Cause::hold];
+  hold.force.add(given);
+  hold.power.add(2 * dot(given, held));
+  hold.next_power.add(2 * dot(given, held));
+}
+
+void AppliedSums::add(const AppliedSums& other) {
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    of[i].power.add(other.of[i].power);
+    of[i].next_power.add(other.of[i].next_power);
+    of[i].force.add(other.of[i].force);
+  }
+  springs.add(other.springs);
+}
+
 namespace {
 
-StepRates rates(const StepSums& sums, const ByCause<ExactSum>& twice_power, const Vec3d& gravity, double mass) {
-  StepRates rates{{}, sums.wall_force.value(), sums.drag_force.value(), mass * gravity, sums.collider_force.value()};
-  for (std::size_t cause = 0; cause < kCauses; ++cause) rates.power.of[cause] = 0.5 * twice_power.of[cause].value();
+enum class Kick { of_the_evaluation, next };
+
+StepRates rates(const StepSums& sums, const AppliedSums* applied, Kick kick, const Vec3d& gravity, double mass) {
+  StepRates rates;
+  const bool next = kick == Kick::next;
+  const ByCause<ExactSum, kPassCauses>& twice_power = next ? sums.next_power : sums.power;
+  for (std::size_t c = 0; c < kPassCauses; ++c) rates.power.of[c] = 0.5 * twice_power.of[c].value();
+  rates.force[Cause::wall] = sums.wall_force.value();
+  rates.force[Cause::drag] = sums.drag_force.value();
+  rates.force[Cause::collider] = sums.collider_force.value();
+  rates.force[Cause::gravity] = mass * gravity;
+  if (applied == nullptr) return rates;
+  for (std::size_t i = 0; i < applied->of.size(); ++i) {
+    const AppliedSums::Rates& of = applied->of[i];
+    rates.power.of[kPassCauses + i] = 0.5 * (next ? of.next_power : of.power).value();
+    rates.force.of[kPassCauses + i] = of.force.value();
+  }
+  rates.spring_dissipation = applied->springs.dissipation.value();
   return rates;
 }
 
 }  // namespace
 
-StepRates first_rates(const StepSums& start, const Vec3d& gravity, double mass) {
-  return rates(start, start.power, gravity, mass);
+StepRates first_rates(const StepSums& start, const AppliedSums* applied, const Vec3d& gravity, double mass) {
+  return rates(start, applied, Kick::of_the_evaluation, gravity, mass);
 }
 
-void book_step(Ledger& ledger, const StepSums& now, const Vec3d& gravity, double mass, double dt,
-               Integrator integrator) {
+void book_step(Ledger& ledger, const StepSums& now, const AppliedSums* applied, const Vec3d& gravity, double mass,
+               double dt, Integrator integrator) {
   const auto book = [&ledger](const StepRates& rates, double seconds) {
-    for (std::size_t cause = 0; cause < kCauses; ++cause) ledger.work.of[cause] += seconds * rates.power.of[cause];
-    ledger.wall_impulse += seconds * rates.wall_force;
-    ledger.collider_impulse += seconds * rates.collider_force;
-    ledger.drag_impulse += seconds * rates.drag_force;
-    ledger.gravity_impulse += seconds * rates.gravity_force;
+    for (std::size_t cause = 0; cause < kCauses; ++cause) {
+      ledger.work.of[cause] += seconds * rates.power.of[cause];
+      ledger.impulse.of[cause] += seconds * rates.force.of[cause];
+    }
+    ledger.springs.dissipated += seconds * rates.spring_dissipation;
   };
-  if (integrator == Integrator::symplectic_euler) {
-    book(rates(now, now.power, gravity, mass), dt);
-    return;
+  if (applied != nullptr) {
+    ledger.springs.broken += applied->springs.broken;
+    ledger.springs.broken_energy += applied->springs.broken_energy.value();
   }
+  const StepRates this_kick = rates(now, applied, Kick::of_the_evaluation, gravity, mass);
+  if (integrator == Integrator::symplectic_euler) return book(this_kick, dt);
   book(ledger.last, dt / 2);
-  book(rates(now, now.power, gravity, mass), dt / 2);
-  ledger.last = rates(now, now.next_power, gravity, mass);
+  book(this_kick, dt / 2);
+  ledger.last = rates(now, applied, Kick::next, gravity, mass);
 }
 
 void RemovalSums::add_particle(double mass, const Vec3d& x, const Vec3d& v, const Vec3d& gravity) {
@@ -69,78 +109,6 @@ void RemovalSums::book(Ledger& ledger) const {
   ledger.removed_momentum += momentum.value();
   ledger.removed_energy += energy.value();
   ledger.removed += count;
-}
-
-void SpringSums::add(const SpringSums& other) {
-  work.add(other.work);
-  next_work.add(other.next_work);
-  power.add(other.power);
-  broken_energy.add(other.broken_energy);
-  broken += other.broken;
-}
-
-void SpringSums::book(SpringLedger& ledger, double dt, Integrator integrator) const {
-  ledger.broken += broken;
-  ledger.broken_energy += broken_energy.value();
-  if (integrator == Integrator::symplectic_euler) {
-    ledger.work += dt / 2 * work.value();
-    ledger.dissipated += dt * power.value();
-    return;
-  }
-  ledger.work += ledger.next_work + dt / 4 * work.value();
-  ledger.dissipated += dt / 2 * (ledger.last_power + power.value());
-  book_first(ledger, dt);
-}
-
-void SpringSums::book_first(SpringLedger& ledger, double dt) const {
-  ledger.next_work = dt / 4 * next_work.value();
-  ledger.last_power = power.value();
-}
-
-void AttractionBooking::add(const AttractionBooking& other) {
-  work.add(other.work);
-  next_work.add(other.next_work);
-  force.add(other.force);
-}
-
-void AttractionBooking::book(AttractionLedger& ledger, double dt, Integrator integrator) const {
-  if (integrator == Integrator::symplectic_euler) {
-    ledger.work += dt / 2 * work.value();
-    ledger.impulse += dt * force.value();
-    return;
-  }
-  ledger.work += ledger.next_work + dt / 4 * work.value();
-  ledger.impulse += ledger.next_impulse + dt / 2 * force.value();
-  book_first(ledger, dt);
-}
-
-void AttractionBooking::book_first(AttractionLedger& ledger, double dt) const {
-  ledger.next_work = dt / 4 * next_work.value();
-  ledger.next_impulse = dt / 2 * force.value();
-}
-
-void HoldSums::add_particle(double mass, const Vec3d& held, const Vec3d& kicked) {
-  const Vec3d given = mass * (held - kicked);
-  impulse.add(given);
-  work.add(dot(given, held));
-  ++count;
-}
-
-void HoldSums::add(const HoldSums& other) {
-  impulse.add(other.impulse);
-  work.add(other.work);
-  count += other.count;
-}
-
-void HoldSums::book(HoldLedger& ledger, Integrator integrator) const {
-  ledger.impulse += ledger.next_impulse + impulse.value();
-  ledger.work += ledger.next_work + work.value();
-  if (integrator == Integrator::velocity_verlet) book_first(ledger);
-}
-
-void HoldSums::book_first(HoldLedger& ledger) const {
-  ledger.next_impulse = impulse.value();
-  ledger.next_work = work.value();
 }
 
 void ColliderLoadSums::add_contact(std::size_t index, const Vec3d& point, const Vec3d& force) {

@@ -32,8 +32,8 @@ class ExactVectorSum {
 /// The rates of one evaluation of the forces, gathered particle by particle in any order.
 struct StepSums {
   /// Powers at twice the mean of the velocities before and after a kick, W: of the kick that comes with the evaluation,
-  /// and, under velocity Verlet, of the one that the next step begins with.
-  ByCause<ExactSum> power, next_power;
+  /// and, under velocity Verlet, of the one that the next step begins with. Of applied causes: see AppliedSums.
+  ByCause<ExactSum, kPassCauses> power, next_power;
   ExactVectorSum wall_force;  ///< N
   ExactVectorSum drag_force;  ///< N
   ExactVectorSum collider_force;  ///< N
@@ -41,13 +41,41 @@ struct StepSums {
   void add(const StepSums& other);
 };
 
+/// What springs do beside their work.
+struct SpringSums {
+  ExactSum dissipation;  ///< by their dampers, W; half from each end
+  ExactSum broken_energy;  ///< that was in those that broke, J
+  std::uint64_t broken = 0;  ///< how many
+
+  void add(const SpringSums& other);
+};
+
+/// The same for applied causes, and what springs do beside.
+struct AppliedSums {
+  struct Rates {
+    ExactSum power, next_power;  ///< as in StepSums, W
+    ExactVectorSum force;  ///< N
+  };
+
+  Rates& operator[](Cause cause) { return of[static_cast<std::size_t>(cause) - kPassCauses]; }
+  const Rates& operator[](Cause cause) const { return of[static_cast<std::size_t>(cause) - kPassCauses]; }
+
+  /// A held particle, which kept its velocity `held` in place of `kicked` (m/s) over `seconds`.
+  void add_held(double mass, const Vec3d& held, const Vec3d& kicked, double seconds);
+  void add(const AppliedSums& other);
+
+  std::array<Rates, kCauses - kPassCauses> of;
+  SpringSums springs;
+};
+
 /// Books what an evaluation did in one step of `dt` (s); gravity (m/s^2) pulls at `mass` (kg) in all. Symplectic Euler
 /// kicks once, by dt; velocity Verlet by half a dt with the last evaluation's forces, and by half a dt with these.
-void book_step(Ledger& ledger, const StepSums& now, const Vec3d& gravity, double mass, double dt,
-               Integrator integrator);
+/// `applied` is null where the scene has no such causes.
+void book_step(Ledger& ledger, const StepSums& now, const AppliedSums* applied, const Vec3d& gravity, double mass,
+               double dt, Integrator integrator);
 
 /// What the first half of a step of velocity Verlet will book after an evaluation at the start, whose kick is `power`.
-StepRates first_rates(const StepSums& start, const Vec3d& gravity, double mass);
+StepRates first_rates(const StepSums& start, const AppliedSums* applied, const Vec3d& gravity, double mass);
 
 /// Books a particle that left through an open face.
 struct RemovalSums {
@@ -58,51 +86,6 @@ struct RemovalSums {
   void add_particle(double mass, const Vec3d& x, const Vec3d& v, const Vec3d& gravity);
   void add(const RemovalSums& other);
   void book(Ledger& ledger) const;
-};
-
-/// What springs did in one evaluation of the forces. Work is force times time times the mean of the velocities before
-/// and after: what the kick adds to the kinetic energy.
-struct SpringSums {
-  ExactSum work;  ///< force . (velocity before + velocity after), W
-  ExactSum next_work;  ///< velocity Verlet: the same for the half kick to come
-  ExactSum power;  ///< of dampers, W; half from each end
-  ExactSum broken_energy;  ///< J
-  std::uint64_t broken = 0;
-
-  void add(const SpringSums& other);
-  /// Books a step of `dt` (s).
-  void book(SpringLedger& ledger, double dt, Integrator integrator) const;
-  /// Velocity Verlet, evaluated before a first step: only what the next step books.
-  void book_first(SpringLedger& ledger, double dt) const;
-};
-
-/// What attraction did in one evaluation of the forces, and does in the next half kick; work as in SpringSums.
-struct AttractionBooking {
-  ExactSum work;  ///< force . (velocity before + velocity after), W
-  ExactSum next_work;  ///< velocity Verlet: the same for the half kick to come
-  ExactVectorSum force;  ///< N
-
-  void add(const AttractionBooking& other);
-  /// Books a step of `dt` (s).
-  void book(AttractionLedger& ledger, double dt, Integrator integrator) const;
-  /// Velocity Verlet, evaluated before a first step: only what the next step books.
-  void book_first(AttractionLedger& ledger, double dt) const;
-};
-
-/// What it took to hold particles still against the kick that forces would have given them.
-struct HoldSums {
-  ExactVectorSum impulse;  ///< N s
-  ExactSum work;  ///< J
-  std::uint64_t count = 0;
-
-  /// A particle that kept `held` (m/s) in place of `kicked`.
-  void add_particle(double mass, const Vec3d& held, const Vec3d& kicked);
-  void add(const HoldSums& other);
-  /// Books a kick: under symplectic Euler a step's, under velocity Verlet the second half's, and the first half's of
-  /// the next step, which is the same.
-  void book(HoldLedger& ledger, Integrator integrator) const;
-  /// Velocity Verlet, evaluated before a first step: only what the next step books.
-  void book_first(HoldLedger& ledger) const;
 };
 
 /// What particles do to each collider, gathered in any order.

@@ -17,13 +17,19 @@ enum class Cause : unsigned char {
   collider,         ///< colliders likewise
   drag,
   gravity,
+  hold,        ///< what keeps held particles still
+  springs,     ///< springs of the scene's structure, their dampers included
+  field,  ///< fields: wind, and whatever pushes by place
+  attraction,
 };
-inline constexpr std::size_t kCauses = 8;
+inline constexpr std::size_t kCauses = 12;
+/// The first of them are in every pass over the particles; the others, applied causes, only in scenes that have them.
+inline constexpr std::size_t kPassCauses = static_cast<std::size_t>(Cause::hold);
 
-/// One T a cause.
-template <class T>
+/// One T a cause; of the first `kCount` causes.
+template <class T, std::size_t kCount = kCauses>
 struct ByCause {
-  std::array<T, kCauses> of{};
+  std::array<T, kCount> of{};
 
   T& operator[](Cause cause) { return of[static_cast<std::size_t>(cause)]; }
   const T& operator[](Cause cause) const { return of[static_cast<std::size_t>(cause)]; }

@@ -19,7 +19,7 @@ namespace hooke {
 
 namespace {
 
-constexpr std::int64_t kFormat = 1;
+constexpr std::int64_t kFormat = 2;
 constexpr const char* kType = "hooke checkpoint";
 
 static_assert(sizeof(Vec3d) == 3 * sizeof(double));
@@ -29,33 +29,28 @@ template <class State, class Visit>
 void for_each_integer(State& s, Visit&& visit) {
   visit(s.next_id);
   visit(s.ledger.removed);
+  visit(s.ledger.springs.broken);
 }
 
 template <class State, class Visit>
 void for_each_real(State& s, Visit&& visit) {
-  for (auto& work : s.ledger.work.of) visit(work);
-  visit(s.ledger.removed_energy);
-  for (auto& power : s.ledger.last.power.of) visit(power);
+  const auto vector = [&](auto& v) {
+    visit(v.x);
+    visit(v.y);
+    visit(v.z);
+  };
+  auto& ledger = s.ledger;
+  for (auto& work : ledger.work.of) visit(work);
+  for (auto& power : ledger.last.power.of) visit(power);
+  for (auto& impulse : ledger.impulse.of) vector(impulse);
+  for (auto& force : ledger.last.force.of) vector(force);
+  vector(ledger.removed_momentum);
+  vector(s.initial_momentum);
+  visit(ledger.removed_energy);
+  visit(ledger.springs.dissipated);
+  visit(ledger.springs.broken_energy);
+  visit(ledger.last.spring_dissipation);
   visit(s.initial_energy);
-  for (auto* v : {&s.ledger.wall_impulse, &s.ledger.drag_impulse, &s.ledger.gravity_impulse, &s.ledger.removed_momentum,
-                  &s.ledger.last.wall_force, &s.ledger.last.drag_force, &s.ledger.last.gravity_force,
-                  &s.initial_momentum, &s.ledger.collider_impulse, &s.ledger.last.collider_force}) {
-    visit(v->x);
-    visit(v->y);
-    visit(v->z);
-  }
-}
-
-/// Of the attraction's ledger, likewise.
-template <class Ledger, class Visit>
-void for_each_of_attraction(Ledger& l, Visit&& visit) {
-  visit(l.work);
-  visit(l.next_work);
-  for (auto* v : {&l.impulse, &l.next_impulse}) {
-    visit(v->x);
-    visit(v->y);
-    visit(v->z);
-  }
 }
 
 struct Numbers {
@@ -156,9 +151,6 @@ void write_content(hdf5::File& file, const SimulationState& state, const RunInfo
   write_vectors(root, "position", p.position);
   write_vectors(root, "velocity", p.velocity);
   write_vectors(root, "acceleration", p.acceleration);
-  std::vector<double> attraction;
-  for_each_of_attraction(state.ledger.attraction, [&](double value) { attraction.push_back(value); });
-  hdf5::write_array(root, "attraction", attraction.data(), attraction.size());
   write_structure(root, state);
 }
 
@@ -192,12 +184,6 @@ Checkpoint read_content(const std::filesystem::path& path) {
   for_each_integer(state, [&](std::uint64_t& value) { value = *integer++; });
   auto real = numbers.reals.begin();
   for_each_real(state, [&](double& value) { value = *real++; });
-  if (hdf5::exists(root, "attraction")) {
-    const auto attraction = hdf5::read_array<double>(root, "attraction");
-    std::size_t at = 0;
-    for_each_of_attraction(state.ledger.attraction,
-                           [&](double& value) { value = at < attraction.size() ? attraction[at++] : 0; });
-  }
   read_structure(root, path, state);
   checkpoint.info = parse_run_info(hdf5::read_text(root, "run"), path);
   return checkpoint;

@@ -37,7 +37,8 @@ double RunReport::contacts_per_particle() const {
 double RunReport::energy_balance() const {
   const double now = measurements.kinetic_energy + measurements.potential_energy + measurements.elastic_energy +
                      measurements.spring_energy + measurements.attraction_energy;
-  const double given = ledger.work[Cause::wall] + ledger.work[Cause::collider] + ledger.hold.work;
+  const double given =
+      ledger.work[Cause::wall] + ledger.work[Cause::collider] + ledger.work[Cause::hold] + ledger.work[Cause::field];
   const double lost =
       ledger.dissipated() + ledger.springs.dissipated + ledger.springs.broken_energy + ledger.removed_energy;
   return now - initial_energy - (given - lost);
@@ -107,11 +108,12 @@ std::string to_json(const RunReport& r) {
                     {"initial", r.initial_energy},
                     {"springs", m.spring_energy},
                     {"dissipated_by_springs", r.ledger.springs.dissipated},
-                    {"work_by_springs", r.ledger.springs.work},
+                    {"work_by_springs", r.ledger.work[Cause::springs]},
                     {"broken_springs", r.ledger.springs.broken_energy},
-                    {"work_by_hold", r.ledger.hold.work},
+                    {"work_by_hold", r.ledger.work[Cause::hold]},
+                    {"work_by_fields", r.ledger.work[Cause::field]},
                     {"attraction", m.attraction_energy},
-                    {"work_by_attraction", r.ledger.attraction.work},
+                    {"work_by_attraction", r.ledger.work[Cause::attraction]},
                     {"balance", r.energy_balance()}};
   json["momentum"] = to_array(m.momentum);
   json["momentum_drift"] = r.momentum_drift;

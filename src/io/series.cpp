@@ -49,11 +49,12 @@ void for_each_column(const SeriesRow& row, Visit&& column) {
   column("springs", m.springs);
   column("broken_springs", l.springs.broken);
   column("spring", m.spring_energy);
-  column("spring_work", l.springs.work);
+  column("spring_work", l.work[Cause::springs]);
   column("spring_dissipated", l.springs.dissipated);
   column("spring_broken", l.springs.broken_energy);
+  column("field_work", l.work[Cause::field]);
   column("attraction", m.attraction_energy);
-  column("attraction_work", l.attraction.work);
+  column("attraction_work", l.work[Cause::attraction]);
   column("removed", l.removed);
   column("rebuilds", row.rebuilds);
 }

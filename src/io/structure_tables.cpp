@@ -22,29 +22,6 @@ void for_each_column(Springs& springs, Visit&& visit) {
   visit("spring_contact", springs.contact);
 }
 
-/// The numbers of a ledger that are there because of a structure.
-template <class Ledger, class Visit>
-void for_each_real(Ledger& ledger, Visit&& visit) {
-  visit(ledger.springs.work);
-  visit(ledger.springs.dissipated);
-  visit(ledger.springs.broken_energy);
-  visit(ledger.springs.next_work);
-  visit(ledger.springs.last_power);
-  visit(ledger.hold.work);
-  visit(ledger.hold.next_work);
-  for (auto* v : {&ledger.hold.impulse, &ledger.hold.next_impulse}) {
-    visit(v->x);
-    visit(v->y);
-    visit(v->z);
-  }
-}
-
-std::vector<double> reals_of(const Ledger& ledger) {
-  std::vector<double> reals;
-  for_each_real(ledger, [&](double value) { reals.push_back(value); });
-  return reals;
-}
-
 template <class T>
 void write_column(hid_t file, const char* name, const std::vector<T>& column) {
   hdf5::write_array(file, name, column.data(), column.size());
@@ -59,9 +36,7 @@ void write_structure(hid_t file, const SimulationState& state) {
   std::vector<std::uint8_t> mode(s.springs.size());
   for (std::size_t i = 0; i < mode.size(); ++i) mode[i] = static_cast<std::uint8_t>(s.springs.mode[i]);
   write_column(file, "spring_mode", mode);
-  write_column(file, "spring_ledger", reals_of(state.ledger));
   write_column(file, "broken_springs", state.broken_springs);
-  write_column(file, "broken_count", std::vector<std::uint64_t>{state.ledger.springs.broken});
   write_column(file, "held", s.held);
   nlohmann::json surfaces = nlohmann::json::array();
   std::vector<std::uint64_t> particles;
@@ -92,12 +67,6 @@ void read_structure(hid_t file, const std::filesystem::path& path, SimulationSta
     if (mode > static_cast<std::uint8_t>(SpringMode::extension)) throw refuse();
     s.springs.mode.push_back(static_cast<SpringMode>(mode));
   }
-  const auto reals = hdf5::read_array<double>(file, "spring_ledger");
-  const auto broken_count = hdf5::read_array<std::uint64_t>(file, "broken_count");
-  if (reals.size() != reals_of(state.ledger).size() || broken_count.size() != 1) throw refuse();
-  auto real = reals.begin();
-  for_each_real(state.ledger, [&](double& value) { value = *real++; });
-  state.ledger.springs.broken = broken_count.front();
   state.broken_springs = hdf5::read_array<std::uint64_t>(file, "broken_springs");
   s.held = hdf5::read_array<std::uint64_t>(file, "held");
 

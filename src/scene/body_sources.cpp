@@ -7,9 +7,12 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <unordered_map>
 
 #include "hooke/scene/json_path.h"
+#include "hooke/scene/mesh_shape.h"
 #include "hooke/scene/scene_builder.h"
 #include "hooke/scene/structure_maker.h"
 
@@ -19,27 +22,52 @@ namespace {
 // A box around a shape, and what of it the shape holds.
 struct Filling {
   Vec3d min, max;
-  double radius = 0;  // of a sphere; 0: all of the box
+  double radius = 0;                          // of a sphere
+  std::shared_ptr<const DistanceField> mesh;  // or of a mesh; else all of the box
 
-  bool holds(const Vec3d& x) const {
-    if (radius == 0) return true;
-    const Vec3d off = x - 0.5 * (min + max);
-    return dot(off, off) <= radius * radius * (1 + 1e-12);
+  bool is_box() const { return radius == 0 && !mesh; }
+};
+
+// Tells which points a filling holds, asked along rows.
+class Inside {
+ public:
+  explicit Inside(const Filling& filling) : filling_(filling) {}
+
+  // The first point of a row is on the box around the shape, or outside.
+  void start_row() { deep_ = false; }
+  bool operator()(const Vec3d& x) {
+    if (filling_.mesh) return in_mesh(x);
+    if (filling_.radius == 0) return true;
+    const Vec3d off = x - 0.5 * (filling_.min + filling_.max);
+    return dot(off, off) <= filling_.radius * filling_.radius * (1 + 1e-12);
   }
+
+ private:
+  // Distances are known around the surface only, further than from one point of a row to the next: where there is none,
+  // the point is on the side of the one before.
+  bool in_mesh(const Vec3d& x) {
+    const DistanceField& field = *filling_.mesh;
+    const double distance = field_value(field.view(), (1 / field.cell) * (x - field.origin));
+    if (distance < kBeyondReach) deep_ = distance < 0;
+    return deep_;
+  }
+
+  const Filling& filling_;
+  bool deep_ = false;
 };
 
 // Sites of a face-centred cubic lattice: those points of a cubic one, half a cell apart, whose indices add up to an
-// even number. One of them is in the middle of a sphere, and at the lower corner of a box.
+// even number. One of them is at the lower corner of a box; of another shape, in the middle of the box around it.
 class Lattice {
  public:
   Lattice(const Filling& filling, double spacing) : step_(spacing / std::sqrt(2.0)) {
     origin_ = filling.min;
     for (int axis = 0; axis < 3; ++axis) {
       const double length = component(filling.max, axis) - component(filling.min, axis);
-      if (filling.radius > 0) {
-        const double half = std::floor(filling.radius / step_ * (1 + 1e-12));
+      if (!filling.is_box()) {
+        const double half = std::floor(length / 2 / step_ * (1 + 1e-12));
         count_[static_cast<std::size_t>(axis)] = 2 * half + 1;
-        component(origin_, axis) = component(filling.min, axis) + filling.radius - half * step_;
+        component(origin_, axis) = component(filling.min, axis) + length / 2 - half * step_;
         middle_ += static_cast<std::int64_t>(half);
       } else {
         count_[static_cast<std::size_t>(axis)] = std::floor(length / step_ * (1 + 1e-12)) + 1;
@@ -67,11 +95,38 @@ class Lattice {
   std::int64_t middle_ = 0;
 };
 
-Filling filling_of(const Json& shape) {
-  if (shape.contains("box")) return {vec3_or(shape.at("box").at("min"), {}), vec3_or(shape.at("box").at("max"), {})};
+std::optional<Filling> filling_of_mesh(StructureMaker& maker, const Json& json, double spacing,
+                                       const std::string& where) {
+  if (!maker.options.with_particles) return std::nullopt;
+  // Samples a third of the spacing apart, known to a spacing outside and three inside.
+  const ShapeFiles files{maker.folder, maker.options.allow_outside, spacing, spacing};
+  const auto mesh = read_mesh_shape(json, where, files, maker.findings);
+  if (!mesh) return std::nullopt;
+  if (!mesh->field->open) return Filling{mesh->field->min, mesh->field->max, 0, mesh->field};
+  maker.findings.add(join_path(where, "file"),
+                     fmt::format("is {}, which is open: edges have a triangle on one side only; a body needs a mesh "
+                                 "that encloses a space",
+                                 brief(json.at("file"))));
+  return std::nullopt;
+}
+
+std::optional<Filling> filling_of_box(StructureMaker& maker, const Json& json, const std::string& where) {
+  const Filling filling{vec3_or(json.at("min"), {}), vec3_or(json.at("max"), {}), 0, nullptr};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = component(filling.min, axis), high = component(filling.max, axis);
+    if (low <= high) continue;
+    maker.findings.add(where, fmt::format("has min[{}] = {} above max[{}] = {}", axis, low, axis, high));
+  }
+  return maker.findings.touches(where) ? std::nullopt : std::optional(filling);
+}
+
+// What the body's "shape" at the path `where` is to hold. Nothing, with findings, where that can't be had.
+std::optional<Filling> filling_of(StructureMaker& maker, const Json& shape, double spacing, const std::string& where) {
+  if (shape.contains("mesh")) return filling_of_mesh(maker, shape.at("mesh"), spacing, join_path(where, "mesh"));
+  if (shape.contains("box")) return filling_of_box(maker, shape.at("box"), join_path(where, "box"));
   const Vec3d center = vec3_or(shape.at("sphere").at("center"), {});
   const double r = shape.at("sphere").at("radius").get<double>();
-  return {center - Vec3d{r, r, r}, center + Vec3d{r, r, r}, r};
+  return Filling{center - Vec3d{r, r, r}, center + Vec3d{r, r, r}, r, nullptr};
 }
 
 // Six of the twelve nearest neighbours; the others see it from their side.
@@ -86,10 +141,12 @@ void fill(StructureMaker& maker, const Json& entry, const Filling& filling, std:
   std::unordered_map<std::uint64_t, std::uint64_t> index;  // of sites
   std::vector<Vec3d> centres;
   std::vector<std::array<std::int64_t, 3>> sites;
+  Inside inside(filling);
   for (std::int64_t z = 0; z < nz; ++z) {
     for (std::int64_t y = 0; y < ny; ++y) {
+      inside.start_row();
       for (std::int64_t x = 0; x < nx; ++x) {
-        if (!lattice.is_site(x, y, z) || !filling.holds(lattice.at(x, y, z))) continue;
+        if (!inside(lattice.at(x, y, z)) || !lattice.is_site(x, y, z)) continue;
         index.emplace(lattice.key(x, y, z), centres.size());
         centres.push_back(lattice.at(x, y, z));
         sites.push_back({x, y, z});
@@ -123,16 +180,9 @@ void StructureMaker::add_bodies(const Json& bodies) {
     const std::string path = join_path("bodies", i);
     const auto material = bodies[i].is_object() ? material_of(bodies[i], path) : std::nullopt;
     if (findings.touches(path) || !material) continue;
-    const Filling filling = filling_of(bodies[i].at("shape"));
-    bool empty = false;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double low = component(filling.min, axis), high = component(filling.max, axis);
-      if (low <= high) continue;
-      findings.add(join_path(join_path(path, "shape"), "box"),
-                   fmt::format("has min[{}] = {} above max[{}] = {}", axis, low, axis, high));
-      empty = true;
-    }
-    if (!empty && options.with_particles) fill(*this, bodies[i], filling, *material, path);
+    const double spacing = bodies[i].at("spacing").get<double>();
+    const auto filling = filling_of(*this, bodies[i].at("shape"), spacing, join_path(path, "shape"));
+    if (filling && options.with_particles) fill(*this, bodies[i], *filling, *material, path);
   }
 }
 

@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "hooke/scene/json_path.h"
-#include "hooke/scene/nearest.h"
+#include "hooke/scene/material_names.h"
 #include "hooke/scene/scene_builder.h"
 
 namespace hooke {
@@ -88,19 +88,6 @@ class MotionReader {
   Findings& findings_;
 };
 
-std::optional<std::size_t> material_named(const std::string& name, const std::string& where, const Scene& scene,
-                                          Findings& findings) {
-  std::vector<std::string> names;
-  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-    if (scene.materials[m].name == name) return m;
-    names.push_back(scene.materials[m].name);
-  }
-  const std::string hint = did_you_mean(name, names);
-  findings.add(where, fmt::format("is \"{}\", which is no material{}{} the scene has {}", printable(name, 60), hint,
-                                  hint.empty() ? ";" : "", quoted_list(names)));
-  return {};
-}
-
 }  // namespace
 
 void build_colliders(Json& colliders, const ShapeFiles& files, Scene& scene, Findings& findings) {
@@ -111,8 +98,8 @@ void build_colliders(Json& colliders, const ShapeFiles& files, Scene& scene, Fin
     Collider collider;
     if (!json.contains("name")) json["name"] = fmt::format("collider_{}", i + 1);
     if (json.contains("material") && !findings.touches(join_path(where, "material"))) {
-      collider.material =
-          material_named(json.at("material").get<std::string>(), join_path(where, "material"), scene, findings);
+      collider.material = material_named(json.at("material").get<std::string>(), join_path(where, "material"),
+                                         scene.materials, findings);
     }
     std::optional<Motion> motion = Motion(NoMotion{});
     if (json.contains("motion") && !findings.touches(join_path(where, "motion"))) {

@@ -11,6 +11,7 @@
 
 #include "hooke/scene/attraction_builder.h"
 #include "hooke/scene/collider_builder.h"
+#include "hooke/scene/field_builder.h"
 #include "hooke/scene/json_path.h"
 #include "hooke/scene/nearest.h"
 
@@ -279,6 +280,7 @@ void build_scene(Json& json, const std::filesystem::path& folder, const LoadOpti
   if (json.contains("attraction") && !findings.touches("attraction")) {
     scene.attraction = build_attraction(json.at("attraction"));
   }
+  if (member(json, "fields").is_array()) build_fields(json.at("fields"), scene, findings);
   if (member(json, "colliders").is_array()) {
     build_colliders(json.at("colliders"), shape_files(folder, options, loaded), scene, findings);
   }

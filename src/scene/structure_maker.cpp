@@ -12,7 +12,7 @@
 #include "hooke/physics/periodic.h"
 #include "hooke/scene/available_memory.h"
 #include "hooke/scene/json_path.h"
-#include "hooke/scene/nearest.h"
+#include "hooke/scene/material_names.h"
 
 namespace hooke {
 
@@ -20,19 +20,11 @@ std::optional<std::uint16_t> StructureMaker::material_of(const Json& entry, cons
   const std::string where = join_path(path, "material");
   if (findings.touches(where) || !entry.contains("material")) return std::nullopt;
   const auto& name = entry.at("material").get_ref<const std::string&>();
-  std::vector<std::string> names;
-  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-    if (scene.materials[m].name == name) {
-      if (scene.materials[m].is_of_particles()) return static_cast<std::uint16_t>(m);
-      findings.add(where, fmt::format("is \"{}\", which has neither radius nor mass: only colliders may have it",
-                                      printable(name, 60)));
-      return std::nullopt;
-    }
-    names.push_back(scene.materials[m].name);
-  }
-  const std::string hint = did_you_mean(name, names);
-  findings.add(where, fmt::format("is \"{}\", which is no material{}{} the scene has {}", printable(name, 60), hint,
-                                  hint.empty() ? ";" : "", quoted_list(names)));
+  const auto m = material_named(name, where, scene.materials, findings);
+  if (!m) return std::nullopt;
+  if (scene.materials[*m].is_of_particles()) return static_cast<std::uint16_t>(*m);
+  findings.add(where, fmt::format("is \"{}\", which has neither radius nor mass: only colliders may have it",
+                                  printable(name, 60)));
   return std::nullopt;
 }
 
@@ -75,14 +67,8 @@ std::uint64_t StructureMaker::add_particles(const std::vector<Vec3d>& positions,
 }
 
 double StructureMaker::distance(std::uint64_t a, std::uint64_t b) const {
-  const Vec3d& x_a = particles.position[particles.find(a)];
-  const Vec3d& x_b = particles.position[particles.find(b)];
-  Vec3d d = x_a - x_b;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (scene.domain.boundary[static_cast<std::size_t>(axis)] != Boundary::periodic) continue;
-    const double length = scene.domain.length(axis), i = component(x_a, axis), p = component(x_b, axis);
-    component(d, axis) = image_displacement(i, p, nearest_image(i, p, length), length);
-  }
+  const Vec3d d = nearest_displacement(particles.position[particles.find(a)], particles.position[particles.find(b)],
+                                       scene.domain.period());
   return std::sqrt(dot(d, d));
 }
 

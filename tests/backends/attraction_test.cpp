@@ -97,7 +97,8 @@ TEST_P(ByReference, HaveItsBits) {
     ASSERT_TRUE(advance(reference, 15));
     ASSERT_TRUE(advance(cpu, 15));
     EXPECT_EQ(cpu.state_hash(), reference.state_hash());
-    EXPECT_EQ(cpu.ledger().attraction, reference.ledger().attraction);
+    EXPECT_EQ(cpu.ledger().work[Cause::attraction], reference.ledger().work[Cause::attraction]);
+    EXPECT_EQ(cpu.ledger().impulse[Cause::attraction], reference.ledger().impulse[Cause::attraction]);
     EXPECT_EQ(measured(cpu).attraction_energy, measured(reference).attraction_energy);
   }
 }

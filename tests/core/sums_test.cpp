@@ -11,7 +11,7 @@ namespace {
 // Powers of this kick and of the next one, and forces, as one evaluation leaves them.
 StepSums sums(double power, double next_power) {
   StepSums s;
-  for (std::size_t cause = 0; cause < kCauses; ++cause) {
+  for (std::size_t cause = 0; cause < kPassCauses; ++cause) {
     s.power.of[cause].add(2 * power * static_cast<double>(cause + 1));  // at twice the mean velocity
     s.next_power.of[cause].add(2 * next_power * static_cast<double>(cause + 1));
   }
@@ -23,24 +23,48 @@ const Vec3d kGravity{0, 0, 5};
 
 TEST(BookStep, BooksAWholeStepUnderSymplecticEuler) {
   Ledger ledger;
-  book_step(ledger, sums(8, 1000), kGravity, 2, 0.5, Integrator::symplectic_euler);
-  for (std::size_t cause = 0; cause < kCauses; ++cause) {
+  book_step(ledger, sums(8, 1000), nullptr, kGravity, 2, 0.5, Integrator::symplectic_euler);
+  for (std::size_t cause = 0; cause < kPassCauses; ++cause) {
     EXPECT_EQ(ledger.work.of[cause], 4 * static_cast<double>(cause + 1));
   }
-  EXPECT_EQ(ledger.wall_impulse.x, 12);
-  EXPECT_EQ(ledger.drag_impulse.y, 16);
-  EXPECT_EQ(ledger.gravity_impulse.z, 5);
+  EXPECT_EQ(ledger.impulse[Cause::wall].x, 12);
+  EXPECT_EQ(ledger.impulse[Cause::drag].y, 16);
+  EXPECT_EQ(ledger.impulse[Cause::gravity].z, 5);
   EXPECT_EQ(ledger.last, StepRates{}) << "not part of its state";
 }
 
 TEST(BookStep, BooksHalvesOfTwoEvaluationsUnderVelocityVerlet) {
   Ledger ledger;
-  ledger.last = first_rates(sums(8, 1000), kGravity, 2);
-  book_step(ledger, sums(16, 32), kGravity, 2, 0.5, Integrator::velocity_verlet);
+  ledger.last = first_rates(sums(8, 1000), nullptr, kGravity, 2);
+  book_step(ledger, sums(16, 32), nullptr, kGravity, 2, 0.5, Integrator::velocity_verlet);
   EXPECT_EQ(ledger.work.of[0], 2 + 4);
-  EXPECT_EQ(ledger.wall_impulse.x, 6 + 12);
+  EXPECT_EQ(ledger.impulse[Cause::wall].x, 6 + 12);
   EXPECT_EQ(ledger.last.power.of[0], 32);
-  EXPECT_EQ(ledger.last.wall_force.x, 48);
+  EXPECT_EQ(ledger.last.force[Cause::wall].x, 48);
+}
+
+TEST(BookStep, BooksAppliedCausesLikeTheOthers) {
+  AppliedSums applied;
+  applied[Cause::springs].power.add(2 * 8);
+  applied[Cause::springs].next_power.add(2 * 32);
+  applied[Cause::attraction].force.add({0, 0, 6});
+  applied.springs.dissipation.add(10);
+  applied.springs.broken_energy.add(3);
+  applied.springs.broken = 2;
+  applied.add_held(2, {1, 0, 0}, {4, 0, 0}, 0.25);  // -24 N, which moves at 1 m/s
+  AppliedSums twice = applied;
+  twice.add(applied);
+  Ledger ledger;
+  ledger.last = first_rates(StepSums{}, &applied, kGravity, 2);
+  book_step(ledger, StepSums{}, &twice, kGravity, 2, 0.5, Integrator::velocity_verlet);
+  EXPECT_EQ(ledger.work[Cause::springs], 0.25 * 8 + 0.25 * 16);
+  EXPECT_EQ(ledger.last.power[Cause::springs], 64);
+  EXPECT_EQ(ledger.work[Cause::hold], -0.25 * 24 - 0.25 * 48);
+  EXPECT_EQ(ledger.impulse[Cause::hold].x, -0.25 * 24 - 0.25 * 48);
+  EXPECT_EQ(ledger.impulse[Cause::attraction].z, 0.25 * 6 + 0.25 * 12);
+  EXPECT_EQ(ledger.springs.dissipated, 0.25 * 10 + 0.25 * 20);
+  EXPECT_EQ(ledger.springs.broken_energy, 6);
+  EXPECT_EQ(ledger.springs.broken, 4U);
 }
 
 TEST(Ledger, CallsDissipatedWhatDashpotsAndDragTookOut) {

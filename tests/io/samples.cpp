@@ -65,16 +65,18 @@ SimulationState state(std::int64_t step, std::size_t n) {
   s.particles.acceleration = particles(step + 1000, n, Precision::double_precision).position;
   s.step = step;
   s.next_id = 3 * n + 7;
-  s.ledger.work.of = {0.5, -0.1, -1.0 / 7, -0.2, 0.3, -5e-324, 9.8};
-  s.ledger.wall_impulse = {0.3, 1.0 / 3, -0.0};
-  s.ledger.drag_impulse = {5e-324, 1.7976931348623157e308, 2};
-  s.ledger.gravity_impulse = {0, -9.8 / 7, 3};
+  s.ledger.work.of = {0.5, -0.1, -1.0 / 7, -0.2, 0.3, -5e-324, 9.8, 0.1, 1.5, -1.0 / 3};
+  s.ledger.impulse[Cause::wall] = {0.3, 1.0 / 3, -0.0};
+  s.ledger.impulse[Cause::drag] = {5e-324, 1.7976931348623157e308, 2};
+  s.ledger.impulse[Cause::gravity] = {0, -9.8 / 7, 3};
   s.ledger.removed_momentum = {1, 2, 1e-300};
   s.ledger.removed_energy = 12.5;
   s.ledger.removed = 0xffffffffffffffffU;
-  s.ledger.springs = {1.5, 1.0 / 7, 2.5e-3, 2, -0.125, 7.0 / 3};
-  s.ledger.attraction = {-1.0 / 3, {1e-9, -2.0 / 7, 4}, 0.5, {2, 1.0 / 9, -1e300}};
-  s.ledger.hold = {{1, 2.0 / 3, 3}, 0.1, {-1, 1e-9, 5}, -0.2};
+  s.ledger.springs = {1.0 / 7, 2.5e-3, 2};
+  s.ledger.impulse[Cause::attraction] = {1e-9, -2.0 / 7, 4};
+  s.ledger.last.power[Cause::springs] = -0.125;
+  s.ledger.last.force[Cause::hold] = {2, 1.0 / 9, -1e300};
+  s.ledger.last.spring_dissipation = 7.0 / 3;
   const auto structure = std::make_shared<Structure>();
   for (std::uint64_t i = 0; i < n; ++i) {
     structure->springs.push_back({3 * i + 1, 3 * i + 4, 0.1 * static_cast<double>(i + 1), 1e3 / 3, 0.7, 0.5,

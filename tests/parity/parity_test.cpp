@@ -52,8 +52,8 @@ void expect_same_figures(const Simulation& a, const Simulation& b) {
   for (std::size_t cause = 0; cause < kCauses; ++cause) {
     near(a.ledger().work.of[cause], b.ledger().work.of[cause], scale);
   }
-  near(a.ledger().wall_impulse.y, b.ledger().wall_impulse.y, m.momentum_scale);
-  near(a.ledger().collider_impulse.y, b.ledger().collider_impulse.y, m.momentum_scale);
+  near(a.ledger().impulse[Cause::wall].y, b.ledger().impulse[Cause::wall].y, m.momentum_scale);
+  near(a.ledger().impulse[Cause::collider].y, b.ledger().impulse[Cause::collider].y, m.momentum_scale);
   near(m.collider_elastic_energy, n.collider_elastic_energy, 0);
   ASSERT_EQ(m.colliders.size(), n.colliders.size());
   for (std::size_t c = 0; c < m.colliders.size(); ++c) {
@@ -61,8 +61,8 @@ void expect_same_figures(const Simulation& a, const Simulation& b) {
     near(m.colliders[c].force.y, n.colliders[c].force.y, m.momentum_scale);
     near(m.colliders[c].torque.x, n.colliders[c].torque.x, m.momentum_scale);
   }
-  near(a.ledger().gravity_impulse.y, b.ledger().gravity_impulse.y, 0);
-  near(a.ledger().drag_impulse.x, b.ledger().drag_impulse.x, m.momentum_scale);
+  near(a.ledger().impulse[Cause::gravity].y, b.ledger().impulse[Cause::gravity].y, 0);
+  near(a.ledger().impulse[Cause::drag].x, b.ledger().impulse[Cause::drag].x, m.momentum_scale);
   near(a.ledger().removed_energy, b.ledger().removed_energy, m.kinetic_energy);
   EXPECT_EQ(a.ledger().removed, b.ledger().removed);
 }

@@ -112,13 +112,13 @@ TEST_P(ClusterBooks, Close) {
   ASSERT_TRUE(advance(s, 300));
   const Measurements now = measured(s);
   ASSERT_GT(now.kinetic_energy, 0.001 * std::abs(potential));
-  EXPECT_NEAR(s.ledger().attraction.work / now.kinetic_energy, 1, 1e-10);
+  EXPECT_NEAR(s.ledger().work[Cause::attraction] / now.kinetic_energy, 1, 1e-10);
   // Symplectic Euler's mean velocity of a step is half a kick off; the tree's potential is as good as its forces.
-  const double integration = s.ledger().attraction.work + now.attraction_energy - potential;
+  const double integration = s.ledger().work[Cause::attraction] + now.attraction_energy - potential;
   const bool exact = method == Attraction::Method::direct && integrator == Integrator::velocity_verlet;
   EXPECT_LT(std::abs(integration) / now.kinetic_energy, exact ? 1e-4 : 2e-2);
   // Pair by pair nothing is given but rounding; the tree gives what its errors don't cancel.
-  const Vec3d given = s.ledger().attraction.impulse;
+  const Vec3d given = s.ledger().impulse[Cause::attraction];
   EXPECT_LT(std::sqrt(dot(given, given)), (method == Attraction::Method::direct ? 1e-12 : 1e-3) * now.momentum_scale);
   const Vec3d off = now.momentum - given;
   EXPECT_LT(std::sqrt(dot(off, off)), 1e-12 * now.momentum_scale);

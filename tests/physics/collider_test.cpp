@@ -91,7 +91,7 @@ TEST(MovingPlane, CarriesARestingBall) {
     }
     EXPECT_NEAR(measured(simulation).colliders[0].force.y, -9.8, 1e-2) << "it presses down";
     // 2 N s at 2 m/s, half of which the dashpots keep.
-    EXPECT_NEAR(simulation.ledger().collider_impulse.x, simulation.velocities()[0].x, 1e-5);
+    EXPECT_NEAR(simulation.ledger().impulse[Cause::collider].x, simulation.velocities()[0].x, 1e-5);
   }
 }
 

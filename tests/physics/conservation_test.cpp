@@ -65,8 +65,8 @@ TEST(Momentum, IsAccountedForWithEverythingThatActs) {
       ASSERT_TRUE(advance(simulation, 600));
       const Measurements after = measured(simulation);
       EXPECT_GT(simulation.ledger().removed, 0U);
-      EXPECT_GT(length(simulation.ledger().wall_impulse), 1);
-      EXPECT_GT(length(simulation.ledger().drag_impulse), 0.01);
+      EXPECT_GT(length(simulation.ledger().impulse[Cause::wall]), 1);
+      EXPECT_GT(length(simulation.ledger().impulse[Cause::drag]), 0.01);
       EXPECT_LT(momentum_drift(after, simulation.ledger(), simulation.initial_momentum()), momentum_limit(engine, 600))
           << engine.name();
     }

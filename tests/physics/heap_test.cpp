@@ -30,11 +30,11 @@ TEST(Heap, WeighsOnTheFloorWhatItsParticlesWeigh) {
       for (const std::uint16_t m : simulation.particles().material) weight += 9.8 * scene.materials[m].mass;
 
       ASSERT_TRUE(advance(simulation, 6000));
-      const Vec3d before = simulation.ledger().wall_impulse;
+      const Vec3d before = simulation.ledger().impulse[Cause::wall];
       const std::int64_t steps = 2000;
       ASSERT_TRUE(advance(simulation, steps));
       const double duration = static_cast<double>(steps) * scene.time_step;
-      const Vec3d mean = (1 / duration) * (simulation.ledger().wall_impulse - before);
+      const Vec3d mean = (1 / duration) * (simulation.ledger().impulse[Cause::wall] - before);
       const Measurements now = measured(simulation);
       EXPECT_LT(now.momentum_scale * 9.8 / weight, 0.01) << "settled: the mean speed, m/s";
       EXPECT_NEAR(mean.y / weight, 1, 1e-3) << engine.name();

@@ -138,9 +138,9 @@ TEST(Springs, HangInADiscreteCatenary) {
     EXPECT_NEAR(s.positions()[i + 1].y, expected[i].y, 1e-6) << i;
   }
   // The ends carry the chain: per second, what gravity gives it.
-  const double before = s.ledger().hold.impulse.y;
+  const double before = s.ledger().impulse[Cause::hold].y;
   ASSERT_TRUE(advance(s, 2000));
-  EXPECT_NEAR(s.ledger().hold.impulse.y - before, (kLinks + 1) * kMass * 9.8, 1e-5);
+  EXPECT_NEAR(s.ledger().impulse[Cause::hold].y - before, (kLinks + 1) * kMass * 9.8, 1e-5);
 }
 
 // Work is what the kicks add to the kinetic energy, and springs do all of it here.
@@ -155,7 +155,7 @@ TEST(Springs, AccountForTheKineticEnergy) {
         ASSERT_TRUE(advance(s, fine == 0 ? 237 : 474));
         const Measurements m = measured(s);
         const SpringLedger& l = s.ledger().springs;
-        EXPECT_NEAR(m.kinetic_energy, l.work, 1e-12 * s.initial_energy());
+        EXPECT_NEAR(m.kinetic_energy, s.ledger().work[Cause::springs], 1e-12 * s.initial_energy());
         EXPECT_GT(l.dissipated, 0.1 * s.initial_energy());
         error[fine] = std::abs(s.initial_energy() - m.kinetic_energy - m.spring_energy - l.dissipated);
       }

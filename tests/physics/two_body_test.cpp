@@ -183,7 +183,7 @@ TEST(OneParticle, RestsOnTheFloorWhereSpringBalancesWeight) {
     ASSERT_TRUE(advance(simulation, 1000));
     EXPECT_NEAR(simulation.positions()[0].y, 0.5 - 2 * 9.8 / 1000, 1e-14);
     EXPECT_NEAR(measured(simulation).wall_force.y, 2 * 9.8, 1e-10);
-    EXPECT_NEAR(simulation.ledger().wall_impulse.y, 2 * 9.8 * 1000 * scene.time_step, 1e-10);
+    EXPECT_NEAR(simulation.ledger().impulse[Cause::wall].y, 2 * 9.8 * 1000 * scene.time_step, 1e-10);
   }
 }
 
@@ -221,7 +221,7 @@ TEST(OneParticle, SlowsDownByDrag) {
     const double left = std::pow(1 - scene.time_step * 2 / 4, 1000);
     EXPECT_NEAR(simulation.velocities()[0].x, 3 * left, 1e-12);
     EXPECT_NEAR(simulation.velocities()[0].y, -left, 1e-12);
-    EXPECT_NEAR(simulation.ledger().drag_impulse.x, 4 * 3 * (left - 1), 1e-10);
+    EXPECT_NEAR(simulation.ledger().impulse[Cause::drag].x, 4 * 3 * (left - 1), 1e-10);
   }
 }
 

@@ -155,6 +155,37 @@ TEST(SceneStructure, FillsBodiesWithTwelveNeighboursEach) {
   }
 }
 
+TEST(SceneStructure, FillsMeshesWithBodies) {
+  const ScratchFolder folder;
+  folder.write("cube.obj",
+               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n"
+               "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n");
+  const auto fill = [&](const std::string& placed) {
+    return load({R"(bodies=[{"material":"water","spacing":0.25,"stiffness":9,"shape":{"mesh":{"file":"cube.obj",)" +
+                 placed + "}}}]"},
+                folder.path());
+  };
+  // 23 planes of sites fit between the faces along each axis; of their crossings every other one is a site.
+  const LoadedScene upright = fill(R"("scale":4,"translate":[3,3,3])");
+  EXPECT_EQ(upright.particles.size(), 2U + (23 * 23 * 23 - 1) / 2);
+  // Its inner parts are four times as deep as the distances from its surface reach.
+  EXPECT_EQ(std::count(upright.particles.position.begin() + 2, upright.particles.position.end(), Vec3d{5, 5, 5}), 1);
+  const LoadedScene turned = fill(R"("scale":4,"rotate":[0,1,0,30],"translate":[3,3,5])");
+  std::size_t outside = 0;
+  const double sine = 0.5, cosine = std::sqrt(0.75);
+  for (std::size_t i = 2; i < turned.particles.size(); ++i) {
+    const Vec3d x = turned.particles.position[i] - Vec3d{3, 3, 5};
+    const Vec3d own{cosine * x.x - sine * x.z, x.y, sine * x.x + cosine * x.z};
+    for (int axis = 0; axis < 3; ++axis) {
+      if (component(own, axis) < -0.01 || component(own, axis) > 4.01) ++outside;
+    }
+  }
+  EXPECT_EQ(outside, 0U);
+  // Each site has 0.25^3/sqrt(2) for itself; the layer of half a plane's distance under the faces may miss a half of
+  // it.
+  EXPECT_NEAR(static_cast<double>(turned.particles.size() - 2), 64 * std::sqrt(2.0) / std::pow(0.25, 3), 300);
+}
+
 // A checkpoint brings the structure along with the particles.
 TEST(SceneStructure, IsNotMadeWithoutParticles) {
   LoadOptions options;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <mutex>
@@ -12,11 +11,10 @@
 #include "hooke/backends/cpu/attraction_sums.h"
 #include "hooke/backends/cpu/id_table.h"
 #include "hooke/backends/cpu/particle_record.h"
+#include "hooke/base/exact_sum.h"
 #include "hooke/base/huge_pages.h"
 #include "hooke/base/parallel.h"
 #include "hooke/core/scene.h"
-#include "hooke/core/sums.h"
-#include "hooke/physics/integrate.h"
 
 namespace hooke {
 
@@ -56,28 +54,6 @@ class AttractionForces {
 
   /// N, in the order of the records; as many as there are, those in no use included.
   const Vec3<Real>* forces() const { return force_.data(); }
-
-  /// Adds up what the forces did with particles `first` to `last` - 1, between the states before and after.
-  /// `acceleration` (velocity Verlet, else null) tells the half kick to come.
-  void add_work(std::size_t first, std::size_t last, const Record* before, const Record* after,
-                const Vec3<Real>* acceleration, Real half_dt, AttractionBooking& booking) const {
-    if (empty()) return;
-    constexpr std::size_t kAtOnce = 64;
-    for (; first < last; first += kAtOnce) {
-      const std::size_t n = std::min(kAtOnce, last - first);
-      std::array<Real, kAtOnce> work, next_work, force[3];
-      for (std::size_t k = 0; k < n; ++k) {
-        const std::size_t i = first + k;
-        for (int axis = 0; axis < 3; ++axis) force[axis][k] = component(force_[i], axis);
-        work[k] = dot(force_[i], before[i].v + after[i].v);
-        if (acceleration == nullptr) continue;
-        next_work[k] = dot(force_[i], after[i].v + kick(after[i].v, acceleration[i], half_dt));
-      }
-      booking.work.add(work.data(), n);
-      if (acceleration != nullptr) booking.next_work.add(next_work.data(), n);
-      for (int axis = 0; axis < 3; ++axis) booking.force[axis].add(force[axis].data(), n);
-    }
-  }
 
   /// Potential energy of all with each other, J.
   double energy(const LargeVector<Record>& records, std::size_t count, std::size_t alive, const IdTable& ids) {

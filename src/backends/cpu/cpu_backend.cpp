@@ -12,17 +12,15 @@
 #include <mutex>
 #include <thread>
 
-#include "hooke/backends/cpu/attraction_forces.h"
+#include "hooke/backends/cpu/applied_forces.h"
 #include "hooke/backends/cpu/boundaries.h"
 #include "hooke/backends/cpu/collider_rules.h"
 #include "hooke/backends/cpu/column_store.h"
 #include "hooke/backends/cpu/contact_scan.h"
-#include "hooke/backends/cpu/held_particles.h"
 #include "hooke/backends/cpu/id_table.h"
 #include "hooke/backends/cpu/isa.h"
 #include "hooke/backends/cpu/pass_rules.h"
 #include "hooke/backends/cpu/segment_report.h"
-#include "hooke/backends/cpu/spring_lists.h"
 #include "hooke/backends/cpu/threads.h"
 #include "hooke/backends/cpu/verlet_list.h"
 #include "hooke/base/huge_pages.h"
@@ -63,13 +61,12 @@ class CpuBackend final : public Backend {
     rules_.configure(scene);
     pass_ = rules_.pass;
     colliders_.configure(scene, pass_.material_count);
-    list_.configure(rules_, loops_.search_group, springs_.apart());
-    springs_.configure(scene, rules_.pass, loops_.spring_pass);
-    attraction_.configure(scene, loops_.attraction);
+    list_.configure(rules_, loops_.search_group, applied_.springs().apart());
+    applied_.configure(scene, rules_.pass, loops_);
   }
 
-  void break_springs(const std::vector<std::uint64_t>& broken) override { springs_.break_springs(broken); }
-  std::vector<std::uint64_t> broken_springs() const override { return springs_.broken(); }
+  void break_springs(const std::vector<std::uint64_t>& broken) override { applied_.springs().break_springs(broken); }
+  std::vector<std::uint64_t> broken_springs() const override { return applied_.springs().broken(); }
 
   Condition upload(const ParticleSet& particles, std::uint64_t first_new_id, const Ledger& ledger) override {
     ledger_ = ledger;
@@ -86,8 +83,7 @@ class CpuBackend final : public Backend {
     }
     fill_unused(records_);
     list_.forget();
-    springs_.bind(ids_);
-    find_held();
+    applied_.bind(ids_);
     count_alive();
     const bool any_new = count_ > 0 && ids_[count_ - 1] >= first_new_id;
     return verlet() && any_new ? evaluate_accelerations(first_new_id) : Condition{};
@@ -115,6 +111,8 @@ class CpuBackend final : public Backend {
     }
   }
 
+  void set_time(double seconds) override { applied_.set_time(seconds); }
+
   void place_colliders(std::span<const ColliderPose> poses) override {
     colliders_.place(scene_, poses, rules_.largest_radius + rules_.widest_range, pass_);
   }
@@ -128,7 +126,7 @@ class CpuBackend final : public Backend {
         unsigned far = 0;
         for (std::size_t i = start; i < std::min(start + kLanes, last); ++i) {
           Record& p = records_[i];
-          if (is_nowhere(p) || held_.holds(i)) continue;
+          if (is_nowhere(p) || applied_.held().holds(i)) continue;
           p.v = kick(p.v, acceleration_[i], Real(0.5) * pass_.dt);
           p.x = drift(p.x, p.v, pass_.dt);
           if (list_.good() && list_.is_far(p, i))
@@ -160,29 +158,21 @@ class CpuBackend final : public Backend {
   Condition apply_forces() override {
     Stopwatch forcing(times_.force);
     StepSums sums;
-    SpringSums spring_sums;
-    AttractionBooking attracted;
-    HoldSums hold;
+    AppliedSums applied;
     RemovalSums removed;
     Condition condition;
     aim_pass(verlet() ? acceleration_.data() : nullptr);
-    const bool released = apply_springs(true, spring_sums);
-    apply_attraction();
+    const bool released = apply_others(true, applied.springs);
     for_ranges(list_.segment_count(), 1, [&](std::size_t first, std::size_t last) {
       SegmentReport report;
       StepSums part;
-      SpringSums spring_part;
-      AttractionBooking attracted_part;
-      HoldSums hold_part;
+      AppliedSums applied_part;
       RemovalSums left;
       Condition found;
       for (std::size_t s = first; s < last; ++s) {
         run_segment(s, report);
         report.add_to(part);
-        hold_still(s, pass_.acceleration, hold_part);
-        springs_.add_work(s, records_.data(), next_.data(), pass_.acceleration, Real(0.5) * pass_.dt, spring_part);
-        attraction_.add_work(s * kSegment, std::min((s + 1) * kSegment, count_), records_.data(), next_.data(),
-                             pass_.acceleration, Real(0.5) * pass_.dt, attracted_part);
+        settle_segment(s, applied_part);
         for (std::size_t g = 0; g < kGroups; ++g) {
           if (report.far[g] != 0) list_.note_far(s * kGroups + g, report.far[g]);
           if (report.notes[g] == 0) continue;
@@ -193,15 +183,11 @@ class CpuBackend final : public Backend {
       collect(removed, left);
       const std::lock_guard lock(mutex_);
       sums.add(part);
-      if (!springs_.empty()) spring_sums.add(spring_part);
-      if (!attraction_.empty()) attracted.add(attracted_part);
-      if (hold_part.count > 0) hold.add(hold_part);
+      if (!applied_.none()) applied.add(applied_part);
       condition = Condition::first(condition, found);
     });
-    book_step(ledger_, sums, scene_.gravity, total_mass_, scene_.time_step, scene_.integrator);
-    if (!springs_.empty()) spring_sums.book(ledger_.springs, scene_.time_step, scene_.integrator);
-    if (!attraction_.empty()) attracted.book(ledger_.attraction, scene_.time_step, scene_.integrator);
-    if (!held_.none()) hold.book(ledger_.hold, scene_.integrator);
+    book_step(ledger_, sums, applied_.none() ? nullptr : &applied, scene_.gravity, total_mass_, scene_.time_step,
+              scene_.integrator);
     records_.swap(next_);
     forcing.stop();
     if (!verlet()) {
@@ -243,10 +229,7 @@ class CpuBackend final : public Backend {
       total.add(part);
     });
     Measurements result = total.result(scene_.colliders.size());
-    threads_.run([&] {
-      springs_.measure(records_.data(), place_, result);
-      if (!attraction_.empty()) result.attraction_energy = attraction_.energy(records_, count_, alive_, ids_);
-    });
+    threads_.run([&] { applied_.measure(records_, count_, alive_, ids_, result); });
     return result;
   }
 
@@ -276,7 +259,7 @@ class CpuBackend final : public Backend {
     pass_.in = records_.data();
     pass_.out = next_.data();
     pass_.acceleration = acceleration;
-    pass_.held = held_.lanes();
+    pass_.held = applied_.held().lanes();
     pass_.listed_at = list_.listed_at();
     pass_.anchors = list_.anchors();
     pass_.next_step = list_.next_step();
@@ -356,74 +339,32 @@ class CpuBackend final : public Backend {
     if (check_list_ && list_.good()) missed_contacts_ += list_.count_missed(records_.data());
   }
 
-  // Springs, and what is held ----------------------------------------------------------------------------------------
-
-  // Before the first sort, particles lie in order of their ids.
-  void find_held() {
-    held_ranks_.clear();
-    held_ = {};
-    if (!scene_.structure || scene_.structure->held.empty()) return;
-    held_.clear(count_);
-    for (const std::uint64_t id : scene_.structure->held) {
-      const std::size_t rank = ids_.find(id);
-      if (rank == ids_.size()) continue;
-      held_ranks_.push_back(static_cast<std::uint32_t>(rank));
-      held_.hold(rank);
-    }
-  }
+  // Springs, fields, attraction, and what is held
+  // -----------------------------------------------------------------------------
 
   void lay_out_structure() {
-    if (springs_.empty() && held_.none()) return;
+    if (!applied_.needs_layout()) return;
     const Stopwatch sorting(times_.sort);
-    place_.assign(ids_.size(), SpringLists<Real>::kNowherePlace);
-    parallel_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) place_[rank_of(records_[i].rank)] = static_cast<std::uint32_t>(i);
-    });
-    if (!springs_.empty()) springs_.lay_out(records_.data(), count_, records_.size(), place_);
-    if (held_.none()) return;
-    held_.clear(count_);
-    for (const std::uint32_t rank : held_ranks_) {
-      if (place_[rank] != SpringLists<Real>::kNowherePlace) held_.hold(place_[rank]);
-    }
+    applied_.lay_out(records_, count_, ids_.size());
   }
 
-  // Whether pairs that springs kept apart may touch from the next step on.
-  bool apply_springs(bool may_tear, SpringSums& sums) {
-    pass_.applied = nullptr;
-    if (springs_.empty()) return false;
+  // Sums the forces that the pass adds. Returns whether pairs that springs kept apart may touch from the next step on.
+  bool apply_others(bool may_tear, SpringSums& sums) {
     bool released = false;
-    threads_.run([&] {
-      const auto& pairs = springs_.apply(records_.data(), may_tear, sums);
-      list_.release(pairs);
-      released = !pairs.empty();
-    });
-    pass_.applied = springs_.forces();
+    if (!applied_.none()) {
+      threads_.run([&] {
+        const auto& pairs = applied_.apply(records_, count_, alive_, ids_, may_tear, sums);
+        list_.release(pairs);
+        released = !pairs.empty();
+      });
+    }
+    pass_.applied = applied_.forces();
     return released;
   }
 
-  // After the springs, to whose forces it adds its own.
-  void apply_attraction() {
-    if (attraction_.empty()) return;
-    threads_.run([&] { attraction_.apply(records_, count_, alive_, ids_); });
-    const Vec3<Real>* others = pass_.applied;
-    pass_.applied = attraction_.forces();
-    if (others == nullptr) return;
-    applied_.resize(records_.size());
-    for_ranges(records_.size(), kSegment, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) applied_[i] = others[i] + pass_.applied[i];
-    });
-    pass_.applied = applied_.data();
-  }
-
-  // Held particles stay as they were; what they got instead is booked.
-  void hold_still(std::size_t s, Vec3<Real>* acceleration, HoldSums& sums) {
-    if (held_.none()) return;
-    for (std::size_t i = s * kSegment; i < std::min((s + 1) * kSegment, count_); ++i) {
-      if (!held_.holds(i)) continue;
-      sums.add_particle(material_of(records_[i]).mass, vec_cast<double>(records_[i].v), vec_cast<double>(next_[i].v));
-      next_[i] = records_[i];
-      if (acceleration != nullptr) acceleration[i] = {Real(0), Real(0), Real(0)};
-    }
+  void settle_segment(std::size_t s, AppliedSums& sums) {
+    applied_.settle(s * kSegment, std::min((s + 1) * kSegment, count_), records_.data(), next_.data(),
+                    pass_.acceleration, sums);
   }
 
   // The force pass and what it reports -------------------------------------------------------------------------------
@@ -518,39 +459,26 @@ class CpuBackend final : public Backend {
     if (const Condition found = build_neighbours(); !found.good()) return found;
     LargeVector<Vec3<Real>> evaluated(acceleration_.size());
     StepSums sums;
-    SpringSums spring_sums;
-    HoldSums hold;
+    AppliedSums applied;
     aim_pass(evaluated.data());
-    (void)apply_springs(false, spring_sums);
-    apply_attraction();
+    (void)apply_others(false, applied.springs);
     for_ranges(list_.segment_count(), 1, [&](std::size_t first, std::size_t last) {
       SegmentReport report;
       StepSums part;
-      HoldSums hold_part;
+      AppliedSums applied_part;
       for (std::size_t s = first; s < last; ++s) {
         run_segment(s, report);
         report.add_to(part);
-        hold_still(s, evaluated.data(), hold_part);
+        settle_segment(s, applied_part);
       }
       const std::lock_guard lock(mutex_);
       sums.add(part);
-      if (hold_part.count > 0) hold.add(hold_part);
+      if (!applied_.none()) applied.add(applied_part);
     });
-    ledger_.last = first_rates(sums, scene_.gravity, total_mass_);
+    ledger_.last = first_rates(sums, applied_.none() ? nullptr : &applied, scene_.gravity, total_mass_);
     for (std::size_t i = 0; i < count_; ++i) {
       if (ids_[rank_of(records_[i].rank)] >= first_new_id) acceleration_[i] = evaluated[i];
     }
-    for (std::size_t s = 0; s < list_.segment_count(); ++s) {
-      springs_.add_work(s, records_.data(), records_.data(), acceleration_.data(), Real(0.5) * pass_.dt, spring_sums);
-    }
-    if (!springs_.empty()) spring_sums.book_first(ledger_.springs, scene_.time_step);
-    if (!attraction_.empty()) {
-      AttractionBooking attracted;
-      attraction_.add_work(0, count_, records_.data(), records_.data(), acceleration_.data(), Real(0.5) * pass_.dt,
-                           attracted);
-      attracted.book_first(ledger_.attraction, scene_.time_step);
-    }
-    if (!held_.none()) hold.book_first(ledger_.hold);
     return {};
   }
 
@@ -618,12 +546,7 @@ class CpuBackend final : public Backend {
   LargeVector<Vec3<Real>> acceleration_;  // velocity Verlet only, m/s^2
   Ledger ledger_;
 
-  AttractionForces<Real> attraction_;
-  LargeVector<Vec3<Real>> applied_;  // where there are springs and attraction: both
-  SpringLists<Real> springs_;
-  std::vector<std::uint32_t> held_ranks_;  // of what the scene's structure holds
-  HeldParticles held_;
-  std::vector<std::uint32_t> place_;  // by rank, of the last sort; only where there are springs or held particles
+  AppliedForces<Real> applied_;
   VerletList<Real> list_;
   std::span<const std::uint32_t> order_;  // of the last sort, while it is in use
   std::uint64_t missed_contacts_ = 0;

@@ -23,7 +23,6 @@
 #include "hooke/base/parallel.h"
 #include "hooke/core/scene.h"
 #include "hooke/core/sums.h"
-#include "hooke/physics/integrate.h"
 #include "hooke/physics/periodic.h"
 #include "hooke/physics/spring.h"
 
@@ -164,7 +163,7 @@ class SpringLists {
         work.power = power.data();
         work.torn = torn.data();
         run_(pass_, work);
-        part.power.add(power.data(), std::min(kSegment, last - at));
+        part.dissipation.add(power.data(), std::min(kSegment, last - at));
         for (std::size_t g = 0; g < work.group_count; ++g) {
           if (torn[g] != 0) settle_torn(records, at / kLanes + g, part);
         }
@@ -173,23 +172,6 @@ class SpringLists {
       sums.add(part);
     });
     return released_;
-  }
-
-  /// What the forces of the last apply() did to the particles of segment s between two states, and under velocity
-  /// Verlet will do in the half kick by `half_dt` (s) that follows with `acceleration`; null under symplectic Euler.
-  void add_work(std::size_t s, const Record* before, const Record* after, const Vec3<Real>* acceleration, Real half_dt,
-                SpringSums& sums) const {
-    if (empty()) return;
-    const std::size_t first = s * kSegment, n = std::min(kSegment, count_ - first);
-    std::array<Real, kSegment> work, next_work;
-    for (std::size_t k = 0; k < n; ++k) {
-      const std::size_t i = first + k;
-      work[k] = dot(force_[i], before[i].v + after[i].v);
-      if (acceleration == nullptr) continue;
-      next_work[k] = dot(force_[i], after[i].v + kick(after[i].v, acceleration[i], half_dt));
-    }
-    sums.work.add(work.data(), n);
-    if (acceleration != nullptr) sums.next_work.add(next_work.data(), n);
   }
 
   /// Counts the springs that hold, and their energy.

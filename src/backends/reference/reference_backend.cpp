@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "hooke/backends/reference/reference_attraction.h"
+#include "hooke/backends/reference/reference_fields.h"
 #include "hooke/backends/reference/reference_springs.h"
 #include "hooke/base/stopwatch.h"
 #include "hooke/core/placed_colliders.h"
@@ -52,27 +53,24 @@ class ReferenceBackend final : public Backend {
     }
     p_.acceleration.resize(p_.size());
     if (p_.empty() || p_.id.back() < first_new_id) return {};
-    const Forces now = accelerations();
-    HoldSums hold;
+    Forces now = accelerations();
     for (std::size_t i = 0; i < p_.size(); ++i) {
       const bool held = springs_.is_held(p_.id[i]);
       if (held) {
         const Vec3d& v = p_.velocity[i];
-        hold.add_particle(material(i).mass, v, kick(v, now.a[i], scene_.time_step / 2));
+        now.applied_sums.add_held(material(i).mass, v, kick(v, now.a[i], scene_.time_step / 2), scene_.time_step / 2);
+        now.a[i] = {0, 0, 0};
       }
-      if (p_.id[i] >= first_new_id) p_.acceleration[i] = held ? Vec3d{0, 0, 0} : now.a[i];
+      if (p_.id[i] >= first_new_id) p_.acceleration[i] = now.a[i];
+      add_work(now, i, p_.velocity[i], kick(p_.velocity[i], now.a[i], scene_.time_step / 2));
     }
-    hold.book_first(ledger_.hold);
-    SpringSums sums = now.springs;
-    AttractionBooking attracted;
-    add_next_work(now, sums, attracted);
-    sums.book_first(ledger_.springs, scene_.time_step);
-    attracted.book_first(ledger_.attraction, scene_.time_step);
-    ledger_.last = first_rates(now.sums, scene_.gravity, total_mass());
+    ledger_.last = first_rates(now.sums, &now.applied_sums, scene_.gravity, total_mass());
     return {};
   }
 
   void download(ParticleSet& out) const override { out = p_; }
+
+  void set_time(double seconds) override { time_ = seconds; }
 
   void place_colliders(std::span<const ColliderPose> poses) override {
     colliders_.clear();
@@ -107,33 +105,22 @@ class ReferenceBackend final : public Backend {
   Condition apply_forces() override {
     const Stopwatch forcing(times_.force);
     Forces forces = accelerations();
-    const std::vector<std::size_t> torn = springs_.torn(p_, forces.springs);
-    const double dt = scene_.time_step;
-    HoldSums hold;
-    AttractionBooking attracted;
+    const std::vector<std::size_t> torn = springs_.torn(p_, forces.applied_sums.springs);
+    const double dt = scene_.time_step, kick_time = verlet() ? dt / 2 : dt;
     for (std::size_t i = 0; i < p_.size(); ++i) {
       const Vec3d before = p_.velocity[i];
-      const Vec3d kicked = kick(before, forces.a[i], verlet() ? dt / 2 : dt);
+      const Vec3d kicked = kick(before, forces.a[i], kick_time);
       if (springs_.is_held(p_.id[i])) {
-        hold.add_particle(material(i).mass, before, kicked);
+        forces.applied_sums.add_held(material(i).mass, before, kicked, kick_time);
         forces.a[i] = {0, 0, 0};
       } else {
         p_.velocity[i] = kicked;
         if (!verlet()) p_.position[i] = drift(p_.position[i], p_.velocity[i], dt);
       }
-      if (!forces.applied.empty()) forces.springs.work.add(dot(forces.applied[i], before + p_.velocity[i]));
-      if (!forces.attraction.empty()) attracted.work.add(dot(forces.attraction[i], before + p_.velocity[i]));
+      add_work(forces, i, before, p_.velocity[i]);
     }
-    if (verlet()) {
-      p_.acceleration = forces.a;
-      add_next_work(forces, forces.springs, attracted);
-    } else {
-      for (const Vec3d& force : forces.attraction) attracted.force.add(force);
-    }
-    book_step(ledger_, forces.sums, scene_.gravity, total_mass(), dt, scene_.integrator);
-    forces.springs.book(ledger_.springs, dt, scene_.integrator);
-    attracted.book(ledger_.attraction, dt, scene_.integrator);
-    hold.book(ledger_.hold, scene_.integrator);
+    book_step(ledger_, forces.sums, &forces.applied_sums, scene_.gravity, total_mass(), dt, scene_.integrator);
+    if (verlet()) p_.acceleration = forces.a;
     springs_.tear(torn);
     if (!verlet()) apply_boundaries();
     return forces.condition;
@@ -175,12 +162,15 @@ class ReferenceBackend final : public Backend {
   StageTimes stage_times() const override { return times_; }
 
  private:
+  struct Acting {
+    Cause cause;
+    std::vector<Vec3d> force;  // N, a particle each; empty where the scene has nothing of it
+  };
   struct Forces {
     std::vector<Vec3d> a;  // m/s^2
     StepSums sums;
-    std::vector<Vec3d> applied;  // by springs, N; empty where there are none
-    SpringSums springs;
-    std::vector<Vec3d> attraction;  // N, likewise
+    std::vector<Acting> applied;  // in the order of their sum
+    AppliedSums applied_sums;
     Condition condition;
   };
 
@@ -207,12 +197,13 @@ class ReferenceBackend final : public Backend {
   }
 
   // Forces on each particle in canonical order, cause by cause: contacts by (neighbour id, image), walls, colliders,
-  // drag, springs by index and attraction; then gravity.
+  // drag, springs by index, fields and attraction; then gravity.
   Forces accelerations() const {
     Forces out;
     out.a.resize(p_.size());
-    out.applied = springs_.forces(p_, out.springs);
-    out.attraction = attraction_.forces(p_);
+    out.applied.push_back({Cause::springs, springs_.forces(p_, out.applied_sums.springs)});
+    out.applied.push_back({Cause::field, field_forces(scene_, p_, time_)});
+    out.applied.push_back({Cause::attraction, attraction_.forces(p_)});
     const double dt = scene_.time_step;
     for (std::size_t i = 0; i < p_.size(); ++i) {
       const Material& m = material(i);
@@ -260,15 +251,16 @@ class ReferenceBackend final : public Backend {
 
       const Vec3d drag = drag_force(v, m.drag);
       Vec3d applied{0, 0, 0};
-      if (!out.applied.empty()) applied += out.applied[i];
-      if (!out.attraction.empty()) applied += out.attraction[i];
+      for (const Acting& acting : out.applied) {
+        if (!acting.force.empty()) applied += acting.force[i];
+      }
       const Vec3d sum = (((by_contacts + walls) + colliders) + drag) + applied;
       out.a[i] = (1 / m.mass) * sum + scene_.gravity;
 
       out.sums.wall_force.add(walls);
       out.sums.collider_force.add(colliders);
       out.sums.drag_force.add(drag);
-      const auto add_powers = [&](ByCause<ExactSum>& power, const Vec3d& before, const Vec3d& after) {
+      const auto add_powers = [&](ByCause<ExactSum, kPassCauses>& power, const Vec3d& before, const Vec3d& after) {
         const Vec3d twice_mean = before + after;
         power[Cause::contact_spring].add(dot(contacts.linear.spring, twice_mean));
         power[Cause::contact_shear].add(dot(contacts.linear.shear, twice_mean));
@@ -287,18 +279,15 @@ class ReferenceBackend final : public Backend {
     return out;
   }
 
-  // Velocity Verlet: what springs and attraction do in the next half kick, which is known already.
-  void add_next_work(const Forces& forces, SpringSums& sums, AttractionBooking& attracted) const {
-    for (std::size_t i = 0; i < forces.attraction.size(); ++i) {
-      const Vec3d& v = p_.velocity[i];
-      const Vec3d next = kick(v, p_.acceleration[i], scene_.time_step / 2);
-      attracted.next_work.add(dot(forces.attraction[i], v + next));
-      attracted.force.add(forces.attraction[i]);
-    }
-    for (std::size_t i = 0; i < forces.applied.size(); ++i) {
-      const Vec3d& v = p_.velocity[i];
-      const Vec3d next = kick(v, p_.acceleration[i], scene_.time_step / 2);
-      sums.next_work.add(dot(forces.applied[i], v + next));
+  // What the applied forces on particle i do in a kick from `before` to `after`, and in the half kick to come.
+  void add_work(Forces& forces, std::size_t i, const Vec3d& before, const Vec3d& after) const {
+    for (const Acting& acting : forces.applied) {
+      if (acting.force.empty()) continue;
+      const Vec3d& force = acting.force[i];
+      AppliedSums::Rates& rates = forces.applied_sums[acting.cause];
+      rates.power.add(dot(force, before + after));
+      if (verlet()) rates.next_power.add(dot(force, after + kick(after, forces.a[i], scene_.time_step / 2)));
+      if (acting.cause != Cause::springs) rates.force.add(force);  // springs give each other what they take
     }
   }
 
@@ -397,6 +386,7 @@ class ReferenceBackend final : public Backend {
   }
 
   Scene scene_;
+  double time_ = 0;  // s
   ContactTable table_;
   ReferenceSprings springs_;
   ReferenceAttraction attraction_;

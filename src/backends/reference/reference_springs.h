@@ -54,7 +54,7 @@ class ReferenceSprings {
       const SpringForce<double> f = spring_force(extension, normal, w, springs().stiffness[s], springs().damping[s]);
       force[i] += f.force;
       force[j] += -f.force;
-      sums.power.add(f.dissipation);
+      sums.dissipation.add(f.dissipation);
     });
     return force;
   }

@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "hooke/backends/cpu/attraction_forces.h"
+#include "hooke/backends/cpu/field_forces.h"
+#include "hooke/backends/cpu/held_particles.h"
+#include "hooke/backends/cpu/id_table.h"
+#include "hooke/backends/cpu/isa.h"
+#include "hooke/backends/cpu/particle_record.h"
+#include "hooke/backends/cpu/spring_lists.h"
+#include "hooke/base/huge_pages.h"
+#include "hooke/base/parallel.h"
+#include "hooke/core/scene.h"
+#include "hooke/core/sums.h"
+#include "hooke/physics/integrate.h"
+
+namespace hooke {
+
+/// What acts on the particles of a scene beside the force pass: springs, fields and attraction, summed before the pass
+/// into one column of forces that it adds, and what holds particles still after it. A scene that has nothing of it pays
+/// nothing.
+template <class Real>
+class AppliedForces {
+  using Record = ParticleRecord<Real>;
+  using Records = LargeVector<Record>;
+  static constexpr std::size_t kSegment = 1024;
+
+ public:
+  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+  void configure(const Scene& scene, const ForcePass<Real>& rules, const Loops<Real>& loops) {
+    structure_ = scene.structure;
+    kick_ = scene.integrator == Integrator::velocity_verlet ? scene.time_step / 2 : scene.time_step;
+    mass_.clear();
+    for (const Material& m : scene.materials) mass_.push_back(m.mass);
+    springs_.configure(scene, rules, loops.spring_pass);
+    fields_.configure(scene);
+    attraction_.configure(scene, loops.attraction);
+  }
+
+  SpringLists<Real>& springs() { return springs_; }
+  const SpringLists<Real>& springs() const { return springs_; }
+  const HeldParticles& held() const { return held_; }
+
+  /// Whether the scene has nothing of it.
+  bool none() const { return springs_.empty() && fields_.empty() && attraction_.empty() && held_.none(); }
+
+  /// Ties and holds the particles of these ids, which lie in order of their ids until the first sort.
+  void bind(const IdTable& ids) {
+    springs_.bind(ids);
+    fields_.bind(ids);
+    held_ranks_.clear();
+    held_ = {};
+    if (!structure_ || structure_->held.empty()) return;
+    held_.clear(ids.size());
+    for (const std::uint64_t id : structure_->held) {
+      const std::size_t rank = ids.find(id);
+      if (rank == ids.size()) continue;
+      held_ranks_.push_back(static_cast<std::uint32_t>(rank));
+      held_.hold(rank);
+    }
+  }
+
+  bool needs_layout() const { return !springs_.empty() || fields_.needs_places() || !held_.none(); }
+
+  /// After a sort: where the particles of the first `count` records are now, of `ranks` that there have been.
+  void lay_out(const Records& records, std::size_t count, std::size_t ranks) {
+    place_.assign(ranks, SpringLists<Real>::kNowherePlace);
+    parallel_ranges(count, kSegment, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) place_[rank_of(records[i].rank)] = static_cast<std::uint32_t>(i);
+    });
+    if (!springs_.empty()) springs_.lay_out(records.data(), count, records.size(), place_);
+    if (held_.none()) return;
+    held_.clear(count);
+    for (const std::uint32_t rank : held_ranks_) {
+      if (place_[rank] != SpringLists<Real>::kNowherePlace) held_.hold(place_[rank]);
+    }
+  }
+
+  /// The scene's clock, s.
+  void set_time(double seconds) { fields_.set_time(seconds); }
+
+  /// Sums up the forces on the first `count` records, of which `alive` are somewhere. With `may_tear`, springs that are
+  /// stretched too far break. Returns the pairs (indices) that springs kept apart and that may touch from now on.
+  const Pairs& apply(const Records& records, std::size_t count, std::size_t alive, const IdTable& ids, bool may_tear,
+                     SpringSums& sums) {
+    static const Pairs kNone;
+    const Pairs* released = &kNone;
+    acting_.clear();
+    if (!springs_.empty()) {
+      released = &springs_.apply(records.data(), may_tear, sums);
+      acting_.push_back({Cause::springs, springs_.forces()});
+    }
+    if (!fields_.empty()) {
+      fields_.apply(records, count, place_);
+      acting_.push_back({Cause::field, fields_.forces()});
+    }
+    if (!attraction_.empty()) {
+      attraction_.apply(records, count, alive, ids);
+      acting_.push_back({Cause::attraction, attraction_.forces()});
+    }
+    if (acting_.size() > 1) {
+      total_.resize(records.size());
+      parallel_ranges(count, kSegment, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+          total_[i] = acting_[0].force[i];
+          for (std::size_t k = 1; k < acting_.size(); ++k) total_[i] += acting_[k].force[i];
+        }
+      });
+    }
+    return *released;
+  }
+
+  /// N, in the order of the records; null where nothing acts.
+  const Vec3<Real>* forces() const {
+    return acting_.empty() ? nullptr : acting_.size() == 1 ? acting_.front().force : total_.data();
+  }
+
+  /// After the pass over particles `first` to `last` - 1: puts held ones back to where they were, and adds up what all
+  /// of this did. `acceleration` (velocity Verlet, else null) is that of the half kick to come.
+  void settle(std::size_t first, std::size_t last, const Record* before, Record* after, Vec3<Real>* acceleration,
+              AppliedSums& sums) const {
+    hold_still(first, last, before, after, acceleration, sums);
+    for (const Acting& acting : acting_) add_work(acting, first, last, before, after, acceleration, sums);
+  }
+
+  void measure(const Records& records, std::size_t count, std::size_t alive, const IdTable& ids, Measurements& m) {
+    springs_.measure(records.data(), place_, m);
+    if (!attraction_.empty()) m.attraction_energy = attraction_.energy(records, count, alive, ids);
+  }
+
+ private:
+  struct Acting {
+    Cause cause;
+    const Vec3<Real>* force;  // N
+  };
+
+  void hold_still(std::size_t first, std::size_t last, const Record* before, Record* after, Vec3<Real>* acceleration,
+                  AppliedSums& sums) const {
+    if (held_.none()) return;
+    for (std::size_t i = first; i < last; ++i) {
+      if (!held_.holds(i)) continue;
+      sums.add_held(mass_[static_cast<std::size_t>(before[i].material)], vec_cast<double>(before[i].v),
+                    vec_cast<double>(after[i].v), kick_);
+      after[i] = before[i];
+      if (acceleration != nullptr) acceleration[i] = {Real(0), Real(0), Real(0)};
+    }
+  }
+
+  void add_work(const Acting& acting, std::size_t first, std::size_t last, const Record* before, const Record* after,
+                const Vec3<Real>* acceleration, AppliedSums& sums) const {
+    constexpr std::size_t kAtOnce = 64;
+    AppliedSums::Rates& rates = sums[acting.cause];
+    for (; first < last; first += kAtOnce) {
+      const std::size_t n = std::min(kAtOnce, last - first);
+      std::array<Real, kAtOnce> power, next_power, force[3];
+      for (std::size_t k = 0; k < n; ++k) {
+        const std::size_t i = first + k;
+        const Vec3<Real>& f = acting.force[i];
+        for (int axis = 0; axis < 3; ++axis) force[axis][k] = component(f, axis);
+        power[k] = dot(f, before[i].v + after[i].v);
+        if (acceleration == nullptr) continue;
+        next_power[k] = dot(f, after[i].v + kick(after[i].v, acceleration[i], static_cast<Real>(kick_)));
+      }
+      rates.power.add(power.data(), n);
+      if (acceleration != nullptr) rates.next_power.add(next_power.data(), n);
+      if (acting.cause == Cause::springs) continue;  // they give each other what they take
+      for (int axis = 0; axis < 3; ++axis) rates.force[axis].add(force[axis].data(), n);
+    }
+  }
+
+  std::shared_ptr<const Structure> structure_;
+  double kick_ = 0;  // s
+  std::vector<double> mass_;  // by material, kg
+  SpringLists<Real> springs_;
+  FieldForces<Real> fields_;
+  AttractionForces<Real> attraction_;
+  std::vector<Acting> acting_;  // in the order of their sum
+  LargeVector<Vec3<Real>> total_;  // where several act
+  std::vector<std::uint32_t> held_ranks_;
+  HeldParticles held_;
+  std::vector<std::uint32_t> place_;  // by rank, of the last sort
+};
+
+}  // namespace hooke

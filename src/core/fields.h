@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "hooke/base/expected.h"
+#include "hooke/base/vec3.h"
+#include "hooke/core/shapes.h"
+
+namespace hooke {
+
+/// How wind comes and goes: velocity + amplitude sin(2 pi (frequency t - s / wavelength)), s how far along the wind a
+/// place is.
+struct Gust {
+  Vec3d amplitude{0, 0, 0};  ///< m/s
+  double frequency = 1;      ///< Hz, >= 0
+  double wavelength = 0;     ///< m, > 0; 0: everywhere at once
+};
+
+/// A medium that moves.
+struct Wind {
+  Vec3d velocity{0, 0, 0};  ///< m/s
+  /// On each particle, kg/s, >= 0. Without it the materials' own drag is relative to the wind.
+  std::optional<double> drag;
+  double area_drag = 0;  ///< on the triangles of cloths, kg/(m^2 s), >= 0
+  std::optional<Gust> gust;
+};
+
+/// The same acceleration everywhere.
+struct UniformPush {
+  Vec3d acceleration{0, 0, 0};  ///< m/s^2
+};
+
+/// A push towards a point: by an acceleration, or, with `time`, as whoever wants to walk there.
+struct PushToward {
+  Vec3d point{0, 0, 0};     ///< m
+  double acceleration = 0;  ///< m/s^2
+  double speed = 0;         ///< wished, m/s, >= 0
+  double time = 0;          ///< in which the velocity adapts to it, s, > 0; 0: there is no such wish
+};
+
+/// A force on particles that depends on where they are and how they move, not on each other (docs/theory.md eq. 14 to
+/// 16): plain data of a scene.
+struct Field {
+  std::variant<Wind, UniformPush, PushToward> law;
+  std::optional<BoxShape> within;      ///< whose centre is in this box; else everywhere
+  std::vector<std::size_t> materials;  ///< those that feel it, indices into the scene's; none: all
+};
+
+struct Scene;
+/// What is wrong with the fields of a scene. Paths are those of the scene file.
+std::vector<Finding> check_fields(const Scene& scene);
+
+}  // namespace hooke

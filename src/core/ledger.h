@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "hooke/base/vec3.h"
+#include "hooke/core/work.h"
+
+namespace hooke {
+
+/// Forces of one evaluation and their powers during a kick, summed over all particles.
+struct StepRates {
+  Work power;                     ///< W
+  ByCause<Vec3d> force;           ///< N; 0 for causes that act between particles, but for attraction
+  double spring_dissipation = 0;  ///< by the dampers of the structure's springs, W
+
+  friend bool operator==(const StepRates&, const StepRates&) = default;
+};
+
+/// What became of the energy of the structure's springs.
+struct SpringLedger {
+  double dissipated = 0;     ///< by dampers, J; part of the springs' work
+  double broken_energy = 0;  ///< that was in springs as they broke, J
+  std::uint64_t broken = 0;  ///< springs
+
+  friend bool operator==(const SpringLedger&, const SpringLedger&) = default;
+};
+
+/// What steps leave behind beside the particles: sums over all steps so far, the same bits for any number
+/// of threads and across a restart, because each step's sum is exact before it is added.
+struct Ledger {
+  Work work;  ///< J
+  /// Given to particles, N s. Causes that act between particles give none; what attraction gives is what the tree is
+  /// off from Newton's third law.
+  ByCause<Vec3d> impulse;
+  Vec3d removed_momentum{0, 0, 0};  ///< taken along by particles that left, kg m/s
+  double removed_energy = 0;        ///< kinetic and potential, taken along likewise, J
+  std::uint64_t removed = 0;        ///< particles that left through open faces
+  SpringLedger springs;
+  /// Velocity Verlet: the rates of the last evaluation during the kick that is still to come. Else unused.
+  StepRates last;
+
+  /// Taken out by the dashpots and the friction of contacts between particles, and by drag, J.
+  double dissipated() const {
+    return 0 - (work[Cause::contact_shear] + work[Cause::contact_damping] + work[Cause::contact_friction] +
+                work[Cause::drag]);
+  }
+
+  friend bool operator==(const Ledger&, const Ledger&) = default;
+};
+
+}  // namespace hooke

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "hooke/core/scene.h"
+#include "hooke/scene/findings.h"
+#include "hooke/scene/json_reader.h"
+
+namespace hooke {
+
+/// A scene's "fields" from their JSON, which has its defaults; the scene has its materials already. What is wrong
+/// beyond the schema goes to `findings`.
+void build_fields(Json& fields, Scene& scene, Findings& findings);
+
+}  // namespace hooke
