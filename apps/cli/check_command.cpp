@@ -15,8 +15,9 @@
 namespace hooke::cli {
 namespace {
 
-void print_step(const Scene& scene) {
-  const StableStep stable = stable_step(scene);
+void print_step(const Simulation& simulation) {
+  const Scene& scene = simulation.scene();
+  const StableStep stable = stable_step(simulation);
   if (std::isinf(stable.seconds)) {
     fmt::print("  step       {:.6g} s; nothing in the scene limits it\n", scene.time_step);
   } else {
@@ -60,11 +61,11 @@ ExitStatus check_command(const CheckArguments& arguments) {
   fmt::print("  particles  {}\n", with_commas(particles));
   fmt::print("  memory     about {:.1f} MB\n", static_cast<double>(particles) * kBytesPerParticle * 1e-6);
   fmt::print("  duration   {} steps, {:.6g} s\n", scene.steps, static_cast<double>(scene.steps) * scene.time_step);
-  print_step(scene);
+  print_step(simulation);
   print_overlaps(*now);
   print_precision(scene);
 
-  if (const std::string unstable = unstable_step(scene); !unstable.empty()) {
+  if (const std::string unstable = unstable_step(simulation); !unstable.empty()) {
     if (arguments.strict) return report_error({Error::Kind::bad_input, {{"", unstable}}});
     spdlog::warn(unstable);
   }

@@ -57,8 +57,9 @@ Expected<OpenedSimulation> open_simulation(const SceneArguments& scene, const De
                           std::move(loaded->warnings)};
 }
 
-std::string unstable_step(const Scene& scene) {
-  const StableStep stable = stable_step(scene);
+std::string unstable_step(const Simulation& simulation) {
+  const Scene& scene = simulation.scene();
+  const StableStep stable = stable_step(simulation);
   if (scene.time_step <= stable.seconds) return {};
   return fmt::format("time.step: {:.6g} s is {:.3g} times the stable step {:.6g} s, which the {} sets", scene.time_step,
                      scene.time_step / stable.seconds, stable.seconds, stable.limit);

@@ -32,7 +32,7 @@ Expected<OpenedSimulation> open_simulation(const SceneArguments& scene, const De
                                            const std::filesystem::path& resume);
 
 /// A sentence about a time step that is too long for the scene; empty where it is not.
-std::string unstable_step(const Scene& scene);
+std::string unstable_step(const Simulation& simulation);
 
 /// How far apart positions lie that single precision can tell, at the coordinate of the domain that is farthest from 0.
 struct FloatSpacing {

@@ -188,7 +188,7 @@ void log_start(const OpenedSimulation& opened) {
                simulation.scene().time_step, back_end.device, back_end.isa, to_string(back_end.precision),
                back_end.threads);
   for (const Finding& warning : opened.warnings) spdlog::warn("{}: {}", warning.where, warning.message);
-  if (const std::string unstable = unstable_step(simulation.scene()); !unstable.empty()) spdlog::warn(unstable);
+  if (const std::string unstable = unstable_step(simulation); !unstable.empty()) spdlog::warn(unstable);
   if (const std::string coarse = coarse_positions(simulation); !coarse.empty()) spdlog::warn(coarse);
 }
 

@@ -98,7 +98,7 @@ struct Simulation::Impl {
   std::unique_ptr<Backend> backend;
   std::int64_t step = 0;
   std::uint64_t next_id = 1;
-  double initial_energy = 0;
+  double initial_energy = 0, initial_elastic = 0;
   Vec3d initial_momentum{0, 0, 0};
 
   // The host's copy of the particles: made on the first look after a step; what is changed in it goes
@@ -184,7 +184,9 @@ struct Simulation::Impl {
   }
 
   std::string likely_cause() const {
-    const StableStep stable = stable_step(scene);
+    ParticleSet now;
+    if (scene.structure) backend->download(now);
+    const StableStep stable = stable_step(scene, now);
     const double ratio = scene.time_step / stable.seconds;
     if (ratio > 1) {
       return fmt::format("time.step {:.6g} s is {:.3g} times the stable step {:.6g} s, which the {} sets",
@@ -271,8 +273,9 @@ Expected<Simulation> Simulation::create(Scene scene, ParticleSet particles, std:
   Simulation simulation(std::move(impl));
   const auto now = simulation.measure();
   if (!now) return fail(now.error());
-  simulation.impl_->initial_energy =
-      now->kinetic_energy + now->potential_energy + now->elastic_energy + now->spring_energy + now->attraction_energy;
+  const double elastic = now->elastic_energy + now->spring_energy;
+  simulation.impl_->initial_elastic = elastic;
+  simulation.impl_->initial_energy = now->kinetic_energy + now->potential_energy + elastic + now->attraction_energy;
   simulation.impl_->initial_momentum = now->momentum;
   return simulation;
 }
@@ -450,8 +453,8 @@ SimulationState Simulation::snapshot() const {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
   (void)s.flush();  // evaluates the accelerations of particles just added; a failure is the next step's to report
-  return {particles(),       s.step,           s.next_id,        s.backend->ledger(),
-          s.scene.structure, broken_springs(), s.initial_energy, s.initial_momentum};
+  return {particles(),      s.step,           s.next_id,         s.backend->ledger(), s.scene.structure,
+          broken_springs(), s.initial_energy, s.initial_elastic, s.initial_momentum};
 }
 
 Expected<void> Simulation::restore(SimulationState state) {
@@ -475,6 +478,7 @@ Expected<void> Simulation::restore(SimulationState state) {
   s.step = state.step;
   s.next_id = state.next_id;
   s.initial_energy = state.initial_energy;
+  s.initial_elastic = state.initial_elastic;
   s.initial_momentum = state.initial_momentum;
   s.host_current = false;
   s.host_edited = false;
@@ -503,6 +507,7 @@ Expected<Measurements> Simulation::measure() const {
 std::vector<std::uint64_t> Simulation::broken_springs() const { return impl_->backend->broken_springs(); }
 const Ledger& Simulation::ledger() const { return impl_->backend->ledger(); }
 double Simulation::initial_energy() const { return impl_->initial_energy; }
+double Simulation::initial_elastic() const { return impl_->initial_elastic; }
 const Vec3d& Simulation::initial_momentum() const { return impl_->initial_momentum; }
 
 }  // namespace hooke

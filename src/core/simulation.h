@@ -24,6 +24,7 @@ struct SimulationState {
   std::shared_ptr<const Structure> structure;  ///< the scene's: where the scene brings none, this one holds
   std::vector<std::uint64_t> broken_springs;   ///< indices of its springs, ascending
   double initial_energy = 0;  ///< kinetic, potential, elastic and of springs at step 0, J
+  double initial_elastic = 0;  ///< of that, in contacts between particles and in springs, J
   Vec3d initial_momentum{0, 0, 0};
 };
 
@@ -111,6 +112,7 @@ class Simulation {
   /// Kinetic, potential, elastic and springs' energy at step 0, J, and momentum, kg m/s: what drifts are measured from.
   /// What is added, removed or pushed by hand later moves the momentum along, not the energy.
   double initial_energy() const;
+  double initial_elastic() const;  ///< of that, in contacts between particles and in springs, J
   const Vec3d& initial_momentum() const;
 
  private:
@@ -123,12 +125,19 @@ class Simulation {
 /// impulses. Rounding alone leaves about 1e-7 in single precision.
 double momentum_drift(const Measurements& now, const Ledger& ledger, const Vec3d& initial_momentum);
 
-/// The largest stable step of the scene's stiffest and lightest materials, s (docs/theory.md eq. 9), and
-/// which coefficient limits it.
+/// What contacts between particles and springs have done, and the change of the energy that is in them: 0 but for the
+/// integrator's error, J (docs/theory.md section 6). Positive where it has made energy.
+double integration_error(const Measurements& now, const Ledger& ledger, double initial_elastic);
+
+/// The largest stable step, s (docs/theory.md eq. 9): of the scene's stiffest and lightest materials, of the springs
+/// around each of `particles`, and of drag; and which coefficient limits it.
 struct StableStep {
   double seconds = 0;  ///< infinite where nothing can oscillate
-  std::string limit;  ///< e.g. "stiffness and damping of water - water"
+  std::string
+      limit;  ///< e.g. "stiffness and damping of water - water", "stiffness of the springs around particle 7 (silk)"
 };
-StableStep stable_step(const Scene& scene);
+StableStep stable_step(const Scene& scene, const ParticleSet& particles = {});
+/// The same of a simulation as it is. Looks at its particles only where something ties them.
+StableStep stable_step(const Simulation& simulation);
 
 }  // namespace hooke

@@ -51,6 +51,7 @@ void for_each_real(State& s, Visit&& visit) {
   visit(ledger.springs.broken_energy);
   visit(ledger.last.spring_dissipation);
   visit(s.initial_energy);
+  visit(s.initial_elastic);
 }
 
 struct Numbers {

@@ -66,6 +66,7 @@ RunReport make_report(const Simulation& simulation, const Measurements& measurem
   report.ledger = simulation.ledger();
   for (const Collider& c : simulation.scene().colliders) report.colliders.push_back(c.name);
   report.initial_energy = simulation.initial_energy();
+  report.integration = integration_error(measurements, simulation.ledger(), simulation.initial_elastic());
   report.momentum_drift = momentum_drift(measurements, simulation.ledger(), simulation.initial_momentum());
   report.neighbours = simulation.neighbour_statistics();
   report.stages = simulation.stage_times();
@@ -114,6 +115,7 @@ std::string to_json(const RunReport& r) {
                     {"work_by_fields", r.ledger.work[Cause::field]},
                     {"attraction", m.attraction_energy},
                     {"work_by_attraction", r.ledger.work[Cause::attraction]},
+                    {"integration", r.integration},
                     {"balance", r.energy_balance()}};
   json["momentum"] = to_array(m.momentum);
   json["momentum_drift"] = r.momentum_drift;

@@ -55,6 +55,7 @@ void for_each_column(const SeriesRow& row, Visit&& column) {
   column("field_work", l.work[Cause::field]);
   column("attraction", m.attraction_energy);
   column("attraction_work", l.work[Cause::attraction]);
+  column("integration", row.integration);
   column("removed", l.removed);
   column("rebuilds", row.rebuilds);
 }
@@ -62,7 +63,11 @@ void for_each_column(const SeriesRow& row, Visit&& column) {
 }  // namespace
 
 SeriesRow make_series_row(const Simulation& simulation, const Measurements& measurements) {
-  return {simulation.step_count(), simulation.time(), measurements, simulation.ledger(),
+  return {simulation.step_count(),
+          simulation.time(),
+          measurements,
+          simulation.ledger(),
+          integration_error(measurements, simulation.ledger(), simulation.initial_elastic()),
           simulation.neighbour_statistics().rebuilds};
 }
 

@@ -87,6 +87,7 @@ SimulationState state(std::int64_t step, std::size_t n) {
   structure->surfaces = {{"linen", {1, 4, 7}, {0, 1, 2}}, {"silk", {10, 13, 16, 19}, {0, 1, 2, 1, 2, 3}}};
   s.structure = structure;
   s.initial_energy = 1e15 / 3;
+  s.initial_elastic = 1.0 / 9;
   s.initial_momentum = {-1, 0.1, 7};
   return s;
 }

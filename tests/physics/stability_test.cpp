@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "hooke/physics/stability.h"
@@ -111,6 +113,44 @@ TEST(StableStep, NamesThePairThatLimits) {
   scene.contacts = {};
   scene.materials[1].contact = {0, 1000, 1000};
   EXPECT_EQ(stable_step(scene).limit, "shear and damping of hard - hard");
+}
+
+// A chain whose fastest mode moves neighbours against each other: omega^2 = 4 k/m, gamma = 4 c/m, but for its ends.
+TEST(StableStep, IsThatOfAChainOfSprings) {
+  constexpr int kLinks = 60;
+  for (const double damping : {0.0, 3.0, 40.0}) {
+    Scene scene = open_scene();
+    scene.materials[0].contact = {0, 0, 0};
+    ParticleSet particles;
+    auto structure = std::make_shared<Structure>();
+    for (std::uint64_t i = 1; i <= kLinks + 1; ++i) {
+      // The start of that mode.
+      add(particles, {1.5 * static_cast<double>(i) + (i % 2 == 0 ? 1e-6 : -1e-6), 0, 0}, {0, 0, 0});
+      if (i > 1) structure->springs.push_back({i - 1, i, 1.5, 1000, damping});
+    }
+    structure->held = {1};
+    scene.structure = structure;
+    const StableStep stable = stable_step(scene, particles);
+    EXPECT_DOUBLE_EQ(stable.seconds, critical_step(4 * 1000, 4 * damping));
+    const char* which = damping == 0 ? "stiffness" : damping == 3 ? "stiffness" : "damping";
+    EXPECT_EQ(stable.limit, std::string(which) + " of the springs around particle 2 (" + scene.materials[0].name + ")");
+    for (const bool above : {false, true}) {
+      scene.time_step = (above ? 1.02 : 0.98) * stable.seconds;
+      Simulation s = simulate(scene, particles, kReference);
+      (void)s.step(600);
+      double fastest = 0;
+      for (const Vec3d& v : s.velocities()) fastest = std::max(fastest, std::abs(v.x));
+      above ? EXPECT_GT(fastest, 1) : EXPECT_LT(fastest, 1e-2);
+    }
+  }
+}
+
+TEST(StableStep, IsThatOfDrag) {
+  Scene scene = open_scene();
+  scene.materials[0].contact = {0, 0, 0};
+  scene.materials[0].drag = 50;
+  EXPECT_DOUBLE_EQ(stable_step(scene).seconds, 2.0 / 50);
+  EXPECT_EQ(stable_step(scene).limit, "drag of " + scene.materials[0].name);
 }
 
 TEST(StableStep, IsInfiniteWhereNothingOscillates) {
