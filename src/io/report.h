@@ -32,7 +32,7 @@ struct RunReport {
   Ledger ledger;
   std::vector<std::string> colliders;  ///< names, in the order of Measurements::colliders
   double initial_energy = 0;  ///< kinetic, potential, elastic and springs' at step 0, J
-  double integration = 0;     ///< integration_error(), J
+  double integration = 0;  ///< integration_error(), J
   double momentum_drift = 0;  ///< beyond what gravity, walls, colliders, drag and departures account for, relative
   NeighbourStatistics neighbours;
   StageTimes stages;  ///< of those steps
