@@ -82,6 +82,7 @@ Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, 
   frame.camera.target -= frame.origin;
   frame.action = {look.action.min - frame.origin, look.action.max - frame.origin};
   frame.ground = ground_of(scene, frame.action, frame.up);
+  frame.night = scene.attraction.has_value() && !frame.ground;
   frame.tank.min = scene.domain.min - frame.origin;
   frame.tank.max = scene.domain.max - frame.origin;
   for (std::size_t axis = 0; axis < 3; ++axis) frame.tank.walls[axis] = scene.domain.boundary[axis] == Boundary::spring;

@@ -43,6 +43,7 @@ struct Frame {
   Vec3d along{0, 0, 1};
   Vec3d to_sun{0, 1, 0};  ///< unit vector
   std::optional<double> ground;     ///< height of the ground along `up`, relative to the origin, m
+  bool night = false;  ///< a black sky: that of stars, where particles attract each other above no ground
   std::optional<ColorScale> scale;  ///< of the legend, where there is one
 };
 

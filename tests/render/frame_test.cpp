@@ -56,6 +56,25 @@ TEST(MakeFrame, SurfacesAreDrawnInPlaceOfTheirParticles) {
   EXPECT_TRUE(make_frame(scene, particles, 0, look, 1.5).meshes[0].corners.empty());
 }
 
+TEST(MakeFrame, TheSkyOfStarsIsBlack) {
+  Scene scene;
+  scene.materials = {{"star", 0.5, 1, {0, 0, 0}, 0, ""}};
+  ParticleSet particles;
+  particles.id = {1};
+  particles.material = {0};
+  particles.position = {{0.5, 0.5, 0.5}};
+  particles.velocity = {{0, 0, 0}};
+  const auto is_night = [&] {
+    return make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1).night;
+  };
+  scene.gravity = {0, 0, 0};
+  EXPECT_FALSE(is_night());
+  scene.attraction = Attraction{};
+  EXPECT_TRUE(is_night());
+  scene.gravity = {0, -9.8, 0};
+  EXPECT_FALSE(is_night()) << "there is a ground";
+}
+
 TEST(MakeFrame, SpheresArePlacedColouredAndSizedByTheirParticles) {
   const Scene scene = tank();
   const ParticleSet particles = one_of_each();

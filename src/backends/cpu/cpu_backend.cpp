@@ -10,6 +10,7 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "hooke/backends/cpu/applied_forces.h"
@@ -166,13 +167,14 @@ class CpuBackend final : public Backend {
     for_ranges(list_.segment_count(), 1, [&](std::size_t first, std::size_t last) {
       SegmentReport report;
       StepSums part;
-      AppliedSums applied_part;
+      std::optional<AppliedSums> applied_part;  // large, and of no use to most scenes
+      if (!applied_.none()) applied_part.emplace();
       RemovalSums left;
       Condition found;
       for (std::size_t s = first; s < last; ++s) {
         run_segment(s, report);
         report.add_to(part);
-        settle_segment(s, applied_part);
+        if (applied_part) settle_segment(s, *applied_part);
         for (std::size_t g = 0; g < kGroups; ++g) {
           if (report.far[g] != 0) list_.note_far(s * kGroups + g, report.far[g]);
           if (report.notes[g] == 0) continue;
@@ -183,7 +185,7 @@ class CpuBackend final : public Backend {
       collect(removed, left);
       const std::lock_guard lock(mutex_);
       sums.add(part);
-      if (!applied_.none()) applied.add(applied_part);
+      if (applied_part) applied.add(*applied_part);
       condition = Condition::first(condition, found);
     });
     book_step(ledger_, sums, applied_.none() ? nullptr : &applied, scene_.gravity, total_mass_, scene_.time_step,
@@ -465,15 +467,16 @@ class CpuBackend final : public Backend {
     for_ranges(list_.segment_count(), 1, [&](std::size_t first, std::size_t last) {
       SegmentReport report;
       StepSums part;
-      AppliedSums applied_part;
+      std::optional<AppliedSums> applied_part;  // large, and of no use to most scenes
+      if (!applied_.none()) applied_part.emplace();
       for (std::size_t s = first; s < last; ++s) {
         run_segment(s, report);
         report.add_to(part);
-        settle_segment(s, applied_part);
+        if (applied_part) settle_segment(s, *applied_part);
       }
       const std::lock_guard lock(mutex_);
       sums.add(part);
-      if (!applied_.none()) applied.add(applied_part);
+      if (applied_part) applied.add(*applied_part);
     });
     ledger_.last = first_rates(sums, applied_.none() ? nullptr : &applied, scene_.gravity, total_mass_);
     for (std::size_t i = 0; i < count_; ++i) {

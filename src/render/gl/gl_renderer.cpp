@@ -376,6 +376,7 @@ class GlRenderer final : public Renderer {
     program.set("up", vec_cast<float>(frame.up));
     program.set("has_ground", frame.ground ? 1 : 0);
     program.set("ground", static_cast<float>(frame.ground.value_or(0)));
+    program.set("sky_light", frame.night ? 0.03f : 1.0f);
     program.set("action_center", vec_cast<float>(frame.action.center()));
     program.set("action_size", length_of(frame.action.max - frame.action.min));
     program.set("sphere_size", sphere_size);

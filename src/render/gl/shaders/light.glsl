@@ -10,6 +10,7 @@ uniform float sun_blur;          // of shadows, m
 uniform vec3 up;
 uniform bool has_ground;
 uniform float ground;            // its height, m
+uniform float sky_light;         // how bright the sky is behind all
 uniform vec3 action_center;
 uniform float action_size;       // m
 uniform float sphere_size;       // radius of a typical sphere, m
@@ -18,7 +19,9 @@ const vec3 kSun = vec3(1.60, 1.51, 1.38);
 const vec3 kHorizon = vec3(0.12, 0.16, 0.21), kZenith = vec3(0.03, 0.05, 0.09);
 
 // What is behind all: dark, so that foam stands out.
-vec3 sky(vec3 direction) { return mix(kHorizon, kZenith, smoothstep(-0.05, 0.7, dot(direction, up))); }
+vec3 sky(vec3 direction) {
+  return sky_light * mix(kHorizon, kZenith, smoothstep(-0.05, 0.7, dot(direction, up)));
+}
 
 // What surfaces mirror: a bright sky, and a wide soft light around the sun.
 vec3 mirrored_sky(vec3 direction) {
