@@ -198,7 +198,7 @@ void add_render(CLI::App& app, CommandLine& line) {
 }
 
 constexpr ExportContent kContents[] = {ExportContent::particles, ExportContent::surface, ExportContent::volume,
-                                       ExportContent::contacts, ExportContent::cloths};
+                                       ExportContent::contacts,  ExportContent::cloths,  ExportContent::springs};
 
 // What `export` can write, by content.
 std::string format_list() {

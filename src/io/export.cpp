@@ -24,6 +24,7 @@ constexpr ExportContent kContacts = ExportContent::contacts;
 constexpr ExportContent kSurface = ExportContent::surface;
 constexpr ExportContent kVolume = ExportContent::volume;
 constexpr ExportContent kCloths = ExportContent::cloths;
+constexpr ExportContent kSprings = ExportContent::springs;
 
 constexpr Format kFormats[] = {
     {{".csv", kParticles, "a table: step,t,id,material,x,y,z,vx,vy,vz"}, export_csv},
@@ -45,6 +46,8 @@ constexpr Format kFormats[] = {
     {{".ply", kSurface, "binary PLY mesh with velocities"}, export_surface_ply},
     {{".obj", kCloths, "Wavefront OBJ mesh of triangles"}, export_cloth_obj},
     {{".ply", kCloths, "binary PLY mesh of triangles with velocities"}, export_cloth_ply},
+    {{".csv", kSprings, "a table: step,spring,a,b,rest_length,stiffness,damping,broken; of the run's checkpoint"},
+     export_springs_csv},
     {{".vdb", kVolume, "OpenVDB: density, surface (level set), vel"}, export_vdb_volume},
 };
 
@@ -95,6 +98,8 @@ const char* to_string(ExportContent content) {
       return "volume";
     case ExportContent::cloths:
       return "cloths";
+    case ExportContent::springs:
+      return "springs";
   }
   return "";
 }

@@ -15,9 +15,9 @@
 namespace hooke {
 
 /// What of a snapshot is written.
-enum class ExportContent { particles, contacts, surface, volume, cloths };
+enum class ExportContent { particles, contacts, surface, volume, cloths, springs };
 
-/// "particles", "contacts", "surface", "volume", "cloths".
+/// "particles", "contacts", "surface", "volume", "cloths", "springs".
 const char* to_string(ExportContent content);
 
 /// How the surface of a fluid is drawn around its particles: a smooth skin around spheres. A lone particle's is exactly

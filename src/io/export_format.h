@@ -41,6 +41,7 @@ ExportFunction export_csv;
 ExportFunction export_lammps_data;
 ExportFunction export_lammps_dump;
 ExportFunction export_ply;
+ExportFunction export_springs_csv;
 ExportFunction export_surface_obj;
 ExportFunction export_surface_ply;
 ExportFunction export_usda;
