@@ -229,7 +229,9 @@ void add_export(CLI::App& app, CommandLine& line) {
   command.add_flag("--all", exports.all, "all snapshots")->excludes(step)->excludes(time);
   std::map<std::string, ExportContent> contents;
   for (const ExportContent content : kContents) contents[to_string(content)] = content;
-  command.add_option("--as", exports.content, "what to write: particles (default), surface, volume or contacts")
+  command
+      .add_option("--as", exports.content,
+                  "what to write: particles (default), surface, volume, contacts, cloths or springs")
       ->option_text("CONTENT")
       ->transform(CLI::CheckedTransformer(contents));
   const auto add_surface_option = [&command](const char* name, double& value, const char* description) {
