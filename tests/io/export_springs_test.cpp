@@ -37,7 +37,7 @@ TEST_F(ExportSprings, TellsWhichAreBroken) {
   EXPECT_EQ(samples::read_file(folder_ / "s.csv"),
             "step,spring,a,b,rest_length,stiffness,damping,broken\n"
             "40,0,1,4,0.1,1000,0.5,0\n"
-            "40,1,4,7,0.3333333333333333,2000000,0,1\n"
+            "40,1,4,7,0.3333333333333333,2e+06,0,1\n"
             "40,2,7,1,2,5,0,0\n");
 }
 
