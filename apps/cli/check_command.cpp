@@ -45,6 +45,15 @@ void print_precision(const Scene& scene) {
              spacing.radii);
 }
 
+// Of emitters, as many as are there at a time.
+double expected_births(const Scene& scene) {
+  double expected = 0;
+  for (const Emitter& emitter : scene.emitters) {
+    expected += expected_population(emitter, static_cast<double>(scene.steps) * scene.time_step);
+  }
+  return expected;
+}
+
 }  // namespace
 
 ExitStatus check_command(const CheckArguments& arguments) {
@@ -59,7 +68,12 @@ ExitStatus check_command(const CheckArguments& arguments) {
   const auto particles = simulation.particle_count();
   fmt::print("{}: {}\n", arguments.scene.file.string(), scene.name);
   fmt::print("  particles  {}\n", with_commas(particles));
-  fmt::print("  memory     about {:.1f} MB\n", static_cast<double>(particles) * kBytesPerParticle * 1e-6);
+  const double most = static_cast<double>(particles) + expected_births(scene);
+  if (!scene.emitters.empty()) {
+    fmt::print("  emitters   {}; up to about {} particles\n", scene.emitters.size(),
+               with_commas(static_cast<std::uint64_t>(most)));
+  }
+  fmt::print("  memory     about {:.1f} MB\n", most * kBytesPerParticle * 1e-6);
   fmt::print("  duration   {} steps, {:.6g} s\n", scene.steps, static_cast<double>(scene.steps) * scene.time_step);
   print_step(simulation);
   print_overlaps(*now);

@@ -64,6 +64,12 @@ struct Measurements {
   std::vector<ColliderLoad> colliders;    ///< what particles do to each at this instant
 };
 
+/// A particle that takes up space.
+struct Occupant {
+  Vec3d position;     ///< m
+  double radius = 0;  ///< m
+};
+
 /// What a back end is and holds.
 struct BackendInfo {
   std::string device;  ///< "cpu", "reference"
@@ -150,6 +156,22 @@ class Backend {
   ///   symplectic Euler   v += dt a; x += dt v; then the domain's boundaries
   ///   velocity Verlet    v += dt/2 a
   virtual Condition apply_forces() = 0;
+
+  // What comes and goes at the end of a step. Whoever is taken away is booked with the momentum and energy that it has;
+  // under velocity Verlet with those after the half kick to come, whose work the ledger has booked ahead.
+
+  /// Takes away the particles whose centres are inside of the scene's sinks.
+  virtual void sink_particles() = 0;
+
+  /// Takes away the particles of these ids, whose life has ended. `was_there` tells of each whether it still was.
+  virtual void expire(std::span<const std::uint64_t> ids, std::vector<std::uint8_t>& was_there) = 0;
+
+  /// Adds particles, their ids above all that there ever were, with no acceleration of a last step: under velocity
+  /// Verlet their first half kick is none.
+  virtual void give_birth(const ParticleSet& newborn) = 0;
+
+  /// Appends the particles that touch others (Material::interacts) and whose centres are in a box, in any order.
+  virtual void find_inside(const ShapeBounds& box, std::vector<Occupant>& out) const = 0;
 
   virtual std::uint64_t particle_count() const = 0;
   virtual const Ledger& ledger() const = 0;

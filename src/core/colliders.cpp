@@ -166,6 +166,12 @@ Vec3d moved_point(const Collider& collider, const ColliderPose& pose, const Vec3
   return pose.pivot + off.x * pose.turn[0] + off.y * pose.turn[1] + off.z * pose.turn[2];
 }
 
+std::vector<Finding> validate(const Motion& motion, const std::string& where) {
+  std::vector<Finding> findings;
+  std::visit(MotionCheck(where, findings), motion);
+  return findings;
+}
+
 std::vector<Finding> check_colliders(const Scene& scene) {
   std::vector<Finding> findings;
   std::set<std::string> names;
@@ -179,7 +185,7 @@ std::vector<Finding> check_colliders(const Scene& scene) {
     if (c.material && *c.material >= scene.materials.size()) {
       findings.push_back({where + ".material", "is no material of the scene"});
     }
-    std::visit(MotionCheck(where + ".motion", findings), c.motion);
+    for (Finding& finding : validate(c.motion, where + ".motion")) findings.push_back(std::move(finding));
   }
   return findings;
 }

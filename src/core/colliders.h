@@ -98,6 +98,9 @@ std::array<Vec3d, 3> turned_axes(const Vec3d& rotation);
 /// Where the point `x` of the shape, as written, is in a pose of the collider, m.
 Vec3d moved_point(const Collider& collider, const ColliderPose& pose, const Vec3d& x);
 
+/// What is wrong with a motion at the path `where`, if anything.
+std::vector<Finding> validate(const Motion& motion, const std::string& where);
+
 struct Scene;
 /// What is wrong with the colliders of a scene. Paths are those of the scene file.
 std::vector<Finding> check_colliders(const Scene& scene);

@@ -221,6 +221,7 @@ class ContactSearch {
                        std::vector<Touch>& touches) const {
     const Sphere& i = spheres_[k];
     const Sphere& p = spheres_[n];
+    if (!scene_.materials[i.material].interacts || !scene_.materials[p.material].interacts) return;
     const double distance = std::sqrt(dot(x_ip, x_ip));
     const double overlap = i.radius + p.radius - distance;
     if (!(overlap > 0)) return;

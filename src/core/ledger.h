@@ -27,6 +27,17 @@ struct SpringLedger {
   friend bool operator==(const SpringLedger&, const SpringLedger&) = default;
 };
 
+/// Births, and departures other than through open faces.
+struct PopulationLedger {
+  Vec3d born_momentum{0, 0, 0};  ///< brought along by those born, kg m/s
+  double born_energy = 0;        ///< kinetic and potential, likewise, J
+  std::uint64_t born = 0;        ///< particles, by emitters
+  std::uint64_t expired = 0;     ///< whose life ended
+  std::uint64_t sunk = 0;        ///< taken away by sinks
+
+  friend bool operator==(const PopulationLedger&, const PopulationLedger&) = default;
+};
+
 /// What steps leave behind beside the particles: sums over all steps so far, the same bits for any number
 /// of threads and across a restart, because each step's sum is exact before it is added.
 struct Ledger {
@@ -34,9 +45,10 @@ struct Ledger {
   /// Given to particles, N s. Causes that act between particles give none; what attraction gives is what the tree is
   /// off from Newton's third law.
   ByCause<Vec3d> impulse;
-  Vec3d removed_momentum{0, 0, 0};  ///< taken along by particles that left, kg m/s
+  Vec3d removed_momentum{0, 0, 0};  ///< taken along by particles that left, expired or sank, kg m/s
   double removed_energy = 0;        ///< kinetic and potential, taken along likewise, J
   std::uint64_t removed = 0;        ///< particles that left through open faces
+  PopulationLedger population;
   SpringLedger springs;
   /// Velocity Verlet: the rates of the last evaluation during the kick that is still to come. Else unused.
   StepRates last;

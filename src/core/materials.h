@@ -14,7 +14,7 @@
 namespace hooke {
 
 /// How pictures show a material.
-enum class MaterialLook { ball, water };
+enum class MaterialLook { ball, water, spark };
 
 /// What particles are made of.
 struct Material {
@@ -26,6 +26,7 @@ struct Material {
   std::string color;                    ///< "#rrggbb", or empty
   MaterialLook look = MaterialLook::ball;
   SurfaceCoefficients<double> surface{};  ///< as `contact`
+  bool interacts = true;  ///< else its particles touch walls and colliders, but no particles
 
   /// Else only colliders may have it.
   bool is_of_particles() const { return radius > 0; }

@@ -165,6 +165,7 @@ std::vector<Finding> validate(const Scene& scene) {
   check_materials(scene, check);
   check_contacts(scene, check);
   for (Finding& finding : check_colliders(scene)) check.findings.push_back(std::move(finding));
+  for (Finding& finding : check_emitters(scene)) check.findings.push_back(std::move(finding));
   check.not_negative("output.every", scene.output.seconds);
   if (scene.output.steps < 0) check.add("output.every_steps", fmt::format("{} must be 1 or more", scene.output.steps));
   check_camera(scene.camera, check);
@@ -173,6 +174,7 @@ std::vector<Finding> validate(const Scene& scene) {
   if (scene.structure) {
     for (Finding& finding : validate(*scene.structure, single)) check.findings.push_back(std::move(finding));
   }
+  if (check.findings.empty()) check.findings = check_places_of_birth(scene);
   return check.findings;
 }
 

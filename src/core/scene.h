@@ -13,6 +13,7 @@
 #include "hooke/base/vec3.h"
 #include "hooke/core/attraction.h"
 #include "hooke/core/colliders.h"
+#include "hooke/core/emitters.h"
 #include "hooke/core/fields.h"
 #include "hooke/core/materials.h"
 #include "hooke/core/springs.h"
@@ -82,6 +83,8 @@ struct Scene {
   std::vector<Material> materials;        ///< at most 1,024
   std::vector<ContactEntry> contacts;     ///< pairs that do not follow the mixing rule
   std::vector<Collider> colliders;
+  std::vector<Emitter> emitters;          ///< where particles are born
+  std::vector<Sink> sinks;                ///< where they are taken away
   std::shared_ptr<const Structure> structure;  ///< springs, and what holds particles; null where there is nothing
   std::vector<Field> fields;
   std::optional<Attraction> attraction;  ///< of all particles by each other

@@ -61,6 +61,12 @@ struct ShapeBounds {
 };
 ShapeBounds bounds_of(const Shape& shape);
 
+/// Whether a point is in a box; its corners and faces are.
+inline bool is_inside(const ShapeBounds& box, const Vec3d& x) {
+  return x.x >= box.min.x && x.y >= box.min.y && x.z >= box.min.z && x.x <= box.max.x && x.y <= box.max.y &&
+         x.z <= box.max.z;
+}
+
 /// The shape's numbers for the laws, m relative to `origin`.
 ShapeGeometry<double> geometry_of(const Shape& shape, bool hollow, const Vec3d& origin);
 

@@ -109,6 +109,7 @@ struct Simulation::Impl {
   std::uint64_t first_new_id = 0;
 
   std::vector<ColliderPose> poses;  // of this instant
+  Emission emission;
   StageTimes stage_times;  // of steps
 
   bool failed = false;
@@ -221,6 +222,7 @@ struct Simulation::Impl {
     if (auto right = check_precision(); !right) return right;
     try {
       backend->configure(scene);
+      emission.configure(scene);
       backend->break_springs(broken_springs);
       set_time(step);
       return check(backend->upload(particles, first_new, ledger));
@@ -240,6 +242,7 @@ struct Simulation::Impl {
         if (auto taken = check(take_step(*backend, scene.integrator)); !taken) return taken;
         ++step;
         if (!verlet()) set_time(step);
+        emission.end_step(scene, step, poses, *backend, next_id);
       }
       // What the next step would begin with. Done now, it reports what the last step has lost before anyone saves it.
       if (count > 0 && backend->neighbours_stale()) return check(backend->build_neighbours());
@@ -454,7 +457,7 @@ SimulationState Simulation::snapshot() const {
   Impl& s = *impl_;
   (void)s.flush();  // evaluates the accelerations of particles just added; a failure is the next step's to report
   return {particles(),      s.step,           s.next_id,         s.backend->ledger(), s.scene.structure,
-          broken_springs(), s.initial_energy, s.initial_elastic, s.initial_momentum};
+          broken_springs(), s.initial_energy, s.initial_elastic, s.initial_momentum,  s.emission.state()};
 }
 
 Expected<void> Simulation::restore(SimulationState state) {
@@ -473,8 +476,10 @@ Expected<void> Simulation::restore(SimulationState state) {
     findings.push_back(
         {"broken_springs", fmt::format("{} is no spring; there are {}", state.broken_springs.back(), springs)});
   }
+  for (Finding& finding : check_state(state.emission, s.scene)) findings.push_back(std::move(finding));
   if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});
   s.scene.structure = structure;
+  s.emission.restore(std::move(state.emission));
   s.step = state.step;
   s.next_id = state.next_id;
   s.initial_energy = state.initial_energy;

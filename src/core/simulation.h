@@ -10,6 +10,7 @@
 
 #include "hooke/base/expected.h"
 #include "hooke/core/backend.h"
+#include "hooke/core/emission.h"
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
 
@@ -26,6 +27,7 @@ struct SimulationState {
   double initial_energy = 0;  ///< kinetic, potential, elastic and of springs at step 0, J
   double initial_elastic = 0;  ///< of that, in contacts between particles and in springs, J
   Vec3d initial_momentum{0, 0, 0};
+  EmissionState emission{};
 };
 
 /// A particle to be added.

@@ -66,7 +66,7 @@ void consider_contacts(const Scene& scene, Smallest& smallest) {
     if (!m.is_of_particles()) continue;
     for (std::size_t b = a; b < scene.materials.size(); ++b) {
       const Material& n = scene.materials[b];
-      if (!n.is_of_particles()) continue;
+      if (!n.is_of_particles() || !m.interacts || !n.interacts) continue;
       smallest.consider_pile(table.pair(a, b).linear, effective_mass(m.mass, n.mass), m.name + " - " + n.name);
     }
     smallest.consider_boundary(table.wall(a).linear, m.mass, m.name + " - wall");
@@ -118,8 +118,8 @@ double integration_error(const Measurements& now, const Ledger& ledger, double i
 
 double momentum_drift(const Measurements& now, const Ledger& ledger, const Vec3d& initial_momentum) {
   const auto norm = [](const Vec3d& a) { return std::sqrt(dot(a, a)); };
-  Vec3d given{0, 0, 0};
-  double scale = now.momentum_scale + norm(initial_momentum) + norm(ledger.removed_momentum);
+  Vec3d given = ledger.population.born_momentum;
+  double scale = now.momentum_scale + norm(initial_momentum) + norm(ledger.removed_momentum) + norm(given);
   for (const Vec3d& impulse : ledger.impulse.of) {
     given += impulse;
     scale += norm(impulse);

@@ -105,10 +105,18 @@ void RemovalSums::add(const RemovalSums& other) {
   count += other.count;
 }
 
-void RemovalSums::book(Ledger& ledger) const {
+void RemovalSums::book(Ledger& ledger) const { book_gone(ledger, ledger.removed); }
+
+void RemovalSums::book_gone(Ledger& ledger, std::uint64_t& tally) const {
   ledger.removed_momentum += momentum.value();
   ledger.removed_energy += energy.value();
-  ledger.removed += count;
+  tally += count;
+}
+
+void RemovalSums::book_born(PopulationLedger& ledger) const {
+  ledger.born_momentum += momentum.value();
+  ledger.born_energy += energy.value();
+  ledger.born += count;
 }
 
 void ColliderLoadSums::add_contact(std::size_t index, const Vec3d& point, const Vec3d& force) {

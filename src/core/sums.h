@@ -77,7 +77,7 @@ void book_step(Ledger& ledger, const StepSums& now, const AppliedSums* applied, 
 /// What the first half of a step of velocity Verlet will book after an evaluation at the start, whose kick is `power`.
 StepRates first_rates(const StepSums& start, const AppliedSums* applied, const Vec3d& gravity, double mass);
 
-/// Books a particle that left through an open face.
+/// Particles that leave, or come, as one sums them up.
 struct RemovalSums {
   ExactVectorSum momentum;  ///< kg m/s
   ExactSum energy;  ///< J
@@ -85,7 +85,12 @@ struct RemovalSums {
 
   void add_particle(double mass, const Vec3d& x, const Vec3d& v, const Vec3d& gravity);
   void add(const RemovalSums& other);
+  /// As left through open faces.
   void book(Ledger& ledger) const;
+  /// As left for another reason, whose count is `tally`.
+  void book_gone(Ledger& ledger, std::uint64_t& tally) const;
+  /// As born.
+  void book_born(PopulationLedger& ledger) const;
 };
 
 /// What particles do to each collider, gathered in any order.

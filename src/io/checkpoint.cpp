@@ -11,6 +11,7 @@
 #include "hooke/base/hash.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/hdf5.h"
+#include "hooke/io/population_tables.h"
 #include "hooke/io/run_folder.h"
 #include "hooke/io/run_info_json.h"
 #include "hooke/io/structure_tables.h"
@@ -153,6 +154,7 @@ void write_content(hdf5::File& file, const SimulationState& state, const RunInfo
   write_vectors(root, "velocity", p.velocity);
   write_vectors(root, "acceleration", p.acceleration);
   write_structure(root, state);
+  write_population(root, state);
 }
 
 Checkpoint read_content(const std::filesystem::path& path) {
@@ -186,6 +188,7 @@ Checkpoint read_content(const std::filesystem::path& path) {
   auto real = numbers.reals.begin();
   for_each_real(state, [&](double& value) { value = *real++; });
   read_structure(root, path, state);
+  read_population(root, path, state);
   checkpoint.info = parse_run_info(hdf5::read_text(root, "run"), path);
   return checkpoint;
 }

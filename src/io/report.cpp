@@ -37,8 +37,8 @@ double RunReport::contacts_per_particle() const {
 double RunReport::energy_balance() const {
   const double now = measurements.kinetic_energy + measurements.potential_energy + measurements.elastic_energy +
                      measurements.spring_energy + measurements.attraction_energy;
-  const double given =
-      ledger.work[Cause::wall] + ledger.work[Cause::collider] + ledger.work[Cause::hold] + ledger.work[Cause::field];
+  const double given = ledger.work[Cause::wall] + ledger.work[Cause::collider] + ledger.work[Cause::hold] +
+                       ledger.work[Cause::field] + ledger.population.born_energy;
   const double lost =
       ledger.dissipated() + ledger.springs.dissipated + ledger.springs.broken_energy + ledger.removed_energy;
   return now - initial_energy - (given - lost);
@@ -106,6 +106,7 @@ std::string to_json(const RunReport& r) {
                     {"collider_elastic", m.collider_elastic_energy},
                     {"work_by_colliders", r.ledger.work[Cause::collider]},
                     {"removed", r.ledger.removed_energy},
+                    {"born", r.ledger.population.born_energy},
                     {"initial", r.initial_energy},
                     {"springs", m.spring_energy},
                     {"dissipated_by_springs", r.ledger.springs.dissipated},
@@ -133,6 +134,9 @@ std::string to_json(const RunReport& r) {
         {"force", to_array(load.force)}, {"torque", to_array(load.torque)}, {"contacts", load.contacts}};
   }
   json["removed"] = r.ledger.removed;
+  json["born"] = r.ledger.population.born;
+  json["expired"] = r.ledger.population.expired;
+  json["sunk"] = r.ledger.population.sunk;
   json["springs"] = m.springs;
   json["broken_springs"] = r.ledger.springs.broken;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';

@@ -56,6 +56,11 @@ void for_each_column(const SeriesRow& row, Visit&& column) {
   column("attraction", m.attraction_energy);
   column("attraction_work", l.work[Cause::attraction]);
   column("integration", row.integration);
+  column("removed_energy", l.removed_energy);
+  column("born", l.population.born);
+  column("born_energy", l.population.born_energy);
+  column("expired", l.population.expired);
+  column("sunk", l.population.sunk);
   column("removed", l.removed);
   column("rebuilds", row.rebuilds);
 }

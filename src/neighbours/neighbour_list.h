@@ -64,6 +64,14 @@ class NeighbourList {
     begun_.clear();
   }
 
+  /// Adds segments without rows until there are `segment_count`.
+  void add_empty_segments(std::size_t segment_count) {
+    static constexpr std::array<std::uint32_t, kLanes> kNoRow{};
+    Segment empty;
+    empty.entries = kNoRow.data();
+    segments.resize(std::max(segments.size(), segment_count), empty);
+  }
+
   /// Writes the rows of one segment after the other, straight to where they stay until clear(). One thread each.
   class Writer {
    public:

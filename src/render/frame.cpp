@@ -30,6 +30,8 @@ std::vector<Color> material_colors(const Scene& scene) {
 // Drawn at their own size, the spheres at a surface leave gaps through which those below would show.
 constexpr float kWaterRadius = 1.25f;
 
+constexpr float kNight = 0.12f;  // of the day's light
+
 // Water is white where it is fast: from nine tenths of the speed of a fall from the top, and clear up to a third of it;
 // and where it is mixed with air.
 std::uint8_t foam_of(const Vec3d& velocity, double foam_speed, float air) {
@@ -88,6 +90,8 @@ Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, 
   for (std::size_t axis = 0; axis < 3; ++axis) frame.tank.walls[axis] = scene.domain.boundary[axis] == Boundary::spring;
   frame.meshes = collider_meshes(scene, time, frame.origin);
   if (look.scale.by != ColorBy::material) frame.scale = look.scale;
+  const auto glows = [](const Material& m) { return m.look == MaterialLook::spark; };
+  if (std::any_of(scene.materials.begin(), scene.materials.end(), glows)) frame.daylight = kNight;
 
   const std::vector<Color> colors = material_colors(scene);
   const std::vector<double> values = color_values(scene, particles, look.action, look.scale.by);
@@ -98,7 +102,8 @@ Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, 
       const Material& material = scene.materials[particles.material[i]];
       const Vec3f at = vec_cast<float>(particles.position[i] - frame.origin);
       Sphere& sphere = frame.spheres[i];
-      sphere = {at.x, at.y, at.z, static_cast<float>(material.radius), colors[particles.material[i]], 0};
+      sphere = {at.x, at.y,           at.z, static_cast<float>(material.radius), colors[particles.material[i]],
+                0,    glows(material)};
       if (!values.empty()) {
         sphere.color = map_color((values[i] - look.scale.low) / (look.scale.high - look.scale.low));
       } else if (material.look == MaterialLook::water) {

@@ -22,6 +22,7 @@ struct Sphere {
   float radius;         ///< m
   Color color;
   std::uint8_t foam;    ///< 0: an opaque ball; else water, 1 clear to 255 white
+  bool glows = false;   ///< a ball that shines by itself, and throws no shadow
 };
 
 /// The tank: the domain, and which of its faces are walls.
@@ -44,6 +45,7 @@ struct Frame {
   Vec3d to_sun{0, 1, 0};  ///< unit vector
   std::optional<double> ground;     ///< height of the ground along `up`, relative to the origin, m
   bool night = false;  ///< a black sky: that of stars, where particles attract each other above no ground
+  float daylight = 1;               ///< of sun and sky, less at night
   std::optional<ColorScale> scale;  ///< of the legend, where there is one
 };
 

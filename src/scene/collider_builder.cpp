@@ -90,6 +90,12 @@ class MotionReader {
 
 }  // namespace
 
+std::optional<Motion> read_motion(const Json& entry, const std::string& where, Findings& findings) {
+  const std::string path = join_path(where, "motion");
+  if (!entry.contains("motion") || findings.touches(path)) return Motion(NoMotion{});
+  return MotionReader(entry.at("motion"), path, findings).read();
+}
+
 void build_colliders(Json& colliders, const ShapeFiles& files, Scene& scene, Findings& findings) {
   for (std::size_t i = 0; i < colliders.size(); ++i) {
     const std::string where = join_path("colliders", i);
@@ -101,10 +107,7 @@ void build_colliders(Json& colliders, const ShapeFiles& files, Scene& scene, Fin
       collider.material = material_named(json.at("material").get<std::string>(), join_path(where, "material"),
                                          scene.materials, findings);
     }
-    std::optional<Motion> motion = Motion(NoMotion{});
-    if (json.contains("motion") && !findings.touches(join_path(where, "motion"))) {
-      motion = MotionReader(json.at("motion"), join_path(where, "motion"), findings).read();
-    }
+    std::optional<Motion> motion = read_motion(json, where, findings);
     std::optional<Shape> shape;
     if (json.contains("shape")) shape = read_shape(json.at("shape"), join_path(where, "shape"), files, findings);
     if (!shape || !motion || findings.touches(where)) continue;

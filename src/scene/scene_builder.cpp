@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "hooke/scene/attraction_builder.h"
 #include "hooke/scene/collider_builder.h"
+#include "hooke/scene/emitter_builder.h"
 #include "hooke/scene/field_builder.h"
 #include "hooke/scene/json_path.h"
 #include "hooke/scene/nearest.h"
@@ -128,6 +130,8 @@ void build_materials(const Json& materials, const Json& colliders, Scene& scene,
     material.drag = value("drag", 0);
     material.color = text_or(member(entry, "color"), "");
     if (member(entry, "look") == "water") material.look = MaterialLook::water;
+    if (member(entry, "look") == "spark") material.look = MaterialLook::spark;
+    if (member(entry, "interacts") == false) material.interacts = false;
     scene.materials.push_back(std::move(material));
   }
   // Those of colliders alone come last: particles' materials are told apart by fewer numbers then.
@@ -243,13 +247,18 @@ class ContactBuilder {
   std::vector<std::string> names_;
 };
 
+// Of lists in the scene file: which entry each one of the scene's is, where some were left out.
+using EntriesOf = std::map<std::string, std::vector<std::size_t>>;
+
 // What the core finds wrong with the scene, where nothing has been said about it yet.
-void add_core_findings(const Scene& scene, const std::vector<std::size_t>& contact_index, Findings& findings) {
+void add_core_findings(const Scene& scene, const EntriesOf& entries_of, Findings& findings) {
   for (Finding& finding : validate(scene)) {
     const auto path = parse_path(finding.where);
-    if (path && path->size() > 1 && std::get<std::string>(path->front()) == "contacts") {
+    const auto entries =
+        path && path->size() > 1 ? entries_of.find(std::get<std::string>(path->front())) : entries_of.end();
+    if (entries != entries_of.end()) {
       JsonPath own = *path;
-      own[1] = contact_index[std::get<std::size_t>(own[1])];
+      own[1] = entries->second[std::get<std::size_t>(own[1])];
       finding.where = to_text(own);
     }
     if (!findings.touches(finding.where)) findings.add(finding.where, std::move(finding.message));
@@ -277,6 +286,7 @@ void build_scene(Json& json, const std::filesystem::path& folder, const LoadOpti
   build_materials(member(json, "materials"), member(json, "colliders"), scene, findings);
   ContactBuilder contacts(scene, findings);
   if (member(json, "contacts").is_array()) contacts.build(json.at("contacts"));
+  EntriesOf entries_of{{"contacts", contacts.index_of}};
   if (json.contains("attraction") && !findings.touches("attraction")) {
     scene.attraction = build_attraction(json.at("attraction"));
   }
@@ -284,12 +294,18 @@ void build_scene(Json& json, const std::filesystem::path& folder, const LoadOpti
   if (member(json, "colliders").is_array()) {
     build_colliders(json.at("colliders"), shape_files(folder, options, loaded), scene, findings);
   }
+  if (member(json, "emitters").is_array()) {
+    entries_of["emitters"] = build_emitters(json.at("emitters"), shape_files(folder, options, loaded), scene, findings);
+  }
+  if (member(json, "sinks").is_array()) {
+    entries_of["sinks"] = build_sinks(json.at("sinks"), shape_files(folder, options, loaded), scene, findings);
+  }
   if (!findings.touches("output")) {
     scene.output.seconds = number_or(member(json.at("output"), "every"), 0);
     scene.output.steps = count_or(member(json.at("output"), "every_steps"), 0);
   }
   build_camera(member(json, "camera"), scene, findings);
-  add_core_findings(scene, contacts.index_of, findings);
+  add_core_findings(scene, entries_of, findings);
 }
 
 }  // namespace hooke

@@ -44,6 +44,7 @@ TEST_F(Checkpoints, ReadBackBitForBit) {
     ASSERT_TRUE(read->state.structure);
     EXPECT_EQ(*read->state.structure, *state.structure);
     EXPECT_EQ(read->state.broken_springs, state.broken_springs);
+    EXPECT_EQ(read->state.emission, state.emission);
     EXPECT_EQ(read->state.initial_energy, state.initial_energy);
     EXPECT_EQ(read->state.initial_momentum, state.initial_momentum);
     EXPECT_TRUE(samples::same(read->state.particles, state.particles));

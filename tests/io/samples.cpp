@@ -72,6 +72,9 @@ SimulationState state(std::int64_t step, std::size_t n) {
   s.ledger.removed_momentum = {1, 2, 1e-300};
   s.ledger.removed_energy = 12.5;
   s.ledger.removed = 0xffffffffffffffffU;
+  s.ledger.population = {{1.0 / 3, -2, 1e-300}, 2.0 / 7, 12, 5, 0xfffffffffffffffeU};
+  s.emission.emitters = {{1.0 / 3, 12, 3, 0xffffffffU, 64}, {}};
+  s.emission.mortals = {{7, 3, 0}, {7, 9, 1}, {0x7fffffffffffffff, 2, 0}};
   s.ledger.springs = {1.0 / 7, 2.5e-3, 2};
   s.ledger.impulse[Cause::attraction] = {1e-9, -2.0 / 7, 4};
   s.ledger.last.power[Cause::springs] = -0.125;

@@ -94,6 +94,19 @@ TEST(MakeFrame, SpheresArePlacedColouredAndSizedByTheirParticles) {
   EXPECT_EQ(frame.spheres[1].radius, 0.5f);
 }
 
+TEST(MakeFrame, SparksGlowAtNight) {
+  Scene scene = tank();
+  const ParticleSet particles = one_of_each();
+  const Look look = make_look(scene, particles, ColorBy::material);
+  Frame frame = make_frame(scene, particles, 0, look, 1.5);
+  EXPECT_EQ(frame.daylight, 1);
+  for (const Sphere& sphere : frame.spheres) EXPECT_FALSE(sphere.glows);
+  scene.materials[1].look = MaterialLook::spark;
+  frame = make_frame(scene, particles, 0, look, 1.5);
+  EXPECT_LT(frame.daylight, 0.5);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(frame.spheres[i].glows, i == 1);
+}
+
 TEST(MakeFrame, OnlyWaterFoams) {
   const Scene scene = tank();
   ParticleSet particles = one_of_each();

@@ -224,6 +224,15 @@ TEST_F(GlRenderer, FastWaterIsWhite) {
   EXPECT_LT(white[2] - white[0], 60) << testing::PrintToString(white);
 }
 
+// By night what does not glow is dark, and what does is as bright as its colour.
+TEST_F(GlRenderer, SparksShineByThemselves) {
+  Frame frame = red_balls({{4, 2, 3}});
+  frame.daylight = 0.12f;
+  EXPECT_EQ(count(draw(frame), [](const Pixel& p) { return p[0] > 150 && p[2] < 120; }), 0);
+  frame.spheres[0].glows = true;
+  EXPECT_GT(count(draw(frame), [](const Pixel& p) { return p[0] > 150 && p[2] < 120; }), 50);
+}
+
 TEST_F(GlRenderer, APictureDoesNotDependOnThoseBefore) {
   const auto scenes = picture_scenes();
   const Image first = draw(frame_of(scenes[0]));

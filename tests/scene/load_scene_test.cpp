@@ -68,6 +68,55 @@ TEST(LoadScene, AttractsOnlyWhereTheSceneSaysSo) {
   EXPECT_EQ(load({"attraction.method=direct"})->scene.attraction->method, Attraction::Method::direct);
 }
 
+TEST(LoadScene, ReadsEmittersAndSinks) {
+  const auto loaded = parse_scene(R"({
+  "hooke": 1,
+  "time": { "step": 0.01, "end": 1 },
+  "domain": { "min": [0, 0, 0], "max": [10, 10, 10] },
+  "materials": { "ball": { "radius": 0.5, "mass": 2, "stiffness": 100 },
+                 "spark": { "radius": 0.1, "mass": 2, "stiffness": 100, "interacts": false, "look": "spark" } },
+  "particles": [],
+  "emitters": [
+    { "material": "spark", "rate": 20, "shape": { "disc": { "center": [5, 5, 5], "normal": [0, 1, 0], "radius": 1 } } },
+    { "name": "jet", "material": "ball", "rate": 20, "shape": { "box": { "min": [1, 1, 1], "max": [2, 2, 2] } },
+      "speed": [2, 3], "direction": [1, 0, 0], "spread": 15, "life": [1, 3], "decay": [0.8, 1.2], "start": 0.5, "stop": 10,
+      "count": 100000, "respawn": true, "seed": 7, "motion": { "velocity": [0, 1, 0] } } ],
+  "sinks": [ { "shape": { "plane": { "point": [0, 1, 0], "normal": [0, 1, 0] } } } ]
+})",
+                                  "scene.json", ".");
+  ASSERT_TRUE(loaded) << loaded.error().text();
+  const Scene& scene = loaded->scene;
+  EXPECT_TRUE(scene.materials[0].interacts);
+  EXPECT_FALSE(scene.materials[1].interacts);
+  EXPECT_EQ(scene.materials[1].look, MaterialLook::spark);
+  ASSERT_EQ(scene.emitters.size(), 2U);
+  const Emitter &plain = scene.emitters[0], &jet = scene.emitters[1];
+  EXPECT_EQ(plain.name, "emitter_1");
+  EXPECT_EQ(plain.material, 1U);
+  EXPECT_EQ(plain.speed.most, 0);
+  EXPECT_EQ(plain.direction, (Vec3d{0, 1, 0}));
+  EXPECT_FALSE(plain.life || plain.count || plain.respawn);
+  EXPECT_EQ(plain.decay.least, 1);
+  EXPECT_TRUE(std::isinf(plain.stop));
+  EXPECT_EQ(plain.seed, 1U);
+  EXPECT_EQ(jet.name, "jet");
+  EXPECT_EQ(jet.speed.least, 2);
+  EXPECT_EQ(jet.speed.most, 3);
+  EXPECT_EQ(jet.direction, (Vec3d{1, 0, 0}));
+  EXPECT_EQ(jet.spread, 15);
+  ASSERT_TRUE(jet.life);
+  EXPECT_EQ(jet.life->most, 3);
+  EXPECT_EQ(jet.decay.least, 0.8);
+  EXPECT_EQ(jet.start, 0.5);
+  EXPECT_EQ(jet.stop, 10);
+  EXPECT_EQ(jet.count, 100000U);
+  EXPECT_TRUE(jet.respawn);
+  EXPECT_EQ(jet.seed, 7U);
+  EXPECT_TRUE(std::holds_alternative<SteadyMotion>(jet.motion));
+  ASSERT_EQ(scene.sinks.size(), 1U);
+  EXPECT_TRUE(std::holds_alternative<PlaneShape>(scene.sinks[0].shape));
+}
+
 TEST(LoadScene, EndsWithTheFirstStepAtOrAfterTheEnd) {
   EXPECT_EQ(load({"time.step=0.005", "time.end=10"})->scene.steps, 2000);
   EXPECT_EQ(load({"time.step=0.1", "time.end=0.3"})->scene.steps, 3);

@@ -45,6 +45,8 @@ TEST(RealScenes, TheGalleryLoads) {
   EXPECT_EQ(load_and_reload(folder / "table-6.1.json").particles.size(), 512000U);
   EXPECT_EQ(load_and_reload(folder / "ball-pit.json").particles.size(), 4001U);
   EXPECT_EQ(load_and_reload(folder / "galaxy.json").particles.size(), 20000U);
+  EXPECT_EQ(load_and_reload(folder / "fireworks.json").scene.emitters.size(), 29U);
+  EXPECT_EQ(load_and_reload(folder / "fountain.json").scene.sinks.size(), 1U);
   const LoadedScene mixed = load_and_reload(folder / "mixed.json");
   EXPECT_NEAR(static_cast<double>(mixed.particles.size()), 20000, 2000);
   EXPECT_EQ(mixed.scene.materials.size(), 2U);

@@ -69,7 +69,8 @@ double accounted_energy(const Simulation& simulation) {
   const Ledger& ledger = simulation.ledger();
   return now.kinetic_energy + now.potential_energy + now.elastic_energy + now.spring_energy + now.attraction_energy +
          ledger.dissipated() + ledger.springs.dissipated + ledger.springs.broken_energy + ledger.removed_energy -
-         ledger.work[Cause::wall] - ledger.work[Cause::collider] - ledger.work[Cause::hold] - ledger.work[Cause::field];
+         ledger.population.born_energy - ledger.work[Cause::wall] - ledger.work[Cause::collider] -
+         ledger.work[Cause::hold] - ledger.work[Cause::field];
 }
 
 }  // namespace hooke::test

@@ -32,6 +32,10 @@ class ApartPairs {
   }
 
   bool empty() const { return partners_.empty(); }
+  /// There are more particles now, who have no pairs.
+  void grow(std::size_t ranks) {
+    if (!empty()) first_.resize(ranks + 1, first_.back());
+  }
 
   bool hold(std::uint32_t a, std::uint32_t b) const {
     return !empty() && std::find(begin(a), begin(a + 1), b) != begin(a + 1);

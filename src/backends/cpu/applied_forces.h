@@ -39,6 +39,7 @@ class AppliedForces {
 
   void configure(const Scene& scene, const ForcePass<Real>& rules, const Loops<Real>& loops) {
     structure_ = scene.structure;
+    births_ = !scene.emitters.empty();
     kick_ = scene.integrator == Integrator::velocity_verlet ? scene.time_step / 2 : scene.time_step;
     mass_.clear();
     for (const Material& m : scene.materials) mass_.push_back(m.mass);
@@ -54,37 +55,40 @@ class AppliedForces {
   /// Whether the scene has nothing of it.
   bool none() const { return springs_.empty() && fields_.empty() && attraction_.empty() && held_.none(); }
 
-  /// Ties and holds the particles of these ids, which lie in order of their ids until the first sort.
-  void bind(const IdTable& ids) {
+  /// Ties and holds the particles of these ids, which lie in the first `count` records.
+  void bind(const IdTable& ids, const Records& records, std::size_t count) {
     springs_.bind(ids);
     fields_.bind(ids);
     held_ranks_.clear();
     held_ = {};
-    if (!structure_ || structure_->held.empty()) return;
-    held_.clear(ids.size());
+    const bool holds = structure_ && !structure_->held.empty();
+    if (holds || births_) find_places(records, count, ids.size());
+    if (!holds) return;
     for (const std::uint64_t id : structure_->held) {
       const std::size_t rank = ids.find(id);
-      if (rank == ids.size()) continue;
-      held_ranks_.push_back(static_cast<std::uint32_t>(rank));
-      held_.hold(rank);
+      if (rank < ids.size()) held_ranks_.push_back(static_cast<std::uint32_t>(rank));
     }
+    if (!held_ranks_.empty()) find_held(count);
   }
 
-  bool needs_layout() const { return !springs_.empty() || fields_.needs_places() || !held_.none(); }
+  /// A particle is born into `slot` with the last of `ranks`: nothing ties or holds it.
+  void add(std::size_t slot, std::size_t ranks) {
+    place_.resize(ranks, SpringLists<Real>::kNowherePlace);
+    place_.back() = static_cast<std::uint32_t>(slot);
+    springs_.grow(ranks);
+  }
+
+  bool needs_layout() const { return !springs_.empty() || fields_.needs_places() || !held_.none() || births_; }
 
   /// After a sort: where the particles of the first `count` records are now, of `ranks` that there have been.
   void lay_out(const Records& records, std::size_t count, std::size_t ranks) {
-    place_.assign(ranks, SpringLists<Real>::kNowherePlace);
-    parallel_ranges(count, kSegment, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) place_[rank_of(records[i].rank)] = static_cast<std::uint32_t>(i);
-    });
+    find_places(records, count, ranks);
     if (!springs_.empty()) springs_.lay_out(records.data(), count, records.size(), place_);
-    if (held_.none()) return;
-    held_.clear(count);
-    for (const std::uint32_t rank : held_ranks_) {
-      if (place_[rank] != SpringLists<Real>::kNowherePlace) held_.hold(place_[rank]);
-    }
+    if (!held_.none()) find_held(count);
   }
+
+  /// Where the particle of a rank was laid out or born, in a scene with births.
+  std::size_t place(std::size_t rank) const { return place_[rank]; }
 
   /// The scene's clock, s.
   void set_time(double seconds) { fields_.set_time(seconds); }
@@ -144,6 +148,22 @@ class AppliedForces {
     const Vec3<Real>* force;  // N
   };
 
+  void find_places(const Records& records, std::size_t count, std::size_t ranks) {
+    place_.assign(ranks, SpringLists<Real>::kNowherePlace);
+    parallel_ranges(count, kSegment, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        if (!is_nowhere(records[i])) place_[rank_of(records[i].rank)] = static_cast<std::uint32_t>(i);
+      }
+    });
+  }
+
+  void find_held(std::size_t count) {
+    held_.clear(count);
+    for (const std::uint32_t rank : held_ranks_) {
+      if (place_[rank] != SpringLists<Real>::kNowherePlace) held_.hold(place_[rank]);
+    }
+  }
+
   void hold_still(std::size_t first, std::size_t last, const Record* before, Record* after, Vec3<Real>* acceleration,
                   AppliedSums& sums) const {
     if (held_.none()) return;
@@ -188,7 +208,8 @@ class AppliedForces {
   LargeVector<Vec3<Real>> total_;  // where several act
   std::vector<std::uint32_t> held_ranks_;
   HeldParticles held_;
-  std::vector<std::uint32_t> place_;  // by rank, of the last sort
+  bool births_ = false;
+  std::vector<std::uint32_t> place_;  // by rank, of the last sort, or of a birth since
 };
 
 }  // namespace hooke

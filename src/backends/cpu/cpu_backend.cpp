@@ -18,8 +18,10 @@
 #include "hooke/backends/cpu/collider_rules.h"
 #include "hooke/backends/cpu/column_store.h"
 #include "hooke/backends/cpu/contact_scan.h"
+#include "hooke/backends/cpu/departures.h"
 #include "hooke/backends/cpu/id_table.h"
 #include "hooke/backends/cpu/isa.h"
+#include "hooke/backends/cpu/particle_slots.h"
 #include "hooke/backends/cpu/pass_rules.h"
 #include "hooke/backends/cpu/segment_report.h"
 #include "hooke/backends/cpu/threads.h"
@@ -64,6 +66,10 @@ class CpuBackend final : public Backend {
     colliders_.configure(scene, pass_.material_count);
     list_.configure(rules_, loops_.search_group, applied_.springs().apart());
     applied_.configure(scene, rules_.pass, loops_);
+    sinks_.clear();
+    for (const Sink& sink : scene.sinks) {
+      sinks_.push_back({bounds_of(sink.shape), geometry_of(sink.shape, false, {0, 0, 0})});
+    }
   }
 
   void break_springs(const std::vector<std::uint64_t>& broken) override { applied_.springs().break_springs(broken); }
@@ -71,29 +77,15 @@ class CpuBackend final : public Backend {
 
   Condition upload(const ParticleSet& particles, std::uint64_t first_new_id, const Ledger& ledger) override {
     ledger_ = ledger;
-    ids_ = IdTable(particles.id);
-    count_ = ids_.size();
-    records_.resize(padded(count_) + kLanes);  // a pack more, for searches to read; the last one is the dummy
-    next_.resize(records_.size());
-    acceleration_.assign(verlet() ? records_.size() : 0, {Real(0), Real(0), Real(0)});
-    for (std::size_t i = 0; i < count_; ++i) {
-      records_[i] = {vec_cast<Real>(particles.position[i]), static_cast<Real>(particles.material[i]),
-                     vec_cast<Real>(particles.velocity[i]), rank_code<Real>(static_cast<std::uint32_t>(i))};
-      wrap_periodic(pass_, records_[i]);  // a coordinate may have been rounded up to the upper face
-      if (verlet() && !particles.acceleration.empty()) acceleration_[i] = vec_cast<Real>(particles.acceleration[i]);
-    }
-    fill_unused(records_);
-    list_.forget();
-    applied_.bind(ids_);
-    count_alive();
-    const bool any_new = count_ > 0 && ids_[count_ - 1] >= first_new_id;
+    place(particles);
+    const bool any_new = !particles.empty() && particles.id.back() >= first_new_id;
     return verlet() && any_new ? evaluate_accelerations(first_new_id) : Condition{};
   }
 
   void download(ParticleSet& out) const override {
     constexpr std::uint32_t kGone = ~std::uint32_t{0};
     std::vector<std::uint32_t> at(ids_.size(), kGone);  // by rank, so by id
-    for (std::size_t i = 0; i < count_; ++i) {
+    for (std::size_t i = 0; i < slots_.end(); ++i) {
       if (!is_nowhere(records_[i])) at[rank_of(records_[i].rank)] = static_cast<std::uint32_t>(i);
     }
     out.clear();
@@ -120,9 +112,9 @@ class CpuBackend final : public Backend {
 
   void half_kick_and_drift() override {
     Stopwatch drifting(times_.drift);
-    RemovalSums removed;
-    for_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
-      RemovalSums left;
+    Departures removed;
+    for_ranges(slots_.end(), kSegment, [&](std::size_t first, std::size_t last) {
+      Departures left;
       for (std::size_t start = first; start < last; start += kLanes) {
         unsigned far = 0;
         for (std::size_t i = start; i < std::min(start + kLanes, last); ++i) {
@@ -130,9 +122,9 @@ class CpuBackend final : public Backend {
           if (is_nowhere(p) || applied_.held().holds(i)) continue;
           p.v = kick(p.v, acceleration_[i], Real(0.5) * pass_.dt);
           p.x = drift(p.x, p.v, pass_.dt);
-          if (list_.good() && list_.is_far(p, i))
+          if (list_.good() && !slots_.is_loose(i) && list_.is_far(p, i))
             far |= 1U << i % kLanes;  // asked of all: a removal must not hide a NaN
-          apply_boundaries(p, left);
+          apply_boundaries(p, i, left);
         }
         if (far != 0) list_.note_far(start / kLanes, far);
       }
@@ -140,7 +132,7 @@ class CpuBackend final : public Backend {
     });
     drifting.stop();
     follow_motion();
-    book(removed);
+    book(removed, ledger_.removed);
   }
 
   bool neighbours_stale() const override { return !list_.good(); }
@@ -160,18 +152,19 @@ class CpuBackend final : public Backend {
     Stopwatch forcing(times_.force);
     StepSums sums;
     AppliedSums applied;
-    RemovalSums removed;
+    Departures removed;
     Condition condition;
     aim_pass(verlet() ? acceleration_.data() : nullptr);
     const bool released = apply_others(true, applied.springs);
-    for_ranges(list_.segment_count(), 1, [&](std::size_t first, std::size_t last) {
+    for_ranges(slots_.segment_count(), 1, [&](std::size_t first, std::size_t last) {
       SegmentReport report;
       StepSums part;
       std::optional<AppliedSums> applied_part;  // large, and of no use to most scenes
       if (!applied_.none()) applied_part.emplace();
-      RemovalSums left;
+      Departures left;
       Condition found;
-      for (std::size_t s = first; s < last; ++s) {
+      for (std::size_t n = first; n < last; ++n) {
+        const std::size_t s = slots_.segment(n);
         run_segment(s, report);
         report.add_to(part);
         if (applied_part) settle_segment(s, *applied_part);
@@ -197,8 +190,78 @@ class CpuBackend final : public Backend {
     } else if (released) {  // nobody has moved; rows are mended before the next forces, but somebody may look
       threads_.run([&] { list_.mend_released(records_.data()); });
     }
-    book(removed);
+    book(removed, ledger_.removed);
     return condition;
+  }
+
+  void sink_particles() override {
+    Departures sunk;
+    for_ranges(slots_.end(), kSegment, [&](std::size_t first, std::size_t last) {
+      Departures part;
+      for (std::size_t i = first; i < last; ++i) {
+        if (!is_nowhere(records_[i]) && is_in_a_sink(vec_cast<double>(records_[i].x))) take_away(i, part);
+      }
+      collect(sunk, part);
+    });
+    book(sunk, ledger_.population.sunk);
+  }
+
+  void expire(std::span<const std::uint64_t> ids, std::vector<std::uint8_t>& was_there) override {
+    was_there.assign(ids.size(), 0);
+    Departures expired;
+    for_ranges(ids.size(), 256, [&](std::size_t first, std::size_t last) {
+      Departures part;
+      for (std::size_t k = first; k < last; ++k) {
+        const std::size_t rank = ids_.find(ids[k]);
+        if (rank == ids_.size()) continue;
+        const std::size_t slot = applied_.place(rank);
+        if (slot == SpringLists<Real>::kNowherePlace || is_nowhere(records_[slot]) ||
+            rank_of(records_[slot].rank) != rank)
+          continue;
+        was_there[k] = 1;
+        take_away(slot, part);
+      }
+      collect(expired, part);
+    });
+    book(expired, ledger_.population.expired);
+  }
+
+  void give_birth(const ParticleSet& newborn) override {
+    std::size_t loose = 0;
+    for (const std::uint16_t m : newborn.material) loose += scene_.materials[m].interacts ? 0 : 1;
+    // Ids of those that are gone stay in the table until it is mostly theirs.
+    const bool many_gone = ids_.size() + newborn.size() > 4 * alive_ + 65536;
+    if (many_gone || !slots_.has_room(newborn.size() - loose, loose)) move_into_room(newborn.size());
+    RemovalSums born;
+    for (std::size_t k = 0; k < newborn.size(); ++k) {
+      const Material& m = scene_.materials[newborn.material[k]];
+      const std::size_t slot =
+          !m.interacts ? slots_.take_loose() : slots_.take_listed(list_.good() ? list_.first_free() : 0);
+      ids_.append(newborn.id[k]);
+      const std::size_t rank = ids_.size() - 1;
+      put(slot, rank, newborn, k);
+      applied_.add(slot, ids_.size());
+      if (verlet()) acceleration_[slot] = {Real(0), Real(0), Real(0)};
+      if (m.interacts) list_.add(slot, static_cast<std::uint32_t>(rank));
+      ++alive_of_[newborn.material[k]];
+      born.add_particle(m.mass, vec_cast<double>(records_[slot].x), vec_cast<double>(records_[slot].v), scene_.gravity);
+    }
+    if (loose < newborn.size()) threads_.run([&] { list_.mend_released(records_.data()); });
+    born.book_born(ledger_.population);
+    count_alive();
+  }
+
+  void find_inside(const ShapeBounds& box, std::vector<Occupant>& out) const override {
+    for_ranges(slots_.listed_end(), kSegment, [&](std::size_t first, std::size_t last) {
+      std::vector<Occupant> found;
+      for (std::size_t i = first; i < last; ++i) {
+        const Record& p = records_[i];
+        const Vec3d x = vec_cast<double>(p.x);
+        if (!is_nowhere(p) && is_inside(box, x)) found.push_back({x, material_of(p).radius});
+      }
+      const std::lock_guard lock(mutex_);
+      out.insert(out.end(), found.begin(), found.end());
+    });
   }
 
   std::uint64_t particle_count() const override { return alive_; }
@@ -206,7 +269,7 @@ class CpuBackend final : public Backend {
 
   std::uint64_t particles_hash() const override {
     std::atomic<std::uint64_t> hash{0};
-    for_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
+    for_ranges(slots_.end(), kSegment, [&](std::size_t first, std::size_t last) {
       std::uint64_t sum = 0;
       for (std::size_t i = first; i < last; ++i) {
         const Record& p = records_[i];
@@ -224,19 +287,19 @@ class CpuBackend final : public Backend {
       }
     }
     MeasurementSums total;
-    for_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
+    for_ranges(slots_.end(), kSegment, [&](std::size_t first, std::size_t last) {
       MeasurementSums part;
       for (std::size_t i = first; i < last; ++i) measure_particle(i, part);
       const std::lock_guard lock(mutex_);
       total.add(part);
     });
     Measurements result = total.result(scene_.colliders.size());
-    threads_.run([&] { applied_.measure(records_, count_, alive_, ids_, result); });
+    threads_.run([&] { applied_.measure(records_, slots_.end(), alive_, ids_, result); });
     return result;
   }
 
   NeighbourStatistics neighbour_statistics() const override {
-    const auto n = static_cast<double>(std::max<std::size_t>(count_, 1));
+    const auto n = static_cast<double>(std::max<std::size_t>(slots_.end(), 1));
     return {list_.build_count(), static_cast<double>(list_.entry_count()) / n, missed_contacts_};
   }
 
@@ -244,11 +307,15 @@ class CpuBackend final : public Backend {
 
  private:
   void fill_unused(LargeVector<Record>& records) const {
-    std::fill(records.begin() + static_cast<std::ptrdiff_t>(count_), records.end() - 1, nowhere_record<Real>(Real(0)));
+    const auto fill = [&](std::size_t first, std::size_t last) {
+      std::fill(records.begin() + static_cast<std::ptrdiff_t>(first),
+                records.begin() + static_cast<std::ptrdiff_t>(last), nowhere_record<Real>(Real(0)));
+    };
+    fill(slots_.listed_end(), slots_.first_loose());
+    fill(slots_.loose_end(), records.size() - 1);
     records.back() = filling_record<Real>();
   }
 
-  static std::size_t padded(std::size_t n) { return (n + kLanes - 1) / kLanes * kLanes; }
   bool verlet() const { return scene_.integrator == Integrator::velocity_verlet; }
   const Material& material_of(const Record& p) const { return scene_.materials[static_cast<std::size_t>(p.material)]; }
 
@@ -267,6 +334,62 @@ class CpuBackend final : public Backend {
     pass_.next_step = list_.next_step();
   }
 
+  // Where particles lie ----------------------------------------------------------------------------------------------
+
+  void put(std::size_t slot, std::size_t rank, const ParticleSet& particles, std::size_t k) {
+    records_[slot] = {vec_cast<Real>(particles.position[k]), static_cast<Real>(particles.material[k]),
+                      vec_cast<Real>(particles.velocity[k]), rank_code<Real>(static_cast<std::uint32_t>(rank))};
+    wrap_periodic(pass_, records_[slot]);  // a coordinate may have been rounded up to the upper face
+  }
+
+  // Lays all particles out anew, in order of their ids, with room for those that may be born, so many at least.
+  void place(const ParticleSet& particles, std::size_t births = 0) {
+    ids_ = IdTable(particles.id, !scene_.emitters.empty());
+    alive_of_.assign(scene_.materials.size(), 0);
+    for (const std::uint16_t m : particles.material) ++alive_of_[m];
+    count_alive();
+    const std::size_t listed = alive_ - alive_loose_;
+    const bool tied = scene_.structure != nullptr;  // to slots, until all are laid out again
+    slots_.lay_out(listed, room_for_births(true) + births, alive_loose_, room_for_births(false) + births, tied);
+    records_.resize(slots_.room() + kLanes);  // a pack more, for searches to read; the last one is the dummy
+    next_.resize(records_.size());
+    acceleration_.assign(verlet() ? records_.size() : 0, {Real(0), Real(0), Real(0)});
+    std::size_t next_listed = 0, next_loose = slots_.first_loose();
+    for (std::size_t k = 0; k < particles.size(); ++k) {
+      const std::size_t slot = scene_.materials[particles.material[k]].interacts ? next_listed++ : next_loose++;
+      const std::size_t rank = scene_.emitters.empty() ? k : ids_.find(particles.id[k]);
+      put(slot, rank, particles, k);
+      if (verlet() && !particles.acceleration.empty()) acceleration_[slot] = vec_cast<Real>(particles.acceleration[k]);
+    }
+    fill_unused(records_);
+    fill_unused(next_);
+    list_.forget();
+    applied_.bind(ids_, records_, slots_.room());
+  }
+
+  // For particles of a kind that may be born: what is expected, and half as many as there are more, so that it is
+  // seldom that all are laid out anew.
+  std::size_t room_for_births(bool listed) const {
+    constexpr double kMost = 1U << 21U;  // ahead: more takes a while to fill
+    double expected = 0;
+    bool any = false;
+    for (const Emitter& e : scene_.emitters) {
+      if (scene_.materials[e.material].interacts != listed) continue;
+      any = true;
+      expected += expected_population(e, static_cast<double>(scene_.steps) * scene_.time_step);
+    }
+    if (!any) return 0;
+    const std::size_t there = listed ? alive_ - alive_loose_ : alive_loose_;
+    const auto wanted = static_cast<std::size_t>(std::min(kMost, 1.1 * expected)) + kSegment;
+    return std::max(there / 2, wanted - std::min(wanted, there)) + kSegment;
+  }
+
+  void move_into_room(std::size_t births) {
+    ParticleSet all;
+    download(all);
+    place(all, births);
+  }
+
   // Neighbours -------------------------------------------------------------------------------------------------------
 
   // The box around all particles, or the particle that is at no place.
@@ -274,7 +397,7 @@ class CpuBackend final : public Backend {
     min = {INFINITY, INFINITY, INFINITY};
     max = {-INFINITY, -INFINITY, -INFINITY};
     Condition condition;
-    parallel_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
+    parallel_ranges(slots_.listed_end(), kSegment, [&](std::size_t first, std::size_t last) {
       Vec3<Real> low = vec_cast<Real>(Vec3d{INFINITY, INFINITY, INFINITY}), high = -low;
       Condition found;
       for (std::size_t i = first; i < last; ++i) {
@@ -305,13 +428,13 @@ class CpuBackend final : public Backend {
     Vec3d min, max;
     if (const Condition condition = bounding_box(min, max); !condition.good()) return condition;
     for (int axis = 0; axis < 3; ++axis) {
-      if (alive_ > 0 && !pass_.periodic[axis]) continue;
+      if (alive_ > alive_loose_ && !pass_.periodic[axis]) continue;
       component(min, axis) = component(pass_.min, axis);
       component(max, axis) = component(pass_.max, axis);
     }
     // The buffer for the next state is free until the records are permuted into it.
-    order_ = list_.sort(records_.data(), count_, min, max, std::as_writable_bytes(std::span(next_)));
-    count_ = alive_;
+    order_ = list_.sort(records_.data(), slots_.listed_end(), min, max, std::as_writable_bytes(std::span(next_)));
+    slots_.set_listed(alive_ - alive_loose_);
     permute(records_, next_);
     fill_unused(records_);
     fill_unused(next_);
@@ -324,15 +447,24 @@ class CpuBackend final : public Backend {
 
   template <class T>
   void permute(LargeVector<T>& column, LargeVector<T>& scratch) const {
-    parallel_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
+    parallel_ranges(slots_.listed_end(), kSegment, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) scratch[i] = column[order_[i]];
+    });
+    parallel_ranges(slots_.loose_end() - slots_.first_loose(), kSegment, [&](std::size_t first, std::size_t last) {
+      const auto at = [&](auto& of, std::size_t i) {
+        return of.begin() + static_cast<std::ptrdiff_t>(slots_.first_loose() + i);
+      };
+      std::copy(at(column, first), at(column, last), at(scratch, first));
     });
     column.swap(scratch);
   }
 
   void list_neighbours() {
     const Stopwatch listing(times_.list);
-    list_.build(records_.data(), count_, records_.size());
+    const std::size_t count = slots_.listed_end();
+    const bool births = room_for_births(true) > 0;
+    const std::size_t end = births ? std::min(slots_.first_loose(), count + count / 16 + 256) : count;
+    list_.build(records_.data(), count, end / kLanes * kLanes, records_.size());
   }
 
   void follow_motion() {
@@ -347,7 +479,8 @@ class CpuBackend final : public Backend {
   void lay_out_structure() {
     if (!applied_.needs_layout()) return;
     const Stopwatch sorting(times_.sort);
-    applied_.lay_out(records_, count_, ids_.size());
+    applied_.lay_out(records_, slots_.room(), ids_.size());
+    slots_.recycle();
   }
 
   // Sums the forces that the pass adds. Returns whether pairs that springs kept apart may touch from the next step on.
@@ -355,7 +488,7 @@ class CpuBackend final : public Backend {
     bool released = false;
     if (!applied_.none()) {
       threads_.run([&] {
-        const auto& pairs = applied_.apply(records_, count_, alive_, ids_, may_tear, sums);
+        const auto& pairs = applied_.apply(records_, slots_.end(), alive_, ids_, may_tear, sums);
         list_.release(pairs);
         released = !pairs.empty();
       });
@@ -365,15 +498,15 @@ class CpuBackend final : public Backend {
   }
 
   void settle_segment(std::size_t s, AppliedSums& sums) {
-    applied_.settle(s * kSegment, std::min((s + 1) * kSegment, count_), records_.data(), next_.data(),
-                    pass_.acceleration, sums);
+    applied_.settle(s * kSegment, slots_.end_of(s), records_.data(), next_.data(), pass_.acceleration, sums);
   }
 
   // The force pass and what it reports -------------------------------------------------------------------------------
 
   void run_segment(std::size_t s, SegmentReport& report) const {
-    const std::size_t groups = std::min(kGroups, (count_ - s * kSegment + kLanes - 1) / kLanes);
+    const std::size_t groups = (slots_.end_of(s) - s * kSegment + kLanes - 1) / kLanes;
     report.clear();
+    if (slots_.is_loose(s * kSegment)) return run_groups(s, 0, groups, nullptr, nullptr, report);
     for (std::size_t g = 0; g < groups;) {
       std::size_t end = g + 1;
       if (list_.is_mended(s, g)) {
@@ -393,6 +526,7 @@ class CpuBackend final : public Backend {
     SegmentWork<Real> work;
     work.first = s * kSegment + g * kLanes;
     work.group_count = end - g;
+    work.alone = rows == nullptr;
     work.rows = rows;
     work.first_row = first_row;
     work.notes = report.notes.data() + g;
@@ -401,13 +535,19 @@ class CpuBackend final : public Backend {
     loops_.force_pass(pass_, work);
   }
 
+  // Of a group in the neighbour list; loose ones have none.
+  std::span<const std::uint32_t> rows_of(std::size_t s, std::size_t g) const {
+    if (slots_.is_loose(s * kSegment)) return {};
+    return list_.rows(s, g);
+  }
+
   // The approach that was too fast, if one was: in double precision, each pair by its own limit.
   Condition look_closely(std::size_t s, std::size_t g) const {
     const ContactScan<Real> scan(pass_, records_.data());
-    const auto rows = list_.rows(s, g);
+    const auto rows = rows_of(s, g);
     Condition found;
     const std::size_t first = s * kSegment + g * kLanes;
-    for (std::size_t i = first; i < std::min(first + kLanes, count_); ++i) {
+    for (std::size_t i = first; i < std::min(first + kLanes, slots_.end_of(s)); ++i) {
       if (is_nowhere(records_[i])) continue;
       const Vec3d v = vec_cast<double>(records_[i].v);
       const double radius = material_of(records_[i]).radius;
@@ -439,7 +579,7 @@ class CpuBackend final : public Backend {
     const Record& p = records_[i];
     if (is_nowhere(p)) return;
     const ContactScan<Real> scan(pass_, records_.data());
-    const auto rows = list_.rows(i / kSegment, i % kSegment / kLanes);
+    const auto rows = rows_of(i / kSegment, i % kSegment / kLanes);
     const Vec3d v = vec_cast<double>(p.v);
     sums.add_particle(material_of(p).mass, vec_cast<double>(p.x), v, scene_.gravity);
     scan.for_each_contact(i, rows, [&](std::size_t q, const Vec3d&, double overlap) {
@@ -464,12 +604,13 @@ class CpuBackend final : public Backend {
     AppliedSums applied;
     aim_pass(evaluated.data());
     (void)apply_others(false, applied.springs);
-    for_ranges(list_.segment_count(), 1, [&](std::size_t first, std::size_t last) {
+    for_ranges(slots_.segment_count(), 1, [&](std::size_t first, std::size_t last) {
       SegmentReport report;
       StepSums part;
       std::optional<AppliedSums> applied_part;  // large, and of no use to most scenes
       if (!applied_.none()) applied_part.emplace();
-      for (std::size_t s = first; s < last; ++s) {
+      for (std::size_t n = first; n < last; ++n) {
+        const std::size_t s = slots_.segment(n);
         run_segment(s, report);
         report.add_to(part);
         if (applied_part) settle_segment(s, *applied_part);
@@ -479,8 +620,8 @@ class CpuBackend final : public Backend {
       if (applied_part) applied.add(*applied_part);
     });
     ledger_.last = first_rates(sums, applied_.none() ? nullptr : &applied, scene_.gravity, total_mass_);
-    for (std::size_t i = 0; i < count_; ++i) {
-      if (ids_[rank_of(records_[i].rank)] >= first_new_id) acceleration_[i] = evaluated[i];
+    for (std::size_t i = 0; i < slots_.end(); ++i) {
+      if (!is_nowhere(records_[i]) && ids_[rank_of(records_[i].rank)] >= first_new_id) acceleration_[i] = evaluated[i];
     }
     return {};
   }
@@ -488,47 +629,68 @@ class CpuBackend final : public Backend {
   // Boundaries -------------------------------------------------------------------------------------------------------
 
   // Wraps periodic coordinates; a particle outside an open face goes nowhere.
-  void apply_boundaries(Record& p, RemovalSums& left) const {
+  void apply_boundaries(Record& p, std::size_t slot, Departures& left) const {
     wrap_periodic(pass_, p);
-    if (!is_outside_open_face(pass_, p)) return;
-    left.add_particle(material_of(p).mass, vec_cast<double>(p.x), vec_cast<double>(p.v), scene_.gravity);
+    if (is_outside_open_face(pass_, p)) send_nowhere(p, slot, p.v, left);
+  }
+
+  void apply_boundaries_to_group(std::size_t s, std::size_t g, Departures& left) {
+    const std::size_t first = s * kSegment + g * kLanes;
+    for (std::size_t i = first; i < std::min(first + kLanes, slots_.end_of(s)); ++i) {
+      if (!is_nowhere(next_[i])) apply_boundaries(next_[i], i, left);
+    }
+  }
+
+  void send_nowhere(Record& p, std::size_t slot, const Vec3<Real>& v, Departures& left) const {
+    left.add(slot, material_of(p).mass, vec_cast<double>(p.x), vec_cast<double>(v), scene_.gravity);
     const Real material = p.material;
     p = nowhere_record<Real>(p.rank);
     p.material = material;
   }
 
-  void apply_boundaries_to_group(std::size_t s, std::size_t g, RemovalSums& left) {
-    const std::size_t first = s * kSegment + g * kLanes;
-    for (std::size_t i = first; i < std::min(first + kLanes, count_); ++i) {
-      if (!is_nowhere(next_[i])) apply_boundaries(next_[i], left);
-    }
+  // At the end of a step; under velocity Verlet with what the half kick to come would have given it.
+  void take_away(std::size_t slot, Departures& left) {
+    Record& p = records_[slot];
+    send_nowhere(p, slot, verlet() ? kick(p.v, acceleration_[slot], Real(0.5) * pass_.dt) : p.v, left);
   }
 
-  void collect(RemovalSums& total, const RemovalSums& part) const {
-    if (part.count == 0) return;
+  bool is_in_a_sink(const Vec3d& x) const {
+    return std::any_of(sinks_.begin(), sinks_.end(), [&](const PlacedSink& sink) {
+      return is_inside(sink.box, x) && shape_distance(sink.shape, x).distance < 0;
+    });
+  }
+
+  void collect(Departures& total, const Departures& part) const {
+    if (part.slots.empty()) return;
     const std::lock_guard lock(mutex_);
     total.add(part);
   }
 
-  void book(const RemovalSums& removed) {
-    if (removed.count == 0) return;
-    removed.book(ledger_);
+  // `tally` is the ledger's count of those that go that way.
+  void book(const Departures& gone, std::uint64_t& tally) {
+    if (gone.slots.empty()) return;
+    gone.sums.book_gone(ledger_, tally);
+    for (const std::uint32_t slot : gone.slots) {
+      --alive_of_[static_cast<std::size_t>(records_[slot].material)];
+      slots_.leave(slot);
+    }
     count_alive();
   }
 
   void count_alive() {
-    std::vector<std::uint64_t> per_material(scene_.materials.size(), 0);
-    alive_ = 0;
-    for (std::size_t i = 0; i < count_; ++i) {
-      if (is_nowhere(records_[i])) continue;
-      ++alive_;
-      ++per_material[static_cast<std::size_t>(records_[i].material)];
-    }
+    alive_ = alive_loose_ = 0;
     total_mass_ = 0;
-    for (std::size_t m = 0; m < per_material.size(); ++m) {
-      total_mass_ += static_cast<double>(per_material[m]) * scene_.materials[m].mass;
+    for (std::size_t m = 0; m < alive_of_.size(); ++m) {
+      alive_ += alive_of_[m];
+      if (!scene_.materials[m].interacts) alive_loose_ += alive_of_[m];
+      total_mass_ += static_cast<double>(alive_of_[m]) * scene_.materials[m].mass;
     }
   }
+
+  struct PlacedSink {
+    ShapeBounds box;
+    ShapeGeometry<double> shape;
+  };
 
   std::string isa_name_;
   Loops<Real> loops_;
@@ -542,13 +704,15 @@ class CpuBackend final : public Backend {
   ForcePass<Real> pass_;  // the rules', aimed at the buffers of the moment
 
   IdTable ids_;  // by rank
-  std::size_t count_ = 0;  // records in use, those gone since the last sort included
-  std::size_t alive_ = 0;
+  ParticleSlots slots_;
+  std::vector<std::uint64_t> alive_of_;  // by material
+  std::size_t alive_ = 0, alive_loose_ = 0;  // of all, of those that touch none
   double total_mass_ = 0;  // kg, of those alive
   LargeVector<Record> records_, next_;  // the state, and where a pass writes the next; both end with a dummy
   LargeVector<Vec3<Real>> acceleration_;  // velocity Verlet only, m/s^2
   Ledger ledger_;
 
+  std::vector<PlacedSink> sinks_;
   AppliedForces<Real> applied_;
   VerletList<Real> list_;
   std::span<const std::uint32_t> order_;  // of the last sort, while it is in use

@@ -119,6 +119,7 @@ template <class Real>
 struct SegmentWork {
   std::size_t first = 0;                     // first particle
   std::size_t group_count = 0;
+  bool alone = false;                        // no particle touches others: there are no rows, and none is ever far
   const std::uint32_t* rows = nullptr;
   const std::uint32_t* first_row = nullptr;  // group_count + 1
   unsigned char* notes = nullptr;            // GroupNote bits, one entry a group

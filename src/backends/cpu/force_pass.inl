@@ -416,17 +416,18 @@ HOOKE_HD Vec3<Pack<Real>> load_vectors(const Vec3<Real>* from) {
 
 // Whether any lane touches a wall, or a collider.
 struct Touching {
-  bool wall = false, collider = false;
+  bool others = true, wall = false, collider = false;
 };
 
 // What is summed over a segment's particles, a column each. Packs that touch nothing of a kind are left out of its own.
 template <class Real>
 struct PassColumns {
-  std::size_t count = 0, wall_count = 0, collider_count = 0;
+  std::size_t count = 0, contact_count = 0, wall_count = 0, collider_count = 0;
   alignas(64) Real of[PassSum::count][ExactParts::kMost];
 
   HOOKE_HD std::size_t count_of(int sum) const {
     const int power = sum < 2 * PassSum::powers ? sum % PassSum::powers : PassSum::powers;
+    if (power <= PassSum::contact_friction) return contact_count;
     if (power == PassSum::wall || (sum >= PassSum::wall_force && sum < PassSum::wall_force + 3)) return wall_count;
     if (power == PassSum::collider || (sum >= PassSum::collider_force && sum < PassSum::collider_force + 3)) {
       return collider_count;
@@ -441,6 +442,7 @@ struct PassColumns {
   }
   HOOKE_HD void end_pack(const Touching& touching) {
     count += Pack<Real>::kLanes;
+    if (touching.others) contact_count += Pack<Real>::kLanes;
     if (touching.wall) wall_count += Pack<Real>::kLanes;
     if (touching.collider) collider_count += Pack<Real>::kLanes;
   }
@@ -456,7 +458,7 @@ struct Forces {
   // Powers at twice a mean velocity, to the columns from `first` on.
   HOOKE_HD void put_powers(int first, const Vec3<P>& twice_mean, bool has_drag, const Touching& touching,
                            PassColumns<Real>& to) const {
-    put_contacts(first, contacts, twice_mean, to);
+    if (touching.others) put_contacts(first, contacts, twice_mean, to);
     to.put(first + PassSum::gravity, dot(weight, twice_mean));
     if (has_drag) to.put(first + PassSum::drag, dot(drag, twice_mean));
     if (touching.wall) to.put(first + PassSum::wall, dot(walls, twice_mean));
@@ -483,21 +485,26 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
   using P = Pack<Real>;
   const std::size_t first = work.first + slot;
   const std::size_t group = slot / kGroupLanes, half = slot % kGroupLanes;
-  const std::uint32_t* rows = work.rows + half;
-  const std::uint32_t* row = rows + std::size_t{work.first_row[group]} * kGroupLanes;
-  const std::uint32_t* end = rows + std::size_t{work.first_row[group + 1]} * kGroupLanes;
-  const std::uint32_t* last_row = rows + (std::size_t{work.first_row[work.group_count]} - 1) * kGroupLanes;
 
   const Real* own_record = reinterpret_cast<const Real*>(pass.in + first);
   const Lanes<Real> own = load_lanes<Real>([=](int lane) { return own_record + 8 * lane; });
   const Mask<Real> present = own.x.x < P(static_cast<Real>(kNowhere));
 
-  Acting<Real, kMaterials> acting = ContactLoop<Real, kMaterials, kPeriodic, false>{pass, own}.run(row, end, last_row);
-  if (any(acting.too_fast)) acting = ContactLoop<Real, kMaterials, kPeriodic, true>{pass, own}.run(row, end, last_row);
+  Acting<Real, kMaterials> acting;
+  if (!work.alone) {
+    const std::uint32_t* rows = work.rows + half;
+    const std::uint32_t* row = rows + std::size_t{work.first_row[group]} * kGroupLanes;
+    const std::uint32_t* end = rows + std::size_t{work.first_row[group + 1]} * kGroupLanes;
+    const std::uint32_t* last_row = rows + (std::size_t{work.first_row[work.group_count]} - 1) * kGroupLanes;
+    acting = ContactLoop<Real, kMaterials, kPeriodic, false>{pass, own}.run(row, end, last_row);
+    if (any(acting.too_fast))
+      acting = ContactLoop<Real, kMaterials, kPeriodic, true>{pass, own}.run(row, end, last_row);
+  }
 
   const auto by_contacts = acting.contacts.forces(pass);
   Forces<Real, std::remove_const_t<decltype(by_contacts)>> forces{by_contacts, {}, {}, {}, {}};
   Touching touching;
+  touching.others = !work.alone;
   forces.walls = WallLoop<Real, kMaterials>{pass, own, present}.run(acting.too_fast, touching.wall);
   forces.colliders = ColliderLoop<Real, kMaterials>{pass, own, present}.run(acting.too_fast, touching.collider);
   const Quad<Real> body = body_of<Real, kMaterials>(pass, own);
@@ -522,7 +529,7 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
     v = kick(own.v, a, dt);
     x = drift(own.x, v, dt);
     if (any(present & left_domain(pass, x))) notes |= kLeftDomain;
-    far |= bits(present & is_far<Real, kPeriodic>(pass, x, first)) << half;
+    if (!work.alone) far |= bits(present & is_far<Real, kPeriodic>(pass, x, first)) << half;
   }
   if (any(acting.too_fast)) notes |= kApproachTooFast;
 

@@ -9,28 +9,54 @@
 
 namespace hooke {
 
-/// The ids of all ranks. Most often they are consecutive numbers, and then take no memory.
+/// The ids of all ranks, ascending. Those at the end of the table that are consecutive, most often all, take no memory,
+/// and are found at once. Where ids come and go, ranks of nobody are allowed among those.
 class IdTable {
  public:
   IdTable() = default;
-  /// `ids` ascend.
-  explicit IdTable(const std::vector<std::uint64_t>& ids) : count_(ids.size()), first_(ids.empty() ? 0 : ids.front()) {
-    if (count_ > 0 && ids.back() - first_ != count_ - 1) ids_ = ids;
+  /// `ids` ascend. With `with_gaps` up to half of the consecutive ones are of nobody; else ranks are places in `ids`.
+  explicit IdTable(const std::vector<std::uint64_t>& ids, bool with_gaps = false) {
+    if (ids.empty()) return;
+    const std::uint64_t fewest = with_gaps ? 2 : 1;  // of so many consecutive ones one is somebody's
+    std::size_t from = ids.size() - 1;
+    for (std::size_t k = from; k-- > 0;) {
+      if (ids.back() - ids[k] < fewest * (ids.size() - k)) {
+        from = k;
+      } else if (!with_gaps) {
+        break;
+      }
+    }
+    ids_.assign(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(from));
+    first_ = ids[from];
+    consecutive_ = static_cast<std::size_t>(ids.back() - first_ + 1);
   }
 
-  std::size_t size() const { return count_; }
+  /// Adds an id above all others.
+  void append(std::uint64_t id) {
+    if (consecutive_ == 0) first_ = id;
+    if (id != first_ + consecutive_) {
+      for (std::size_t k = 0; k < consecutive_; ++k) ids_.push_back(first_ + k);
+      first_ = id;
+      consecutive_ = 0;
+    }
+    ++consecutive_;
+  }
+
+  std::size_t size() const { return ids_.size() + consecutive_; }
   /// The rank of an id; size() where there is none.
   std::size_t find(std::uint64_t id) const {
-    if (ids_.empty()) return id >= first_ && id - first_ < count_ ? static_cast<std::size_t>(id - first_) : count_;
+    if (id >= first_ && id - first_ < consecutive_) return ids_.size() + static_cast<std::size_t>(id - first_);
     const auto found = std::lower_bound(ids_.begin(), ids_.end(), id);
-    return found != ids_.end() && *found == id ? static_cast<std::size_t>(found - ids_.begin()) : count_;
+    return found != ids_.end() && *found == id ? static_cast<std::size_t>(found - ids_.begin()) : size();
   }
-  std::uint64_t operator[](std::size_t rank) const { return ids_.empty() ? first_ + rank : ids_[rank]; }
+  std::uint64_t operator[](std::size_t rank) const {
+    return rank < ids_.size() ? ids_[rank] : first_ + (rank - ids_.size());
+  }
 
  private:
-  std::size_t count_ = 0;
-  std::uint64_t first_ = 0;
   std::vector<std::uint64_t> ids_;
+  std::uint64_t first_ = 0;  // of the consecutive ones
+  std::size_t consecutive_ = 0;
 };
 
 }  // namespace hooke

@@ -21,7 +21,9 @@ struct PassRules {
   std::vector<PairRow<Real>> wall_pairs;  ///< a material each
   std::vector<MaterialRow<Real>> materials;
   std::vector<FewMaterials<Real>> few;  ///< none, or one
-  double largest_radius = 0, smallest_radius = 1;  ///< m
+  double largest_radius = 0;  ///< of all particles, m
+  double largest_touching = 0, smallest_radius = 1;  ///< of those that touch others, m
+  bool all_interact = true;  ///< all materials' particles touch others
   double widest_range = 0;  ///< m: particles act on each other, and walls on them, across gaps up to this
   double rounding = 0;  ///< m, of displacements across a periodic axis
   std::vector<double> level_radius;  ///< m: materials of similar reach share a level; the largest of each, ascending
@@ -30,7 +32,7 @@ struct PassRules {
 
   /// How far a particle reaches, m: two act on each other no further apart than the sum.
   double reach_of(std::size_t material) const { return materials[material].radius + widest_range / 2; }
-  double largest_reach() const { return largest_radius + widest_range / 2; }
+  double largest_reach() const { return largest_touching + widest_range / 2; }
 
   static PairRow<Real> row_of(const ContactLaw<double>& law, Real reach) {
     const auto& [linear, surface] = law;
@@ -44,7 +46,7 @@ struct PassRules {
     pass.dt = real(scene.time_step);
     pass.gravity = vec_cast<Real>(scene.gravity);
     // A little below the limits, so that what double precision would find is always looked at.
-    pass.speed_limit = real(0.999 * smallest_radius / scene.time_step);
+    pass.speed_limit = real(0.999 * smallest_of_all_ / scene.time_step);
   }
 
  private:
@@ -58,8 +60,9 @@ struct PassRules {
     pairs.assign(n * n, PairRow<Real>{});
     wall_pairs.assign(n, PairRow<Real>{});
     materials.assign(n, MaterialRow<Real>{});
-    largest_radius = 0;
-    smallest_radius = n == 0 ? 1 : std::numeric_limits<double>::infinity();
+    largest_radius = largest_touching = 0;
+    smallest_radius = smallest_of_all_ = std::numeric_limits<double>::infinity();
+    interacts_.assign(n, 1);
     widest_range = table.widest_range();
     pass.linear = table.is_linear();
     pass.has_drag = false;
@@ -69,12 +72,20 @@ struct PassRules {
       materials[a] = {Real(1) / real(m.mass), real(m.drag), real(m.mass), real(m.radius)};
       pass.has_drag = pass.has_drag || m.drag > 0;
       largest_radius = std::max(largest_radius, m.radius);
-      smallest_radius = std::min(smallest_radius, m.radius);
+      smallest_of_all_ = std::min(smallest_of_all_, m.radius);
+      interacts_[a] = m.interacts ? 1 : 0;
+      if (m.interacts) {
+        largest_touching = std::max(largest_touching, m.radius);
+        smallest_radius = std::min(smallest_radius, m.radius);
+      }
       wall_pairs[a] = row_of(table.wall(a), real(m.radius));
       for (std::size_t b = 0; b < n; ++b) {
         pairs[a * n + b] = row_of(table.pair(a, b), real(m.radius) + real(scene.materials[b].radius));
       }
     }
+    if (std::isinf(smallest_of_all_)) smallest_of_all_ = 1;
+    if (std::isinf(smallest_radius)) smallest_radius = largest_touching = 1;  // nobody's
+    all_interact = std::find(interacts_.begin(), interacts_.end(), 0) == interacts_.end();
     configure_levels();
     configure_few();
     pass.pairs = pairs.data();
@@ -111,7 +122,7 @@ struct PassRules {
     std::iota(by_radius.begin(), by_radius.end(), std::size_t{0});
     std::sort(by_radius.begin(), by_radius.end(),
               [&](std::size_t a, std::size_t b) { return materials[a].radius < materials[b].radius; });
-    std::erase_if(by_radius, [&](std::size_t m) { return !(materials[m].radius > 0); });
+    std::erase_if(by_radius, [&](std::size_t m) { return !(materials[m].radius > 0) || interacts_[m] == 0; });
     level_radius.clear();
     level_of.assign(materials.size(), 0);
     double smallest = 0;  // of the level
@@ -161,6 +172,9 @@ struct PassRules {
     component(pass.clear_of_walls_from, axis) = from;
     component(pass.clear_of_walls_to, axis) = to;
   }
+
+  std::vector<char> interacts_;  // by material
+  double smallest_of_all_ = 1;  // radius, m
 };
 
 }  // namespace hooke

@@ -94,6 +94,13 @@ class SpringLists {
     apart_ = ApartPairs(ids.size(), apart);
   }
 
+  /// There are more particles than those bound: nothing ties them.
+  void grow(std::size_t ranks) {
+    if (empty()) return;
+    first_side_.resize(ranks + 1, first_side_.back());
+    apart_.grow(ranks);
+  }
+
   /// Pairs that springs keep from touching.
   const ApartPairs& apart() const { return apart_; }
 

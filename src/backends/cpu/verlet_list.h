@@ -67,17 +67,19 @@ class VerletList {
   }
 
   /// Lists the neighbours of the first `count` particles, which lie in the order that sort() gave. `records` ends with
-  /// the one that fills short lanes, the last of `size`.
-  void build(const Record* records, std::size_t count, std::size_t size) {
+  /// the one that fills short lanes, the last of `size`. From the next whole group on there is room, up to `end`, for
+  /// particles that are born later.
+  void build(const Record* records, std::size_t count, std::size_t end, std::size_t size) {
     count_ = count;
+    end_ = std::max(count, end);
     filling_ = record_offset<Real>(static_cast<std::uint32_t>(size - 1));
     // A pack more than there are particles, for searches to read.
-    const std::size_t room = (count + kLanes - 1) / kLanes * kLanes + kLanes;
+    const std::size_t room = (end_ + kLanes - 1) / kLanes * kLanes + kLanes;
     listed_at_.resize(room);
     std::vector<std::uint32_t>& ranks = order_;  // of no use any more as the order of the sort
     ranks.reserve(room);  // a growing vector would take twice that
     ranks.resize(room);
-    radii_.resize(rules_->largest_radius > rules_->smallest_radius ? room : 0);
+    radii_.resize(rules_->largest_touching > rules_->smallest_radius ? room : 0);
     parallel_ranges(count, NeighbourList::kSegment, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
         listed_at_.put(i, records[i].x);
@@ -87,6 +89,7 @@ class VerletList {
     });
     build_neighbour_list(cells_, neighbour_rule(), search_, list_);
     strike_apart();
+    list_.add_empty_segments((end_ + NeighbourList::kSegment - 1) / NeighbourList::kSegment);
 
     limits_.diameter = 2 * rules_->largest_reach();
     find_coarseness();
@@ -94,8 +97,8 @@ class VerletList {
     limits_.skin = std::max(0.0, 0.999 * skin_ - 2 * rules_->rounding - coarseness_);
     std::copy(std::begin(rules_->pass.periodic), std::end(rules_->pass.periodic), limits_.periodic);
     motion_.lay_out(listed_at_.columns(), count, kLanes, limits_);
-    const std::size_t groups = (count + kLanes - 1) / kLanes;
-    anchors_.resize(groups);
+    const std::size_t groups = (end_ + kLanes - 1) / kLanes;
+    anchors_.assign(groups, Anchor{{}, {}, Real(-1), {}});  // those without a place are always far from it
     moved_.resize(groups);
     strayed_.resize(groups);
     mended_.clear(groups);
@@ -122,6 +125,18 @@ class VerletList {
   std::size_t entry_count() const { return list_.entry_count(); }
   std::uint64_t build_count() const { return builds_; }
 
+  /// Where the next particle can be born, at least.
+  std::size_t first_free() const { return (count_ + kLanes - 1) / kLanes * kLanes; }
+  /// A particle is born in slot i, first_free() or later: a stray from the start. Rows get it when they are mended
+  /// next.
+  void add(std::size_t i, std::uint32_t rank) {
+    if (!listed_) return;
+    if (i >= end_ || rules_->pass.periodic_kind == PeriodicKind::images) return forget();
+    order_[i] = rank;
+    listed_at_.put(i, {Real(0), Real(0), Real(0)});
+    note_far(i / kLanes, 1U << i % kLanes);
+  }
+
   /// These pairs (indices) were kept apart and may touch from now on: rows get them when they are mended next.
   void release(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
     for (const auto& [i, p] : pairs) {
@@ -129,7 +144,7 @@ class VerletList {
       released_.push_back({p, order_[i], record_offset<Real>(i)});
     }
   }
-  /// Mends rows for particles that have not moved since they were mended last.
+  /// Mends rows for what was released or added, where particles have not moved since they were mended last.
   void mend_released(const Record* records) {
     if (listed_) mend(records);
   }
@@ -178,11 +193,11 @@ class VerletList {
   std::uint64_t count_missed(const Record* records) const {
     CellList cells;
     std::vector<std::uint32_t> order;
-    lay_out_cells(cells, 0, count_);
-    cells.sort(count_, key_of(cells, records), order);
+    lay_out_cells(cells, 0, end_);
+    cells.sort(end_, key_of(cells, records), order);
     const StrayPairs<Real> pairs = stray_pairs(records);
     std::atomic<std::uint64_t> missed{0};
-    parallel_ranges(count_, kLanes, [&](std::size_t first, std::size_t last) {
+    parallel_ranges(end_, kLanes, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
         if (is_nowhere(records[i])) continue;
         const auto rows = this->rows(i / NeighbourList::kSegment, i % NeighbourList::kSegment / kLanes);
@@ -328,6 +343,14 @@ class VerletList {
       for (std::size_t g = first; g < last; ++g) {
         strayed_[g] = 0;
         const Anchor& anchor = anchors_[g];
+        if (g * kLanes >= count_) {  // of those born since
+          unsigned born = 0;
+          for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            if (!is_nowhere(records[g * kLanes + lane])) born |= 1U << lane;
+          }
+          note_far(g, born);
+          continue;
+        }
         if (moved_[g].furthest2(anchor.offset) <= anchor.limit2(Real(0))) continue;
         unsigned far = 0;
         for (std::size_t i = g * kLanes; i < std::min((g + 1) * kLanes, count_); ++i) {
@@ -351,6 +374,7 @@ class VerletList {
     const Vec3<Real> middle = motion_.middle(steps);
     const double anywhere = half + motion_.furthest_from_middle(static_cast<double>(steps_));
     const auto place_of = [&](std::size_t i) -> typename StrayPairs<Real>::Place {
+      if (i >= count_) return {vec_cast<double>(records[i].x - middle), anywhere};
       const Anchor& anchor = anchors_[i / kLanes];
       const Vec3<Real> off = displacement(records[i], i, anchor.at(steps));
       if (static_cast<double>(dot(off, off)) < mild * mild) {
@@ -386,7 +410,8 @@ class VerletList {
   double skin_ratio_ = kFirstSkin, skin_ = 0;  // of the smallest diameter; m
   double coarseness_ = 0;  // m
 
-  std::size_t count_ = 0;
+  std::size_t count_ = 0;  // listed
+  std::size_t end_ = 0;  // of the room for those born since
   std::uint32_t filling_ = 0;  // of short lanes: an entry
   CellList cells_;
   std::vector<std::uint32_t> order_;  // while sorting: where each was before; then: ranks

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "hooke/backends/reference/reference_attraction.h"
 #include "hooke/backends/reference/reference_fields.h"
@@ -32,6 +33,8 @@ class ReferenceBackend final : public Backend {
     table_ = ContactTable(scene.materials, scene.contacts);
     springs_.configure(scene);
     attraction_.configure(scene);
+    sinks_.clear();
+    for (const Sink& sink : scene.sinks) sinks_.push_back(geometry_of(sink.shape, false, {0, 0, 0}));
     const double reach = 2 * largest_radius() + table_.widest_range();
     for (int axis = 0; axis < 3; ++axis) {
       // Inside the domain, images further away than this can't touch.
@@ -124,6 +127,44 @@ class ReferenceBackend final : public Backend {
     springs_.tear(torn);
     if (!verlet()) apply_boundaries();
     return forces.condition;
+  }
+
+  void sink_particles() override {
+    const auto sunk = [&](std::size_t i) {
+      return std::any_of(sinks_.begin(), sinks_.end(), [&](const ShapeGeometry<double>& sink) {
+        return shape_distance(sink, p_.position[i]).distance < 0;
+      });
+    };
+    remove_where(sunk).book_gone(ledger_, ledger_.population.sunk);
+  }
+
+  void expire(std::span<const std::uint64_t> ids, std::vector<std::uint8_t>& was_there) override {
+    was_there.clear();
+    for (const std::uint64_t id : ids) was_there.push_back(p_.find(id) < p_.size() ? 1 : 0);
+    const std::set<std::uint64_t> ended(ids.begin(), ids.end());
+    remove_where([&](std::size_t i) {
+      return ended.contains(p_.id[i]);
+    }).book_gone(ledger_, ledger_.population.expired);
+  }
+
+  void give_birth(const ParticleSet& newborn) override {
+    RemovalSums born;
+    for (std::size_t k = 0; k < newborn.size(); ++k) {
+      p_.id.push_back(newborn.id[k]);
+      p_.material.push_back(newborn.material[k]);
+      p_.position.push_back(newborn.position[k]);
+      p_.velocity.push_back(newborn.velocity[k]);
+      if (verlet()) p_.acceleration.push_back({0, 0, 0});
+      wrap_periodic(p_.position.back());
+      born.add_particle(material(p_.size() - 1).mass, p_.position.back(), p_.velocity.back(), scene_.gravity);
+    }
+    born.book_born(ledger_.population);
+  }
+
+  void find_inside(const ShapeBounds& box, std::vector<Occupant>& out) const override {
+    for (std::size_t i = 0; i < p_.size(); ++i) {
+      if (material(i).interacts && is_inside(box, p_.position[i])) out.push_back({p_.position[i], material(i).radius});
+    }
   }
 
   std::uint64_t particle_count() const override { return p_.size(); }
@@ -297,6 +338,7 @@ class ReferenceBackend final : public Backend {
   void for_each_contact(std::size_t i, Visit&& visit) const {
     const Domain& domain = scene_.domain;
     for (std::size_t p = 0; p < p_.size(); ++p) {
+      if (!material(i).interacts || !material(p).interacts) continue;
       if (springs_.keep_apart(p_.id[i], p_.id[p])) continue;
       for (int sx = -images_[0]; sx <= images_[0]; ++sx) {
         for (int sy = -images_[1]; sy <= images_[1]; ++sy) {
@@ -352,20 +394,32 @@ class ReferenceBackend final : public Backend {
 
   // Wraps periodic coordinates and removes particles outside open faces.
   void apply_boundaries() {
-    RemovalSums removed;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < p_.size(); ++i) {
-      bool left = false;
-      wrap_periodic(p_.position[i]);
+    for (Vec3d& x : p_.position) wrap_periodic(x);
+    const auto left = [&](std::size_t i) {
       for (int axis = 0; axis < 3; ++axis) {
         const double x = component(p_.position[i], axis);
         const double min = component(scene_.domain.min, axis);
         const double max = component(scene_.domain.max, axis);
         const Boundary boundary = scene_.domain.boundary[static_cast<std::size_t>(axis)];
-        if (boundary == Boundary::open && (x < min || x > max)) left = true;
+        if (boundary == Boundary::open && (x < min || x > max)) return true;
       }
-      if (left) {
-        removed.add_particle(material(i).mass, p_.position[i], p_.velocity[i], scene_.gravity);
+      return false;
+    };
+    // Under velocity Verlet they have had their half kick.
+    remove_where(left, false).book(ledger_);
+  }
+
+  // Takes particles away for which gone(i); under velocity Verlet with what the half kick to come would have given
+  // them.
+  template <class Gone>
+  RemovalSums remove_where(const Gone& gone, bool kick_to_come = true) {
+    RemovalSums removed;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < p_.size(); ++i) {
+      if (gone(i)) {
+        const bool kicked = verlet() && kick_to_come && !springs_.is_held(p_.id[i]);
+        const Vec3d v = kicked ? kick(p_.velocity[i], p_.acceleration[i], scene_.time_step / 2) : p_.velocity[i];
+        removed.add_particle(material(i).mass, p_.position[i], v, scene_.gravity);
         continue;
       }
       p_.id[kept] = p_.id[i];
@@ -376,7 +430,7 @@ class ReferenceBackend final : public Backend {
       ++kept;
     }
     p_.resize(kept);
-    if (removed.count > 0) removed.book(ledger_);
+    return removed;
   }
 
   double total_mass() const {
@@ -392,6 +446,7 @@ class ReferenceBackend final : public Backend {
   ReferenceAttraction attraction_;
   std::array<int, 3> images_{};  // images -n to n of every particle are looked at, a periodic axis
   std::vector<PlacedCollider<double>> colliders_;
+  std::vector<ShapeGeometry<double>> sinks_;
   ParticleSet p_;
   Ledger ledger_;
   StageTimes times_;

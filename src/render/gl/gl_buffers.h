@@ -47,7 +47,7 @@ class SphereBuffer {
   gl::Buffer buffer_;
   std::vector<Sphere> spheres_;
 };
-static_assert(sizeof(Sphere) == 20 && offsetof(Sphere, foam) == offsetof(Sphere, color) + 3);
+static_assert(offsetof(Sphere, foam) == offsetof(Sphere, color) + 3);
 
 /// Surfaces on the device, all of a frame in one buffer.
 class MeshBuffer {

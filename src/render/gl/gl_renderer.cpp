@@ -116,6 +116,7 @@ class GlRenderer final : public Renderer {
     clear_shaded();
     if (!balls_.empty() || !frame.meshes.empty()) shade_balls(frame, view, sun, sphere_size);
     if (water) shade_water(frame, view, sun, sphere_size);
+    if (!sparks_.empty()) shade_sparks();
     resolve();
     draw_tank(frame, pixels);
     Image image = read_image();
@@ -177,6 +178,7 @@ class GlRenderer final : public Renderer {
     backdrop_program_ = picture(lit + backdrop_frag);
     ball_program_ = picture(lit + shade_ball_frag);
     water_program_ = picture(lit + shade_water_frag);
+    spark_program_ = picture(view + shade_spark_frag);
     resolve_program_ = picture(view + resolve_frag);
     edge_program_ = Program(edges_vert, edges_frag);
   }
@@ -209,9 +211,11 @@ class GlRenderer final : public Renderer {
   void upload(std::span<const Sphere> spheres, std::span<const std::uint32_t> chosen) {
     balls_.clear();
     water_.clear();
-    for (const std::uint32_t i : chosen) (spheres[i].foam > 0 ? water_ : balls_).add(spheres[i]);
-    balls_.upload();
-    water_.upload();
+    sparks_.clear();
+    for (const std::uint32_t i : chosen) {
+      (spheres[i].foam > 0 ? water_ : spheres[i].glows ? sparks_ : balls_).add(spheres[i]);
+    }
+    for (const SphereBuffer* buffer : {&balls_, &water_, &sparks_}) buffer->upload();
   }
 
   void draw_sun_map(const Sun& sun, std::span<const ShadedMesh> meshes) {
@@ -241,7 +245,7 @@ class GlRenderer final : public Renderer {
   }
 
   // What samples show is told apart by the stencil, so that each kind is shaded by itself.
-  enum Stencil { kNothing, kBall, kWater };
+  enum Stencil { kNothing, kBall, kWater, kSpark };
 
   void draw_surfaces(const Projection& view, std::span<const ShadedMesh> meshes) {
     begin(to_spheres_, width_, height_);
@@ -262,6 +266,8 @@ class GlRenderer final : public Renderer {
     balls_.draw();
     glStencilFunc(GL_ALWAYS, kWater, 0xff);
     water_.draw();
+    glStencilFunc(GL_ALWAYS, kSpark, 0xff);
+    sparks_.draw();
     glStencilFunc(GL_ALWAYS, kBall, 0xff);  // meshes are shaded alike
     mesh_program_.use();
     set_view(mesh_program_, view);
@@ -380,6 +386,7 @@ class GlRenderer final : public Renderer {
     program.set("action_center", vec_cast<float>(frame.action.center()));
     program.set("action_size", length_of(frame.action.max - frame.action.min));
     program.set("sphere_size", sphere_size);
+    program.set("daylight", frame.daylight);
   }
 
   void draw_backdrop(const Frame& frame, const Projection& pixels, const Sun& sun, float sphere_size) {
@@ -411,6 +418,13 @@ class GlRenderer final : public Renderer {
   void shade_balls(const Frame& frame, const Projection& view, const Sun& sun, float sphere_size) {
     set_light(ball_program_, frame, view, sun, sphere_size);
     begin_shading(ball_program_, kBall);
+    cover();
+    glDisable(GL_STENCIL_TEST);
+  }
+
+  void shade_sparks() {
+    spark_program_.use();
+    begin_shading(spark_program_, kSpark);
     cover();
     glDisable(GL_STENCIL_TEST);
   }
@@ -502,13 +516,13 @@ class GlRenderer final : public Renderer {
   Framebuffer to_sun_map_, to_spheres_, to_water_normal_, to_ambient_, to_blurred_, to_backdrop_, to_shaded_,
       to_result_;
   std::array<Framebuffer, 2> to_surface_;
-  SphereBuffer balls_, water_;
+  SphereBuffer balls_, water_, sparks_;
   MeshBuffer meshes_;
   VertexArray nothing_, edge_array_;
   Buffer edge_buffer_;
   Program sun_program_, mesh_sun_program_, sphere_program_, mesh_program_, reduce_program_, smooth_program_,
       water_normal_program_, ambient_program_, blur_program_, backdrop_program_, ball_program_, water_program_,
-      resolve_program_, edge_program_;
+      spark_program_, resolve_program_, edge_program_;
 };
 
 }  // namespace

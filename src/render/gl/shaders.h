@@ -21,6 +21,7 @@ extern const char* const blur_frag;
 extern const char* const light_glsl;
 extern const char* const backdrop_frag;
 extern const char* const shade_ball_frag;
+extern const char* const shade_spark_frag;
 extern const char* const shade_water_frag;
 extern const char* const edges_vert;
 extern const char* const edges_frag;

@@ -14,6 +14,7 @@ uniform float sky_light;         // how bright the sky is behind all
 uniform vec3 action_center;
 uniform float action_size;       // m
 uniform float sphere_size;       // radius of a typical sphere, m
+uniform float daylight;          // 1 by day
 
 const vec3 kSun = vec3(1.60, 1.51, 1.38);
 const vec3 kHorizon = vec3(0.12, 0.16, 0.21), kZenith = vec3(0.03, 0.05, 0.09);
@@ -85,6 +86,7 @@ vec3 matte_light(vec3 normal, float sun, float sky_share) {
 
 // Bright light saturates gently; what is stored is the root, for evener steps.
 vec4 stored(vec3 color) {
+  color *= daylight;
   color = color * (1.0 + color / 5.0) / (1.0 + color);
   return vec4(sqrt(clamp(1.25 * color, 0.0, 1.0)), 1.0);
 }

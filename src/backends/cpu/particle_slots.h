@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace hooke {
+
+/// Where in memory particles lie. In front those that touch others, in the order of the neighbour list, with room
+/// behind them for those that are born; then, from a whole segment on, those that touch none, the loose ones: they are
+/// in no list and are never sorted, and whoever is born takes the slot of one that is gone. Slots of nobody hold
+/// records that are nowhere.
+class ParticleSlots {
+ public:
+  static constexpr std::size_t kLanes = 16, kSegment = 1024;
+
+  /// Lays out so many particles of both kinds with room for more; with `fixed` slots of loose ones that are gone are
+  /// free only after recycle().
+  void lay_out(std::size_t listed, std::size_t more_listed, std::size_t loose, std::size_t more_loose, bool fixed) {
+    listed_end_ = listed;
+    loose_room_ = whole(loose + more_loose, kLanes);
+    first_loose_ = whole(listed + more_listed, loose_room_ > 0 ? kSegment : kLanes);
+    loose_end_ = first_loose_ + loose;
+    fixed_ = fixed;
+    spare_.clear();
+    left_.clear();
+  }
+
+  std::size_t listed_end() const { return listed_end_; }    ///< one past the last listed slot in use
+  std::size_t first_loose() const { return first_loose_; }  ///< of loose slots, also one past the room of listed ones
+  std::size_t loose_end() const { return loose_end_; }  ///< one past the last loose slot ever used
+  std::size_t room() const { return first_loose_ + loose_room_; }
+  /// One past the last slot in use.
+  std::size_t end() const { return loose_end_ > first_loose_ ? loose_end_ : listed_end_; }
+  bool is_loose(std::size_t slot) const { return slot >= first_loose_; }
+
+  bool has_room(std::size_t listed, std::size_t loose) const {
+    return listed <= first_loose_ - std::min(first_loose_, whole(listed_end_, kLanes)) &&
+           loose <= spare_.size() + (room() - loose_end_);
+  }
+  /// Slots for one that is born. Where the listed ones are laid out, it is not before `from`.
+  std::size_t take_listed(std::size_t from) {
+    listed_end_ = std::max(listed_end_, from) + 1;
+    return listed_end_ - 1;
+  }
+  std::size_t take_loose() {
+    if (spare_.empty()) return loose_end_++;
+    const std::size_t slot = spare_.back();
+    spare_.pop_back();
+    return slot;
+  }
+  /// Of one that is gone.
+  void leave(std::size_t slot) {
+    if (is_loose(slot)) (fixed_ ? left_ : spare_).push_back(static_cast<std::uint32_t>(slot));
+  }
+  void recycle() {
+    spare_.insert(spare_.end(), left_.begin(), left_.end());
+    left_.clear();
+  }
+  /// Listed ones have been sorted, and so many are left of them.
+  void set_listed(std::size_t count) { listed_end_ = count; }
+
+  /// Segments in use, of both kinds, and which one the n-th of them is.
+  std::size_t segment_count() const {
+    return listed_segments() + whole(loose_end_ - first_loose_, kSegment) / kSegment;
+  }
+  std::size_t segment(std::size_t n) const {
+    return n < listed_segments() ? n : first_loose_ / kSegment + (n - listed_segments());
+  }
+  /// One past the last slot of a segment that is in use.
+  std::size_t end_of(std::size_t segment) const {
+    return std::min((segment + 1) * kSegment, is_loose(segment * kSegment) ? loose_end_ : listed_end_);
+  }
+
+ private:
+  static constexpr std::size_t whole(std::size_t n, std::size_t of) { return (n + of - 1) / of * of; }
+  std::size_t listed_segments() const { return whole(listed_end_, kSegment) / kSegment; }
+
+  std::size_t listed_end_ = 0, first_loose_ = 0, loose_end_ = 0, loose_room_ = 0;
+  bool fixed_ = false;
+  std::vector<std::uint32_t> spare_, left_;  // loose slots of nobody: free, and not yet so
+};
+
+}  // namespace hooke

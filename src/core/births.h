@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "hooke/core/emitters.h"
+#include "hooke/physics/collider.h"
+
+namespace hooke {
+
+// What chance decides about a birth: functions of the emitter's seed, its place in the scene and the number of the
+// birth alone (base/random.h), so the same on every machine, in any order, by any thread. Plain arithmetic.
+
+/// An emitter where it is at one instant.
+struct PlacedEmitter {
+  const Emitter* emitter = nullptr;
+  std::uint32_t index = 0;        ///< in the scene: emitters of one seed draw different numbers
+  PlacedCollider<double> body;    ///< its shape and motion
+  Vec3d direction{0, 1, 0};       ///< unit vector, in the body's own frame
+  double cosine = 1;              ///< of the spread
+};
+
+/// The `index`-th emitter of a scene at `time` (s). `reach`: what its body's box is to be larger by, m.
+PlacedEmitter place_emitter(const Emitter& emitter, std::uint32_t index, double time, double reach);
+
+/// Where the birth of this number may take place, m: evenly distributed over the shape, one place for each `attempt`.
+Vec3d draw_position(const PlacedEmitter& emitter, std::uint64_t number, std::uint32_t attempt);
+
+/// With what velocity, m/s, at x (m): speed evenly distributed over its range, direction over the cone's solid angle,
+/// both seen from the emitter, whose own velocity there is added.
+Vec3d draw_velocity(const PlacedEmitter& emitter, std::uint64_t number, const Vec3d& x);
+
+/// How many steps of `dt` (s) its life lasts, at least 1: life and decay are drawn evenly from their ranges, and the
+/// life is over after the first n steps with n dt decay >= life. Nothing where it lives for ever.
+std::optional<std::int64_t> draw_lifetime(const Emitter& emitter, std::uint32_t index, std::uint64_t number, double dt);
+
+}  // namespace hooke

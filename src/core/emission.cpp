@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/core/emission.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hooke/base/parallel.h"
+#include "hooke/core/backend.h"
+#include "hooke/core/free_space.h"
+#include "hooke/core/placed_colliders.h"
+
+namespace hooke {
+namespace {
+
+constexpr std::uint64_t kMostAttempts = 32;  // to find a place for a birth, in a step
+
+Vec3d rounded(const Vec3d& a, bool single) { return single ? vec_cast<double>(vec_cast<float>(a)) : a; }
+
+// Adds what a step makes due; returns how many whole births that is.
+std::uint64_t births_due(const Emitter& emitter, EmitterState& state, std::int64_t step, double dt) {
+  const double time = static_cast<double>(step - 1) * dt, slack = 1e-9 * dt;  // a step that begins on the dot counts
+  if (time >= emitter.start - slack && time < emitter.stop - slack) state.due += emitter.rate * dt;
+  if (emitter.count) {
+    const std::uint64_t given = state.births - state.reborn;
+    state.due = std::min(state.due, static_cast<double>(*emitter.count - std::min(*emitter.count, given)));
+  }
+  return static_cast<std::uint64_t>(std::floor(state.due + 1e-9));  // ten times 0.1 is one
+}
+
+}  // namespace
+
+std::vector<Finding> check_state(const EmissionState& state, const Scene& scene) {
+  std::vector<Finding> findings;
+  if (!state.emitters.empty() && state.emitters.size() != scene.emitters.size()) {
+    findings.push_back({"emitters", fmt::format("{} in the scene, {} in the saved state", scene.emitters.size(),
+                                                state.emitters.size())});
+  }
+  const auto known = [&](const Mortal& m) { return m.emitter < scene.emitters.size(); };
+  if (!std::all_of(state.mortals.begin(), state.mortals.end(), known) ||
+      !std::is_sorted(state.mortals.begin(), state.mortals.end())) {
+    findings.push_back({"emitters", "the saved state's lives are not those of particles of this scene"});
+  }
+  return findings;
+}
+
+void Emission::configure(const Scene& scene) { emitters_.resize(scene.emitters.size()); }
+
+EmissionState Emission::state() const {
+  EmissionState state;
+  state.emitters = emitters_;
+  for (const auto& [step, mortals] : mortals_) {
+    state.mortals.insert(state.mortals.end(), mortals.begin(), mortals.end());
+  }
+  return state;
+}
+
+void Emission::restore(EmissionState state) {
+  emitters_ = std::move(state.emitters);
+  mortals_.clear();
+  for (const Mortal& m : state.mortals) mortals_[m.death].push_back(m);
+}
+
+void Emission::end_step(const Scene& scene, std::int64_t step, std::span<const ColliderPose> poses, Backend& backend,
+                        std::uint64_t& next_id) {
+  if (!scene.sinks.empty()) backend.sink_particles();
+  if (emitters_.empty()) return;
+  std::vector<std::uint64_t> respawning(emitters_.size(), 0);
+  end_lives(scene, step, backend, respawning);
+  newborn_.clear();
+  for (std::uint32_t i = 0; i < emitters_.size(); ++i) emit(scene, i, step, poses, backend, next_id);
+  if (!newborn_.empty()) backend.give_birth(newborn_);
+  for (std::size_t i = 0; i < emitters_.size(); ++i) emitters_[i].to_respawn += respawning[i];  // from the next step on
+}
+
+void Emission::end_lives(const Scene& scene, std::int64_t step, Backend& backend,
+                         std::vector<std::uint64_t>& respawning) {
+  for (auto due = mortals_.begin(); due != mortals_.end() && due->first <= step; due = mortals_.erase(due)) {
+    const std::vector<Mortal>& mortals = due->second;
+    std::vector<std::uint64_t> ids;
+    ids.reserve(mortals.size());
+    for (const Mortal& m : mortals) ids.push_back(m.id);
+    std::vector<std::uint8_t> was_there;
+    backend.expire(ids, was_there);
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      if (was_there[k] != 0 && scene.emitters[mortals[k].emitter].respawn) ++respawning[mortals[k].emitter];
+    }
+  }
+}
+
+void Emission::emit(const Scene& scene, std::uint32_t index, std::int64_t step, std::span<const ColliderPose> poses,
+                    Backend& backend, std::uint64_t& next_id) {
+  const Emitter& emitter = scene.emitters[index];
+  EmitterState& state = emitters_[index];
+  const std::uint64_t wanted = state.to_respawn + births_due(emitter, state, step, scene.time_step);
+  if (wanted == 0) return;
+
+  // Who and what is in the way.
+  const Material& material = scene.materials[emitter.material];
+  std::vector<PlacedCollider<double>> colliders;
+  for (std::size_t c = 0; c < poses.size(); ++c) {
+    colliders.push_back(place_collider<double>(scene.colliders[c], poses[c], material.radius));
+  }
+  FreeSpace space(scene, emitter.material, colliders);
+  const double time = static_cast<double>(step) * scene.time_step;
+  const PlacedEmitter placed = place_emitter(emitter, index, time, space.reach());
+  if (material.interacts) {
+    ShapeBounds box{placed.body.near_from, placed.body.near_to};
+    for (int axis = 0; axis < 3; ++axis) {  // who is near across a periodic face is near
+      if (scene.domain.boundary[static_cast<std::size_t>(axis)] != Boundary::periodic) continue;
+      component(box.min, axis) = component(scene.domain.min, axis);
+      component(box.max, axis) = component(scene.domain.max, axis);
+    }
+    std::vector<Occupant> occupants;
+    backend.find_inside(box, occupants);
+    for (const Occupant& occupant : occupants) space.add(occupant);
+    for (std::size_t k = 0; k < newborn_.size(); ++k) {
+      const Material& other = scene.materials[newborn_.material[k]];
+      if (other.interacts) space.add({newborn_.position[k], other.radius});
+    }
+  }
+
+  find_births(placed, scene, space, backend.info().precision == Precision::single_precision, wanted);
+  for (const Birth& birth : births_) {
+    if (birth.lifetime) mortals_[step + *birth.lifetime].push_back({step + *birth.lifetime, next_id, index});
+    newborn_.id.push_back(next_id++);
+    newborn_.material.push_back(static_cast<std::uint16_t>(emitter.material));
+    newborn_.position.push_back(birth.position);
+    newborn_.velocity.push_back(birth.velocity);
+  }
+  const std::uint64_t reborn = std::min<std::uint64_t>(births_.size(), state.to_respawn);
+  state.births += births_.size();
+  state.reborn += reborn;
+  state.to_respawn -= reborn;
+  state.due = std::max(0.0, state.due - static_cast<double>(births_.size() - reborn));
+}
+
+// Up to the first that finds no place: it, and all that follow, wait for another step, when it goes on with the places
+// that it has not tried.
+void Emission::find_births(const PlacedEmitter& emitter, const Scene& scene, FreeSpace& space, bool single,
+                           std::uint64_t wanted) {
+  EmitterState& state = emitters_[emitter.index];
+  const Material& material = scene.materials[emitter.emitter->material];
+  const auto draw = [&](std::uint64_t k) {
+    const std::uint64_t number = state.births + k, first = k == 0 ? state.attempts : 0;
+    Birth birth;
+    while (birth.attempts < kMostAttempts) {
+      birth.position =
+          rounded(draw_position(emitter, number, static_cast<std::uint32_t>(first + birth.attempts)), single);
+      if (space.has_room_at(birth.position)) break;
+      ++birth.attempts;
+    }
+    birth.velocity = rounded(draw_velocity(emitter, number, birth.position), single);
+    birth.lifetime = draw_lifetime(*emitter.emitter, emitter.index, number, scene.time_step);
+    return birth;
+  };
+  const auto failed = [](const Birth& birth) { return birth.attempts == kMostAttempts; };
+
+  births_.clear();
+  if (material.interacts) {  // each is in the way of the next
+    while (births_.size() < wanted) {
+      births_.push_back(draw(births_.size()));
+      if (failed(births_.back())) break;
+      space.add({births_.back().position, material.radius});
+    }
+  } else {
+    births_.resize(wanted);
+    parallel_ranges(wanted, 256, [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) births_[k] = draw(k);
+    });
+  }
+  const auto stuck = std::find_if(births_.begin(), births_.end(), failed);
+  const bool none_placed = stuck == births_.begin();
+  const std::uint64_t in_vain = stuck == births_.end() ? 0 : kMostAttempts;
+  state.attempts = in_vain + (none_placed && in_vain > 0 ? state.attempts : 0);
+  births_.erase(stuck, births_.end());
+}
+
+}  // namespace hooke

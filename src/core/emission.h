@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hooke/base/expected.h"
+#include "hooke/core/births.h"
+#include "hooke/core/colliders.h"
+#include "hooke/core/emitters.h"
+#include "hooke/core/particles.h"
+
+namespace hooke {
+
+class Backend;
+class FreeSpace;
+struct Scene;
+
+/// How far an emitter has got.
+struct EmitterState {
+  double due = 0;  ///< births that its rate has made due and that have not been, the fraction of one included
+  std::uint64_t births = 0;  ///< so far: the number of the next one
+  std::uint64_t reborn = 0;  ///< of them, in place of an ended life
+  std::uint64_t to_respawn = 0;  ///< lives that have ended and wait to be born again
+  std::uint64_t attempts = 0;  ///< places that were tried in vain for the next birth
+
+  friend bool operator==(const EmitterState&, const EmitterState&) = default;
+};
+
+/// A particle whose life ends: at the end of step `death`, counted from the start of the run.
+struct Mortal {
+  std::int64_t death = 0;
+  std::uint64_t id = 0;
+  std::uint32_t emitter = 0;  ///< index into the scene's
+
+  friend auto operator<=>(const Mortal&, const Mortal&) = default;
+};
+
+/// What a checkpoint stores of births and deaths to come.
+struct EmissionState {
+  std::vector<EmitterState> emitters;  ///< as many as the scene has, or none at the start
+  std::vector<Mortal> mortals;  ///< ascending; some may have left early
+
+  friend bool operator==(const EmissionState&, const EmissionState&) = default;
+};
+
+/// Why a saved state can't be that of `scene`; empty where it can.
+std::vector<Finding> check_state(const EmissionState& state, const Scene& scene);
+
+/// Births and deaths at the end of each step, the same for all back ends: who goes, who comes, where and how fast. A
+/// back end is asked who is in the way, and does as it is told.
+class Emission {
+ public:
+  void configure(const Scene& scene);
+
+  /// After `step` steps, colliders in these poses: sinks take, lives end, emitters emit. Ids from `next_id` on are
+  /// given out. Costs nothing in a scene with no emitters and no sinks.
+  void end_step(const Scene& scene, std::int64_t step, std::span<const ColliderPose> poses, Backend& backend,
+                std::uint64_t& next_id);
+
+  EmissionState state() const;
+  void restore(EmissionState state);
+
+ private:
+  // A birth that is to be.
+  struct Birth {
+    Vec3d position, velocity;
+    std::optional<std::int64_t> lifetime;  // steps
+    std::uint64_t attempts = 0;  // that found no place; one found it where they are fewer than allowed
+  };
+
+  void end_lives(const Scene& scene, std::int64_t step, Backend& backend, std::vector<std::uint64_t>& respawning);
+  void emit(const Scene& scene, std::uint32_t index, std::int64_t step, std::span<const ColliderPose> poses,
+            Backend& backend, std::uint64_t& next_id);
+  void find_births(const PlacedEmitter& emitter, const Scene& scene, FreeSpace& space, bool single,
+                   std::uint64_t wanted);
+
+  std::vector<EmitterState> emitters_;
+  std::map<std::int64_t, std::vector<Mortal>> mortals_;  // by the step of their death
+  ParticleSet newborn_;  // of the step in hand
+  std::vector<Birth> births_;  // of the emitter in hand
+};
+
+}  // namespace hooke

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "hooke/core/scene.h"
+#include "hooke/scene/findings.h"
+#include "hooke/scene/json_reader.h"
+#include "hooke/scene/shape_reader.h"
+
+namespace hooke {
+
+/// Fills `scene.emitters` from the entries of "emitters"; the scene's materials are there already. What the schema's
+/// findings touch is passed over. Writes the names of emitters that have none into `emitters`. Returns which entry each
+/// of the scene's is.
+std::vector<std::size_t> build_emitters(Json& emitters, const ShapeFiles& files, Scene& scene, Findings& findings);
+
+/// Fills `scene.sinks` from the entries of "sinks" likewise.
+std::vector<std::size_t> build_sinks(const Json& sinks, const ShapeFiles& files, Scene& scene, Findings& findings);
+
+}  // namespace hooke
