@@ -72,7 +72,7 @@ void spark_steps(benchmark::State& state) {
   if (!(momentum_drift(*now, ledger, simulation->initial_momentum()) < (single ? 1e-5 : 1e-12))) {
     return state.SkipWithError("momentum is not accounted for");
   }
-  if (!(ledger.collider_impulse.y > 0)) return state.SkipWithError("nobody bounces");
+  if (!(ledger.impulse[Cause::collider].y > 0)) return state.SkipWithError("nobody bounces");
   state.SetLabel(simulation->backend_info().isa);
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(count));
   state.counters["deaths_a_step"] =
