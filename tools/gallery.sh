@@ -36,7 +36,9 @@ declare -A run_options=(
 
 names=("$@")
 if ((${#names[@]} == 0)); then
-  for scene in scenes/*.json; do names+=("$(basename "$scene" .json)"); done
+  for scene in scenes/*.json; do
+    [[ $scene == *-big.json ]] || names+=("$(basename "$scene" .json)")
+  done
 fi
 mkdir -p out/gallery docs/images
 for name in "${names[@]}"; do

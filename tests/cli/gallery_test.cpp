@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "bundled_scene.h"
+
+namespace hooke::test {
+namespace {
+
+TEST_P(BundledScene, EndsOnTheSameBitsAfterARestart) {
+  const bool half_a_million = GetParam() == "water" || GetParam() == "table-6.1";
+  const std::string all = half_a_million ? "12" : "240", half = half_a_million ? "6" : "120";
+  hooke_ok({"run", file(), "-o", "whole", "--steps", all, "--threads", "2", "--quiet"});
+  hooke_ok({"run", file(), "-o", "parts", "--steps", half, "--threads", "1", "--quiet"});
+  hooke_ok({"run", file(), "-o", "parts", "--steps", all, "--quiet", "--resume", "parts/checkpoint.h5"});
+  EXPECT_EQ(state_hash("parts"), state_hash("whole"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Gallery, BundledScene, testing::ValuesIn(BundledScene::names(false)), BundledScene::test_name);
+
+TEST(Gallery, HasABigSiblingOfEveryScene) {
+  const std::vector<std::string> big = BundledScene::names(true);
+  for (const std::string& name : BundledScene::names(false)) {
+    if (name == "table-6.1") continue;  // its numbers are the thesis's
+    EXPECT_TRUE(std::binary_search(big.begin(), big.end(), name + "-big")) << name;
+  }
+}
+
+}  // namespace
+}  // namespace hooke::test
