@@ -19,7 +19,7 @@ SCENES = {
     "ball-pit": (5, "500,000 balls"),
     "cloth": (3, "130,000 particles"),
     "drum": (3.5, "430,000 grains"),
-    "flag": (4, "100,000 particles"),
+    "flag": (3, "55,000 particles"),
     "fountain": (2.5, "400,000 particles"),
     "fracture": (2, "320,000 particles"),
     "hourglass": (4, "540,000 grains"),
@@ -33,6 +33,10 @@ SCENES = {
 MORE = {
     "fireworks": (20, "800,000 sparks"),
     "galaxy": (20, "400,000 stars"),
+}
+# In these there is more room, wider along x and z, for more of the same.
+WIDER = {
+    "crowd": (5, "15,000 people"),
 }
 CELLS_PER_RADIUS = 3  # of the field of a mesh, where a scene does not say
 
@@ -120,6 +124,17 @@ def make_more(scene, times):
         source["cluster"]["count"] *= times
 
 
+def make_wider(value, times):
+    """Stretches whatever is a point, but for its height."""
+    if isinstance(value, dict):
+        return {key: make_wider(inner, times) for key, inner in value.items()}
+    if not isinstance(value, list):
+        return value
+    if len(value) == 3 and all(isinstance(c, (int, float)) for c in value):
+        return [rounded(times * value[0]), value[1], rounded(times * value[2])]
+    return [make_wider(inner, times) for inner in value]
+
+
 def to_text(scene, name):
     text = json.dumps(scene, indent=2)
     # Lists of numbers, and what is short, on one line.
@@ -130,11 +145,18 @@ def to_text(scene, name):
 
 def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent / "scenes")
-    for name, (factor, count) in (SCENES | MORE).items():
+    for name, (factor, count) in (SCENES | MORE | WIDER).items():
         scene = read_scene(folder / f"{name}.json")
         scene["name"] += ", big"
         scene["description"] = f"scenes/{name}.json with {count}"
-        make_more(scene, factor) if name in MORE else make_finer(scene, factor)
+        if name in WIDER:
+            scene = make_wider(scene, factor)
+            scene["time"]["end"] *= factor
+            scene["camera"]["eye"][1] *= factor
+        elif name in MORE:
+            make_more(scene, factor)
+        else:
+            make_finer(scene, factor)
         (folder / f"{name}-big.json").write_text(to_text(scene, name), encoding="utf-8")
 
 

@@ -27,6 +27,8 @@ class EmitterCheck {
     } else if (!scene.materials[e.material].is_of_particles()) {
       add("material", fmt::format("\"{}\" has no radius and no mass: only colliders may have it",
                                   scene.materials[e.material].name));
+    } else if (scene.materials[e.material].fixed) {
+      add("material", fmt::format("\"{}\" is fixed: its particles could not leave", scene.materials[e.material].name));
     }
     if (std::holds_alternative<PlaneShape>(e.shape) || std::holds_alternative<MeshShape>(e.shape)) {
       add("shape", "must be a disc, or a box, sphere, capsule or cylinder, whose inside particles are born in");

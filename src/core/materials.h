@@ -27,6 +27,7 @@ struct Material {
   MaterialLook look = MaterialLook::ball;
   SurfaceCoefficients<double> surface{};  ///< as `contact`
   bool interacts = true;  ///< else its particles touch walls and colliders, but no particles
+  bool fixed = false;                     ///< no force moves its particles
 
   /// Else only colliders may have it.
   bool is_of_particles() const { return radius > 0; }

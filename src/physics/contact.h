@@ -127,7 +127,7 @@ struct SurfaceForces {
   }
 };
 
-/// THE FORCE LAW WITH SURFACES (docs/theory.md eq. 14). The dashpots' normal part pulls no harder than `tension`; where
+/// THE FORCE LAW WITH SURFACES (docs/theory.md eq. 17). The dashpots' normal part pulls no harder than `tension`; where
 /// the tangential part is more than mu max(0, k overlap + c_d w . n) the contact slides, and gets just that (Coulomb);
 /// cohesion pulls by its full strength where overlap >= 0, and falls linearly to 0 at overlap = -range.
 ///

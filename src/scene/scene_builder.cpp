@@ -128,6 +128,7 @@ void build_materials(const Json& materials, const Json& colliders, Scene& scene,
     material.contact.damping = value("damping", 0);
     if (entry.is_object()) material.surface = read_surface(entry, where, material.surface, findings);
     material.drag = value("drag", 0);
+    material.fixed = member(entry, "fixed") == true && !findings.touches(join_path(where, "fixed"));
     material.color = text_or(member(entry, "color"), "");
     if (member(entry, "look") == "water") material.look = MaterialLook::water;
     if (member(entry, "look") == "spark") material.look = MaterialLook::spark;

@@ -269,6 +269,35 @@ TEST(Cohesion, ReachesAcrossPeriodicFacesAndToWalls) {
   }
 }
 
+// What is fixed stays to the bit, and is a partner of infinite mass: what hits it leaves as it would leave a wall.
+TEST(Fixed, ParticlesDoNotMoveAndTurnOthersBack) {
+  for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
+    Scene scene = open_scene();
+    scene.integrator = integrator;
+    scene.gravity = {0, -9.8, 0};
+    scene.materials = {{"ball", 0.5, 1, {1000, 2, 3}, 0, ""}, {"post", 0.5, 2, {1000, 2, 3}, 0, ""}};
+    scene.materials[1].fixed = true;
+    ParticleSet particles;
+    add(particles, {0, 3, 0}, {0, 0, 0}, 0);
+    add(particles, {0, 0, 0}, {0, 0, 0}, 1);
+    Scene walled = scene;  // the same contact with a wall, which the ball's centre meets half a metre higher
+    walled.domain.boundary[1] = Boundary::spring;
+    walled.domain.min.y = 0;
+    ParticleSet alone;
+    add(alone, {0, 2.5, 0}, {0, 0, 0}, 0);
+    for (const Engine& engine : {kReference, kCpuDouble}) {
+      Simulation s = simulate(scene, particles, engine), expected = simulate(walled, alone, engine);
+      ASSERT_TRUE(advance(s, 800) && advance(expected, 800));
+      EXPECT_GT(s.velocities()[0].y, 0) << "on its way up";
+      EXPECT_EQ(s.positions()[1], (Vec3d{0, 0, 0}));
+      EXPECT_EQ(s.velocities()[1], (Vec3d{0, 0, 0}));
+      EXPECT_NEAR(s.positions()[0].y, expected.positions()[0].y + 0.5, 1e-11);
+      EXPECT_NEAR(s.velocities()[0].y, expected.velocities()[0].y, 1e-10);
+      EXPECT_GT(s.ledger().impulse[Cause::hold].y, 1) << "kept from falling, and from being knocked down";
+    }
+  }
+}
+
 // The ledger's kinetic balance holds with sliding contacts, and friction is a cause of its own in it.
 TEST(Friction, IsInTheLedger) {
   for (const Engine& engine : {kReference, kCpuDouble}) {

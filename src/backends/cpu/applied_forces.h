@@ -42,7 +42,13 @@ class AppliedForces {
     births_ = !scene.emitters.empty();
     kick_ = scene.integrator == Integrator::velocity_verlet ? scene.time_step / 2 : scene.time_step;
     mass_.clear();
-    for (const Material& m : scene.materials) mass_.push_back(m.mass);
+    fixed_.clear();
+    any_fixed_ = false;
+    for (const Material& m : scene.materials) {
+      mass_.push_back(m.mass);
+      fixed_.push_back(m.fixed);
+      any_fixed_ = any_fixed_ || m.fixed;
+    }
     springs_.configure(scene, rules, loops.spring_pass);
     fields_.configure(scene);
     attraction_.configure(scene, loops.attraction);
@@ -61,14 +67,21 @@ class AppliedForces {
     fields_.bind(ids);
     held_ranks_.clear();
     held_ = {};
-    const bool holds = structure_ && !structure_->held.empty();
-    if (holds || births_) find_places(records, count, ids.size());
-    if (!holds) return;
-    for (const std::uint64_t id : structure_->held) {
-      const std::size_t rank = ids.find(id);
-      if (rank < ids.size()) held_ranks_.push_back(static_cast<std::uint32_t>(rank));
+    std::vector<std::uint32_t>& held = held_ranks_;
+    if (structure_) {
+      for (const std::uint64_t id : structure_->held) {
+        const std::size_t rank = ids.find(id);
+        if (rank < ids.size()) held.push_back(static_cast<std::uint32_t>(rank));
+      }
     }
-    if (!held_ranks_.empty()) find_held(count);
+    for (std::size_t i = 0; any_fixed_ && i < count; ++i) {
+      const Record& p = records[i];
+      if (!is_nowhere(p) && fixed_[static_cast<std::size_t>(p.material)]) {
+        held.push_back(static_cast<std::uint32_t>(rank_of(p.rank)));
+      }
+    }
+    if (!held.empty() || births_) find_places(records, count, ids.size());
+    if (!held.empty()) find_held(count);
   }
 
   /// A particle is born into `slot` with the last of `ranks`: nothing ties or holds it.
@@ -201,6 +214,8 @@ class AppliedForces {
   std::shared_ptr<const Structure> structure_;
   double kick_ = 0;  // s
   std::vector<double> mass_;  // by material, kg
+  std::vector<bool> fixed_;  // likewise
+  bool any_fixed_ = false;
   SpringLists<Real> springs_;
   FieldForces<Real> fields_;
   AttractionForces<Real> attraction_;

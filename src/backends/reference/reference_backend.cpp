@@ -58,7 +58,7 @@ class ReferenceBackend final : public Backend {
     if (p_.empty() || p_.id.back() < first_new_id) return {};
     Forces now = accelerations();
     for (std::size_t i = 0; i < p_.size(); ++i) {
-      const bool held = springs_.is_held(p_.id[i]);
+      const bool held = is_held(i);
       if (held) {
         const Vec3d& v = p_.velocity[i];
         now.applied_sums.add_held(material(i).mass, v, kick(v, now.a[i], scene_.time_step / 2), scene_.time_step / 2);
@@ -86,7 +86,7 @@ class ReferenceBackend final : public Backend {
   void half_kick_and_drift() override {
     const Stopwatch drifting(times_.drift);
     for (std::size_t i = 0; i < p_.size(); ++i) {
-      if (springs_.is_held(p_.id[i])) continue;
+      if (is_held(i)) continue;
       p_.velocity[i] = kick(p_.velocity[i], p_.acceleration[i], scene_.time_step / 2);
       p_.position[i] = drift(p_.position[i], p_.velocity[i], scene_.time_step);
     }
@@ -113,7 +113,7 @@ class ReferenceBackend final : public Backend {
     for (std::size_t i = 0; i < p_.size(); ++i) {
       const Vec3d before = p_.velocity[i];
       const Vec3d kicked = kick(before, forces.a[i], kick_time);
-      if (springs_.is_held(p_.id[i])) {
+      if (is_held(i)) {
         forces.applied_sums.add_held(material(i).mass, before, kicked, kick_time);
         forces.a[i] = {0, 0, 0};
       } else {
@@ -217,6 +217,7 @@ class ReferenceBackend final : public Backend {
 
   bool verlet() const { return scene_.integrator == Integrator::velocity_verlet; }
   bool has_one_material() const { return scene_.materials.size() == 1; }
+  bool is_held(std::size_t i) const { return material(i).fixed || springs_.is_held(p_.id[i]); }
   const Material& material(std::size_t i) const { return scene_.materials[p_.material[i]]; }
   double largest_radius() const {
     double largest = 0;
@@ -312,7 +313,7 @@ class ReferenceBackend final : public Backend {
         power[Cause::drag].add(dot(drag, twice_mean));
         power[Cause::gravity].add(m.mass * dot(scene_.gravity, twice_mean));
       };
-      const bool held = springs_.is_held(p_.id[i]);
+      const bool held = is_held(i);
       const Vec3d after = held ? v : kick(v, out.a[i], verlet() ? dt / 2 : dt);
       add_powers(out.sums.power, v, after);
       if (verlet()) add_powers(out.sums.next_power, after, held ? v : kick(after, out.a[i], dt / 2));
