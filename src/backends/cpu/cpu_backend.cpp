@@ -15,9 +15,10 @@
 
 #include "hooke/backends/cpu/applied_forces.h"
 #include "hooke/backends/cpu/boundaries.h"
+#include "hooke/backends/cpu/bounding_box.h"
 #include "hooke/backends/cpu/collider_rules.h"
 #include "hooke/backends/cpu/column_store.h"
-#include "hooke/backends/cpu/contact_scan.h"
+#include "hooke/backends/cpu/contact_reports.h"
 #include "hooke/backends/cpu/departures.h"
 #include "hooke/backends/cpu/id_table.h"
 #include "hooke/backends/cpu/isa.h"
@@ -288,8 +289,12 @@ class CpuBackend final : public Backend {
     }
     MeasurementSums total;
     for_ranges(slots_.end(), kSegment, [&](std::size_t first, std::size_t last) {
+      const ContactScan<Real> scan(pass_, records_.data());
       MeasurementSums part;
-      for (std::size_t i = first; i < last; ++i) measure_particle(i, part);
+      for (std::size_t i = first; i < last; ++i) {
+        if (is_nowhere(records_[i])) continue;
+        measure_particle(scan, i, rows_of(i / kSegment, i % kSegment / kLanes), records_[i], scene_, part);
+      }
       const std::lock_guard lock(mutex_);
       total.add(part);
     });
@@ -392,41 +397,11 @@ class CpuBackend final : public Backend {
 
   // Neighbours -------------------------------------------------------------------------------------------------------
 
-  // The box around all particles, or the particle that is at no place.
-  Condition bounding_box(Vec3d& min, Vec3d& max) const {
-    min = {INFINITY, INFINITY, INFINITY};
-    max = {-INFINITY, -INFINITY, -INFINITY};
-    Condition condition;
-    parallel_ranges(slots_.listed_end(), kSegment, [&](std::size_t first, std::size_t last) {
-      Vec3<Real> low = vec_cast<Real>(Vec3d{INFINITY, INFINITY, INFINITY}), high = -low;
-      Condition found;
-      for (std::size_t i = first; i < last; ++i) {
-        const Record& p = records_[i];
-        if (is_nowhere(p)) continue;
-        for (int axis = 0; axis < 3; ++axis) {
-          const Real x = component(p.x, axis);
-          if (!(std::abs(x) < static_cast<Real>(kFurthest))) {
-            const auto kind = std::isfinite(x) ? Condition::Kind::grid_overflow : Condition::Kind::not_finite;
-            found = Condition::first(found, {kind, ids_[rank_of(p.rank)], 0, 0});
-          }
-          component(low, axis) = std::min(component(low, axis), x);
-          component(high, axis) = std::max(component(high, axis), x);
-        }
-      }
-      const std::lock_guard lock(mutex_);
-      condition = Condition::first(condition, found);
-      for (int axis = 0; axis < 3; ++axis) {
-        component(min, axis) = std::min<double>(component(min, axis), component(low, axis));
-        component(max, axis) = std::max<double>(component(max, axis), component(high, axis));
-      }
-    });
-    return condition;
-  }
-
   Condition sort_by_cell() {
     const Stopwatch sorting(times_.sort);
     Vec3d min, max;
-    if (const Condition condition = bounding_box(min, max); !condition.good()) return condition;
+    const Condition condition = bounding_box(records_.data(), slots_.listed_end(), ids_, min, max);
+    if (!condition.good()) return condition;
     for (int axis = 0; axis < 3; ++axis) {
       if (alive_ > alive_loose_ && !pass_.periodic[axis]) continue;
       component(min, axis) = component(pass_.min, axis);
@@ -541,59 +516,18 @@ class CpuBackend final : public Backend {
     return list_.rows(s, g);
   }
 
-  // The approach that was too fast, if one was: in double precision, each pair by its own limit.
+  // The approach that was too fast, if one was.
   Condition look_closely(std::size_t s, std::size_t g) const {
     const ContactScan<Real> scan(pass_, records_.data());
     const auto rows = rows_of(s, g);
     Condition found;
     const std::size_t first = s * kSegment + g * kLanes;
     for (std::size_t i = first; i < std::min(first + kLanes, slots_.end_of(s)); ++i) {
-      if (is_nowhere(records_[i])) continue;
-      const Vec3d v = vec_cast<double>(records_[i].v);
-      const double radius = material_of(records_[i]).radius;
-      const std::uint64_t id = ids_[rank_of(records_[i].rank)];
-      scan.for_each_contact(i, rows, [&](std::size_t p, const Vec3d& normal, double overlap) {
-        const double approach = dot(vec_cast<double>(records_[p].v) - v, normal);
-        if (overlap > 0 && approach > std::min(radius, material_of(records_[p]).radius) / scene_.time_step) {
-          found = Condition::first(found,
-                                   {Condition::Kind::approach_too_fast, id, ids_[rank_of(records_[p].rank)], approach});
-        }
-      });
-      scan.for_each_wall(i, [&](const Vec3d& normal, double overlap) {
-        const double approach = dot(-v, normal);
-        if (overlap > 0 && approach > radius / scene_.time_step) {
-          found = Condition::first(found, {Condition::Kind::wall_approach_too_fast, id, 0, approach});
-        }
-      });
-      scan.for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double overlap) {
-        const double approach = dot(face.velocity - v, face.normal);
-        if (overlap > 0 && approach > radius / scene_.time_step) {
-          found = Condition::first(found, {Condition::Kind::collider_approach_too_fast, id, c, approach});
-        }
-      });
+      if (!is_nowhere(records_[i])) {
+        found = Condition::first(found, approach_too_fast(scan, i, rows, records_.data(), scene_, ids_));
+      }
     }
     return found;
-  }
-
-  void measure_particle(std::size_t i, MeasurementSums& sums) const {
-    const Record& p = records_[i];
-    if (is_nowhere(p)) return;
-    const ContactScan<Real> scan(pass_, records_.data());
-    const auto rows = rows_of(i / kSegment, i % kSegment / kLanes);
-    const Vec3d v = vec_cast<double>(p.v);
-    sums.add_particle(material_of(p).mass, vec_cast<double>(p.x), v, scene_.gravity);
-    scan.for_each_contact(i, rows, [&](std::size_t q, const Vec3d&, double overlap) {
-      sums.add_contact_side(law_of(scan.pair(i, q)), overlap, scan.pair(i, q).reach);
-    });
-    scan.for_each_wall(i, [&](const Vec3d& normal, double overlap) {
-      const ContactLaw<double> law = law_of(scan.wall(i));
-      sums.add_wall_contact(law, overlap, contact_force(overlap, normal, -v, law));
-    });
-    scan.for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double overlap) {
-      const ContactLaw<double> law = law_of(scan.collider(i, c));
-      const Vec3d force = contact_force(overlap, face.normal, face.velocity - v, law);
-      sums.add_collider_contact(c, face.point, law, overlap, force);
-    });
   }
 
   // Accelerations a(x, v) of the particles that have none of a last step.

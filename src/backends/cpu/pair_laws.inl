@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+// The laws of the lanes' pairs, with each other, with walls and with colliders, by how many materials a scene has: a part
+// of force_pass.inl, which includes it inside of the instruction set's namespace.
+
+// How many materials there are, and whether their surfaces act: then contacts follow the law with surfaces. Of a few
+// all coefficients are kept in registers, of one without surfaces they are always the same.
+enum class Materials { one, few, many, few_surfaces, many_surfaces };
+constexpr bool have_surfaces(Materials m) { return m == Materials::few_surfaces || m == Materials::many_surfaces; }
+constexpr bool are_few(Materials m) { return m == Materials::few || m == Materials::few_surfaces; }
+
+// What kind of contact a lane has.
+template <class Real>
+struct LinearPair {
+  ContactCoefficients<Pack<Real>> law;
+  Pack<Real> reach;
+};
+template <class Real>
+struct SurfacePair {
+  ContactLaw<Pack<Real>> law;
+  Pack<Real> reach;
+};
+
+// A row a lane of a table of pairs.
+template <class Real, Materials kMaterials>
+HOOKE_HD auto load_pairs(const PairRow<Real>* table, const Pack<Real>& index) {
+  const Quad<Real> linear = load_rows(table, index, 0);
+  if constexpr (have_surfaces(kMaterials)) {
+    const Quad<Real> surface = load_rows(table, index, 1);
+    return SurfacePair<Real>{{{linear.a, linear.b, linear.c}, {surface.a, surface.b, surface.c, surface.d}}, linear.d};
+  } else {
+    return LinearPair<Real>{{linear.a, linear.b, linear.c}, linear.d};
+  }
+}
+
+// What the lanes' particles have with others of some materials.
+template <class Real, Materials kMaterials>
+struct PairTable {
+  using P = Pack<Real>;
+  HOOKE_HD PairTable(const ForcePass<Real>& pass, const P& material)
+      : pairs(pass.pairs),
+        first(material * P(static_cast<Real>(pass.material_count))) {}
+  HOOKE_HD auto lookup(const P& material) const { return load_pairs<Real, kMaterials>(pairs, first + material); }
+  const PairRow<Real>* pairs;
+  P first;
+};
+template <class Real>
+struct PairTable<Real, Materials::one> {
+  using P = Pack<Real>;
+  HOOKE_HD PairTable(const ForcePass<Real>& pass, const P&) : only(*pass.pairs) {}
+  HOOKE_HD LinearPair<Real> lookup(const P&) const {
+    return {{P(only.stiffness), P(only.shear), P(only.damping)}, P(only.reach)};
+  }
+  const PairRow<Real>& only;
+};
+template <class Real>
+struct PairTable<Real, Materials::few> {
+  using P = Pack<Real>;
+  HOOKE_HD PairTable(const ForcePass<Real>& pass, const P& material)
+      : first(material * P(static_cast<Real>(pass.material_count))),
+        stiffness(pass.few->stiffness),
+        shear(pass.few->shear),
+        damping(pass.few->damping),
+        reach(pass.few->reach) {}
+  HOOKE_HD LinearPair<Real> lookup(const P& material) const {
+    const P at = first + material;
+    return {{stiffness.lookup(at), shear.lookup(at), damping.lookup(at)}, reach.lookup(at)};
+  }
+  P first;
+  SmallTable<Real> stiffness, shear, damping, reach;
+};
+template <class Real>
+struct PairTable<Real, Materials::few_surfaces> {
+  using P = Pack<Real>;
+  HOOKE_HD PairTable(const ForcePass<Real>& pass, const P& material)
+      : linear(pass, material),
+        friction(pass.few->friction),
+        tension(pass.few->tension),
+        cohesion(pass.few->cohesion),
+        range(pass.few->range) {}
+  HOOKE_HD SurfacePair<Real> lookup(const P& material) const {
+    const LinearPair<Real> pair = linear.lookup(material);
+    const P at = linear.first + material;
+    return {{pair.law, {friction.lookup(at), tension.lookup(at), cohesion.lookup(at), range.lookup(at)}}, pair.reach};
+  }
+  PairTable<Real, Materials::few> linear;
+  SmallTable<Real> friction, tension, cohesion, range;
+};
+
+// What the lanes' particles have with walls.
+template <class Real, Materials kMaterials>
+HOOKE_HD auto wall_pairs_of(const ForcePass<Real>& pass, const Lanes<Real>& own) {
+  using P = Pack<Real>;
+  if constexpr (kMaterials == Materials::one) {
+    const PairRow<Real>& m = *pass.wall_pairs;
+    return LinearPair<Real>{{P(m.stiffness), P(m.shear), P(m.damping)}, P(m.reach)};
+  } else {
+    return load_pairs<Real, kMaterials>(pass.wall_pairs, own.material);
+  }
+}
+
+// Inverse mass, drag and mass of the lanes' particles.
+template <class Real, Materials kMaterials>
+HOOKE_HD Quad<Real> body_of(const ForcePass<Real>& pass, const Lanes<Real>& own) {
+  using P = Pack<Real>;
+  if constexpr (kMaterials == Materials::one) {
+    const MaterialRow<Real>& m = pass.materials[0];
+    return {P(m.inverse_mass), P(m.drag), P(m.mass), P(Real(0))};
+  } else if constexpr (are_few(kMaterials)) {
+    const auto column = [&](const Real* of) { return SmallTable<Real>(of).lookup(own.material); };
+    return {column(pass.few->inverse_mass), column(pass.few->drag), column(pass.few->mass), P(Real(0))};
+  } else {
+    return load_quads(Real{}, [&](int lane) {
+      return reinterpret_cast<const Real*>(pass.materials + static_cast<std::size_t>(own.material.v[lane]));
+    });
+  }
+}
+
+template <class Real>
+HOOKE_HD void add_where(const Mask<Real>& m, Vec3<Pack<Real>>& sum, const Vec3<Pack<Real>>& b) {
+  sum = {add_where(m, sum.x, b.x), add_where(m, sum.y, b.y), add_where(m, sum.z, b.z)};
+}
+
+// The contacts of the lanes' particles with others: of one material summed before its coefficients are applied. The
+// vectors are handed over as they are computed: of a local copy of them GCC 12 keeps one in memory.
+template <class Real, Materials kMaterials, bool = have_surfaces(kMaterials)>
+struct Contacts {
+  using P = Pack<Real>;
+  ContactForces<P> sum;
+
+  HOOKE_HD void add(const Mask<Real>& acting, const ContactVectors<P>& contact, const ContactCoefficients<P>& law) {
+    const ContactForces<P> forces = contact_forces(contact, law);
+    add_where(acting, sum.spring, forces.spring);
+    add_where(acting, sum.shear, forces.shear);
+    add_where(acting, sum.damping, forces.damping);
+  }
+  HOOKE_HD ContactForces<P> forces(const ForcePass<Real>&) const { return sum; }
+};
+template <class Real>
+struct Contacts<Real, Materials::one, false> {
+  using P = Pack<Real>;
+  ContactVectors<P> sum;
+
+  HOOKE_HD void add(const Mask<Real>& acting, const ContactVectors<P>& contact, const ContactCoefficients<P>&) {
+    add_where(acting, sum.overlap, contact.overlap);
+    add_where(acting, sum.normal, contact.normal);
+    add_where(acting, sum.relative, contact.relative);
+  }
+  HOOKE_HD ContactForces<P> forces(const ForcePass<Real>& pass) const {
+    const PairRow<Real>& pair = *pass.pairs;
+    return contact_forces(sum, ContactCoefficients<P>{P(pair.stiffness), P(pair.shear), P(pair.damping)});
+  }
+};
+template <class Real, Materials kMaterials>
+struct Contacts<Real, kMaterials, true> {
+  using P = Pack<Real>;
+  SurfaceForces<P> sum;
+
+  HOOKE_HD void add(const Mask<Real>& acting, const SurfaceForces<P>& forces) {
+    add_where(acting, sum.linear.spring, forces.linear.spring);
+    add_where(acting, sum.linear.shear, forces.linear.shear);
+    add_where(acting, sum.linear.damping, forces.linear.damping);
+    add_where(acting, sum.friction, forces.friction);
+  }
+  HOOKE_HD SurfaceForces<P> forces(const ForcePass<Real>&) const { return sum; }
+};
+
+// Mask of lanes on which something acts that overlaps so far: it touches them, or cohesion reaches across the gap.
+template <class Real>
+HOOKE_HD Mask<Real> acts(const Pack<Real>& overlap, const ContactCoefficients<Pack<Real>>&) {
+  return overlap > Pack<Real>(Real(0));
+}
+template <class Real>
+HOOKE_HD Mask<Real> acts(const Pack<Real>& overlap, const ContactLaw<Pack<Real>>& law) {
+  return overlap > -law.surface.range;
+}
