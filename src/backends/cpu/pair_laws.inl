@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// The laws of the lanes' pairs, with each other, with walls and with colliders, by how many materials a scene has: a part
-// of force_pass.inl, which includes it inside of the instruction set's namespace.
+// The laws of the lanes' pairs, with each other, with walls and with colliders, by how many materials a scene has: a
+// part of force_pass.inl, which includes it inside of the instruction set's namespace.
 
 // How many materials there are, and whether their surfaces act: then contacts follow the law with surfaces. Of a few
 // all coefficients are kept in registers, of one without surfaces they are always the same.
