@@ -52,6 +52,7 @@ class AppliedForces {
     springs_.configure(scene, rules, loops.spring_pass);
     fields_.configure(scene);
     attraction_.configure(scene, loops.attraction);
+    work_pass_ = loops.work_pass;
   }
 
   SpringLists<Real>& springs() { return springs_; }
@@ -142,8 +143,8 @@ class AppliedForces {
     return acting_.empty() ? nullptr : acting_.size() == 1 ? acting_.front().force : total_.data();
   }
 
-  /// After the pass over particles `first` to `last` - 1: puts held ones back to where they were, and adds up what all
-  /// of this did. `acceleration` (velocity Verlet, else null) is that of the half kick to come.
+  /// After the pass over particles `first` to `last` - 1, of one segment: puts held ones back to where they were, and
+  /// adds up what all of this did. `acceleration` (velocity Verlet, else null) is that of the half kick to come.
   void settle(std::size_t first, std::size_t last, const Record* before, Record* after, Vec3<Real>* acceleration,
               AppliedSums& sums) const {
     hold_still(first, last, before, after, acceleration, sums);
@@ -191,24 +192,21 @@ class AppliedForces {
 
   void add_work(const Acting& acting, std::size_t first, std::size_t last, const Record* before, const Record* after,
                 const Vec3<Real>* acceleration, AppliedSums& sums) const {
-    constexpr std::size_t kAtOnce = 64;
+    const bool external = acting.cause != Cause::springs;  // they give each other what they take
+    std::array<ExactParts, WorkSum::count> parts;
+    for (ExactParts& part : parts) part.count = 0;
+    work_pass_(
+        {before + first, after + first, acting.force + first, acceleration == nullptr ? nullptr : acceleration + first,
+         static_cast<Real>(kick_), last - first, external},
+        parts.data());
     AppliedSums::Rates& rates = sums[acting.cause];
-    for (; first < last; first += kAtOnce) {
-      const std::size_t n = std::min(kAtOnce, last - first);
-      std::array<Real, kAtOnce> power, next_power, force[3];
-      for (std::size_t k = 0; k < n; ++k) {
-        const std::size_t i = first + k;
-        const Vec3<Real>& f = acting.force[i];
-        for (int axis = 0; axis < 3; ++axis) force[axis][k] = component(f, axis);
-        power[k] = dot(f, before[i].v + after[i].v);
-        if (acceleration == nullptr) continue;
-        next_power[k] = dot(f, after[i].v + kick(after[i].v, acceleration[i], static_cast<Real>(kick_)));
-      }
-      rates.power.add(power.data(), n);
-      if (acceleration != nullptr) rates.next_power.add(next_power.data(), n);
-      if (acting.cause == Cause::springs) continue;  // they give each other what they take
-      for (int axis = 0; axis < 3; ++axis) rates.force[axis].add(force[axis].data(), n);
-    }
+    const auto add = [&](int sum, ExactSum& to) {
+      const ExactParts& part = parts[static_cast<std::size_t>(sum)];
+      to.add(part.values, part.count);
+    };
+    add(WorkSum::power, rates.power);
+    add(WorkSum::next_power, rates.next_power);
+    for (int axis = 0; axis < 3; ++axis) add(WorkSum::force + axis, rates.force[axis]);
   }
 
   std::shared_ptr<const Structure> structure_;
@@ -219,6 +217,7 @@ class AppliedForces {
   SpringLists<Real> springs_;
   FieldForces<Real> fields_;
   AttractionForces<Real> attraction_;
+  WorkPassFunction<Real> work_pass_ = nullptr;
   std::vector<Acting> acting_;  // in the order of their sum
   LargeVector<Vec3<Real>> total_;  // where several act
   std::vector<std::uint32_t> held_ranks_;

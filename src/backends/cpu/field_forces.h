@@ -71,13 +71,15 @@ class FieldForces {
 
   /// Sums the forces on the first `count` records; `place` tells where each rank is (needs_places()).
   void apply(const LargeVector<Record>& records, std::size_t count, const std::vector<std::uint32_t>& place) {
-    force_.assign(records.size(), {Real(0), Real(0), Real(0)});
+    force_.resize(records.size());
+    bool none_yet = true;
     for (const PlacedField<Real>& field : place_fields<Real>(scene_, time_)) {
       const bool on_sheets = field.blows_on_sheets() && !triangles_.empty();
       if (on_sheets) apply_to_triangles(field, records, place);
       parallel_ranges(count, kRange, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
           const Record& p = records[i];
+          if (none_yet) force_[i] = {Real(0), Real(0), Real(0)};
           if (is_nowhere(p)) continue;
           const auto material = static_cast<std::size_t>(p.material);
           if (field.acts_on(material, p.x)) force_[i] += field.force(material, p.x, p.v);
@@ -86,6 +88,7 @@ class FieldForces {
           for (std::uint32_t k = first_[rank]; k < first_[rank + 1]; ++k) force_[i] += on_triangle_[own_[k]];
         }
       });
+      none_yet = false;
     }
   }
 

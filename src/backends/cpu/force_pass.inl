@@ -232,18 +232,6 @@ HOOKE_HD Mask<Real> is_far(const ForcePass<Real>& pass, const Vec3<Pack<Real>>& 
   return !(dot(off, off) <= P(anchor.limit2(pass.next_step)));
 }
 
-// Consecutive vectors, one a lane.
-template <class Real>
-HOOKE_HD Vec3<Pack<Real>> load_vectors(const Vec3<Real>* from) {
-  Vec3<Pack<Real>> a;
-  for (std::size_t lane = 0; lane < Pack<Real>::kLanes; ++lane) {
-    a.x.v[lane] = from[lane].x;
-    a.y.v[lane] = from[lane].y;
-    a.z.v[lane] = from[lane].z;
-  }
-  return a;
-}
-
 // Whether any lane touches a wall, or a collider.
 struct Touching {
   bool others = true, wall = false, collider = false;

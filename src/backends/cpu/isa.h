@@ -8,6 +8,7 @@
 #include "hooke/backends/cpu/attraction_pass.h"
 #include "hooke/backends/cpu/force_pass.h"
 #include "hooke/backends/cpu/spring_pass.h"
+#include "hooke/backends/cpu/work_pass.h"
 #include "hooke/base/expected.h"
 #include "hooke/neighbours/group_search.h"
 
@@ -19,6 +20,7 @@ struct Loops {
   ForcePassFunction<Real> force_pass;
   GroupSearchFunction<Real> search_group;
   SpringPassFunction<Real> spring_pass;
+  WorkPassFunction<Real> work_pass;
   AttractionLoops<Real> attraction;
 };
 

@@ -200,6 +200,18 @@ HOOKE_HD void store_two_quads(const TwoQuads<Real>& q, const At& at) {
   store_quads(q.second, [&](int lane) { return at(lane) + 4; });
 }
 
+/// Consecutive vectors, one a lane.
+template <class Real>
+HOOKE_HD Vec3<Pack<Real>> load_vectors(const Vec3<Real>* from) {
+  Vec3<Pack<Real>> a;
+  for (std::size_t lane = 0; lane < Pack<Real>::kLanes; ++lane) {
+    a.x.v[lane] = from[lane].x;
+    a.y.v[lane] = from[lane].y;
+    a.z.v[lane] = from[lane].z;
+  }
+  return a;
+}
+
 /// The 16 numbers at `from`, which is aligned to all of them, of which each lane asks for one: lookup() takes whole
 /// numbers from 0 to 15. In registers where those can be asked.
 template <class Real>

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+#include "hooke/backends/cpu/force_pass.h"
+#include "hooke/backends/cpu/particle_record.h"
+#include "hooke/base/vec3.h"
+
+namespace hooke {
+
+// The work of an applied force as seen from outside; rules of inclusion as in force_pass.h.
+
+/// What a force did to consecutive particles in a kick, and what of it is summed.
+template <class Real>
+struct ForceWork {
+  static constexpr std::size_t kMost = ExactParts::kMost;
+  const ParticleRecord<Real>* before = nullptr;  // the first particle's
+  const ParticleRecord<Real>* after = nullptr;
+  const Vec3<Real>* force = nullptr;             // N
+  const Vec3<Real>* acceleration = nullptr;      // velocity Verlet: of the kick to come, m/s^2; else null
+  Real kick{};                                   // how long that takes, s
+  std::size_t count = 0;                         // at most kMost; whole groups of 16 can be read
+  bool external = true;                          // the force itself is summed too
+};
+
+/// Powers are those of twice the mean velocity, W, as in PassSum.
+struct WorkSum {
+  enum { power, next_power, force, count = force + 3 };
+};
+
+/// Adds up WorkSum::count sums.
+template <class Real>
+using WorkPassFunction = void (*)(const ForceWork<Real>& work, ExactParts* sums);
+
+}  // namespace hooke
