@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hooke/base/random.h"
 #include "hooke/base/sine.h"
 #include "hooke/core/placed_colliders.h"
+#include "hooke/physics/enclosure.h"
 
 namespace hooke {
 namespace {
@@ -92,17 +94,63 @@ Vec3d draw_point(const ShapeGeometry<double>& s, std::uint64_t seed, std::uint64
   }
 }
 
+// A point inside of a closed mesh, in the frame of `s`: drawn from the box around it.
+Vec3d draw_inside(const DistanceField& field, const ShapeGeometry<double>& s, std::uint64_t seed, std::uint64_t number,
+                  std::uint32_t attempt, std::uint32_t purpose) {
+  constexpr std::uint32_t kMost = 4096;  // of a mesh that fills a hundredth of its box one in 10^17 births finds none
+  const Vec3d from = field.min - field.origin, size = field.max - field.min;
+  for (std::uint32_t k = 0; k < kMost; ++k) {
+    const auto u = uniform4(seed, number, attempt * kMost + k, purpose);
+    const Vec3d at = from + Vec3d{u[0] * size.x, u[1] * size.y, u[2] * size.z};
+    if (encloses(s.field, at)) return s.center + at;
+  }
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  return {kNone, kNone, kNone};
+}
+
+// A point of a triangle that is as likely as it is large (Turk, "Generating random points in triangles", Graphics Gems,
+// 24, 1990).
+Vec3d draw_on_faces(const MeshShape& mesh, const ShapeGeometry<double>& s, std::span<const double> areas,
+                    const std::array<double, 4>& u) {
+  const auto found = std::upper_bound(areas.begin(), areas.end() - 1, u[0] * areas.back());
+  const auto& corners = mesh.surface->triangles[static_cast<std::size_t>(found - areas.begin())];
+  const auto corner = [&](std::size_t k) { return mesh.surface->vertices[corners[k]]; };
+  const double away = std::sqrt(u[1]);  // from the first corner, of the way to the opposite edge
+  const Vec3d at = (1 - away) * corner(0) + (away * (1 - u[2])) * corner(1) + (away * u[2]) * corner(2);
+  return s.center + (at - mesh.field->origin);
+}
+
 Vec3d turned(const PlacedCollider<double>& body, const Vec3d& own) {
   return own.x * body.turn[0] + own.y * body.turn[1] + own.z * body.turn[2];
 }
 
 }  // namespace
 
-PlacedEmitter place_emitter(const Emitter& emitter, std::uint32_t index, double time, double reach) {
+bool is_open_mesh(const Shape& shape) {
+  const auto* mesh = std::get_if<MeshShape>(&shape);
+  return mesh != nullptr && mesh->field && mesh->field->open;
+}
+
+std::vector<double> areas_of_birth(const Shape& shape) {
+  std::vector<double> areas;
+  if (!is_open_mesh(shape)) return areas;
+  const TriangleMesh& mesh = *std::get<MeshShape>(shape).surface;
+  double sum = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vec3d& a = mesh.vertices[t[0]];
+    const Vec3d twice = cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
+    areas.push_back(sum += 0.5 * std::sqrt(dot(twice, twice)));
+  }
+  return areas;
+}
+
+PlacedEmitter place_emitter(const Emitter& emitter, std::uint32_t index, double time, double reach,
+                            std::span<const double> areas) {
   const Collider body{emitter.name, emitter.shape, false, {}, emitter.motion};
   PlacedEmitter placed;
   placed.emitter = &emitter;
   placed.index = index;
+  placed.areas = areas;
   placed.body = place_collider<double>(body, pose_at(body, time), reach);
   placed.direction = (1 / std::sqrt(dot(emitter.direction, emitter.direction))) * emitter.direction;
   placed.cosine = sine_cosine_of_turns(emitter.spread / 360).cosine;
@@ -110,8 +158,16 @@ PlacedEmitter place_emitter(const Emitter& emitter, std::uint32_t index, double 
 }
 
 Vec3d draw_position(const PlacedEmitter& emitter, std::uint64_t number, std::uint32_t attempt) {
-  const Vec3d own =
-      draw_point(emitter.body.shape, emitter.emitter->seed, number, attempt, stream(emitter.index, Draw::position));
+  const ShapeGeometry<double>& shape = emitter.body.shape;
+  const std::uint64_t seed = emitter.emitter->seed;
+  const std::uint32_t purpose = stream(emitter.index, Draw::position);
+  Vec3d own;
+  if (const auto* mesh = std::get_if<MeshShape>(&emitter.emitter->shape)) {
+    own = mesh->field->open ? draw_on_faces(*mesh, shape, emitter.areas, uniform4(seed, number, attempt, purpose))
+                            : draw_inside(*mesh->field, shape, seed, number, attempt, purpose);
+  } else {
+    own = draw_point(shape, seed, number, attempt, purpose);
+  }
   return emitter.body.pivot + turned(emitter.body, own);
 }
 

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "hooke/core/emitters.h"
 #include "hooke/physics/collider.h"
@@ -20,12 +22,22 @@ struct PlacedEmitter {
   PlacedCollider<double> body;    ///< its shape and motion
   Vec3d direction{0, 1, 0};       ///< unit vector, in the body's own frame
   double cosine = 1;              ///< of the spread
+  std::span<const double> areas;  ///< areas_of_birth()
 };
 
-/// The `index`-th emitter of a scene at `time` (s). `reach`: what its body's box is to be larger by, m.
-PlacedEmitter place_emitter(const Emitter& emitter, std::uint32_t index, double time, double reach);
+/// Whether births are spread over the faces of the shape, as it has no inside.
+bool is_open_mesh(const Shape& shape);
+
+/// Of an open mesh the area of each triangle and all before it, m^2; else empty.
+std::vector<double> areas_of_birth(const Shape& shape);
+
+/// The `index`-th emitter of a scene at `time` (s). `reach`: what its body's box is to be larger by, m. `areas`, those
+/// of its shape, are kept by the caller.
+PlacedEmitter place_emitter(const Emitter& emitter, std::uint32_t index, double time, double reach,
+                            std::span<const double> areas = {});
 
 /// Where the birth of this number may take place, m: evenly distributed over the shape, one place for each `attempt`.
+/// Not a number where a mesh fills so little of the box around it that none was found inside.
 Vec3d draw_position(const PlacedEmitter& emitter, std::uint64_t number, std::uint32_t attempt);
 
 /// With what velocity, m/s, at x (m): speed evenly distributed over its range, direction over the cone's solid angle,

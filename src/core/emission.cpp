@@ -47,7 +47,11 @@ std::vector<Finding> check_state(const EmissionState& state, const Scene& scene)
   return findings;
 }
 
-void Emission::configure(const Scene& scene) { emitters_.resize(scene.emitters.size()); }
+void Emission::configure(const Scene& scene) {
+  emitters_.resize(scene.emitters.size());
+  areas_.clear();
+  for (const Emitter& emitter : scene.emitters) areas_.push_back(areas_of_birth(emitter.shape));
+}
 
 EmissionState Emission::state() const {
   EmissionState state;
@@ -106,7 +110,7 @@ void Emission::emit(const Scene& scene, std::uint32_t index, std::int64_t step, 
   }
   FreeSpace space(scene, emitter.material, colliders);
   const double time = static_cast<double>(step) * scene.time_step;
-  const PlacedEmitter placed = place_emitter(emitter, index, time, space.reach());
+  const PlacedEmitter placed = place_emitter(emitter, index, time, space.reach(), areas_[index]);
   if (material.interacts) {
     ShapeBounds box{placed.body.near_from, placed.body.near_to};
     for (int axis = 0; axis < 3; ++axis) {  // who is near across a periodic face is near

@@ -80,6 +80,7 @@ class Emission {
                    std::uint64_t wanted);
 
   std::vector<EmitterState> emitters_;
+  std::vector<std::vector<double>> areas_;  // areas_of_birth() of each
   std::map<std::int64_t, std::vector<Mortal>> mortals_;  // by the step of their death
   ParticleSet newborn_;  // of the step in hand
   std::vector<Birth> births_;  // of the emitter in hand

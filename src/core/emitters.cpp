@@ -30,8 +30,8 @@ class EmitterCheck {
     } else if (scene.materials[e.material].fixed) {
       add("material", fmt::format("\"{}\" is fixed: its particles could not leave", scene.materials[e.material].name));
     }
-    if (std::holds_alternative<PlaneShape>(e.shape) || std::holds_alternative<MeshShape>(e.shape)) {
-      add("shape", "must be a disc, or a box, sphere, capsule or cylinder, whose inside particles are born in");
+    if (std::holds_alternative<PlaneShape>(e.shape)) {
+      add("shape", "must be a disc, or a box, sphere, capsule, cylinder or mesh, whose inside particles are born in");
     }
     at_least(0, "rate", e.rate);
     range("speed", e.speed, 0);
@@ -89,8 +89,13 @@ std::vector<Finding> check_emitters(const Scene& scene) {
     const std::string where = fmt::format("sinks[{}].shape", i);
     const Shape& shape = scene.sinks[i].shape;
     for (Finding& finding : validate(shape, where)) findings.push_back(std::move(finding));
-    if (std::holds_alternative<DiscShape>(shape) || std::holds_alternative<MeshShape>(shape)) {
-      findings.push_back({where, "must be a plane, box, sphere, capsule or cylinder, that particles can be inside of"});
+    if (std::holds_alternative<DiscShape>(shape)) {
+      findings.push_back(
+          {where, "must be a plane, box, sphere, capsule, cylinder or mesh, that particles can be inside of"});
+    }
+    if (is_open_mesh(shape)) {
+      findings.push_back(
+          {where + ".mesh", "is open and has no inside that could take particles away; close its edges"});
     }
   }
   return findings;
@@ -111,7 +116,8 @@ bool has_any_place(const Scene& scene, std::uint32_t index) {
     }
   }
   const FreeSpace space(scene, emitter.material, colliders);
-  const PlacedEmitter placed = place_emitter(emitter, index, 0, 0);
+  const std::vector<double> areas = areas_of_birth(emitter.shape);
+  const PlacedEmitter placed = place_emitter(emitter, index, 0, 0, areas);
   for (std::uint64_t k = 0; k < kTries; ++k) {
     if (space.has_room_at(draw_position(placed, k, 0))) return true;
   }

@@ -25,8 +25,8 @@ struct Range {
 struct Emitter {
   std::string name;          ///< unique
   std::size_t material = 0;  ///< index into the scene's
-  Shape shape =
-      DiscShape{}; ///< births are spread evenly over a disc, or the inside of anything else but plane and mesh
+  Shape shape = DiscShape{}; ///< births are spread evenly over a disc or the faces of an open mesh, or the inside of
+                   ///< all but a plane
   double rate = 0;           ///< births per second, >= 0, while it emits
   Range speed;               ///< m/s, >= 0
   Vec3d direction{0, 1, 0};  ///< not 0, of any length
@@ -42,7 +42,7 @@ struct Emitter {
   Motion motion;             ///< of the shape; what is born moves along with it
 };
 
-/// Takes away every particle whose centre is inside; of a plane, behind it.
+/// Takes away every particle whose centre is inside; of a plane, behind it. No disc, and no open mesh.
 struct Sink {
   Shape shape;
 };

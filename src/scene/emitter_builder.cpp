@@ -15,6 +15,12 @@ namespace {
 
 Range range_of(const Json& pair) { return {pair[0].get<double>(), pair[1].get<double>()}; }
 
+// An open mesh is as good as a closed one to an emitter, and wrong as a sink: no warning is due.
+ShapeFiles without_warnings(ShapeFiles files) {
+  files.warnings = nullptr;
+  return files;
+}
+
 // What the schema has let pass.
 Emitter read_emitter(const Json& json) {
   Emitter emitter;
@@ -36,6 +42,7 @@ Emitter read_emitter(const Json& json) {
 }  // namespace
 
 std::vector<std::size_t> build_emitters(Json& emitters, const ShapeFiles& files, Scene& scene, Findings& findings) {
+  const ShapeFiles quiet = without_warnings(files);
   std::vector<std::size_t> entries;
   for (std::size_t i = 0; i < emitters.size(); ++i) {
     const std::string where = join_path("emitters", i);
@@ -49,7 +56,7 @@ std::vector<std::size_t> build_emitters(Json& emitters, const ShapeFiles& files,
     }
     std::optional<Motion> motion = read_motion(json, where, findings);
     std::optional<Shape> shape;
-    if (json.contains("shape")) shape = read_shape(json.at("shape"), join_path(where, "shape"), files, findings);
+    if (json.contains("shape")) shape = read_shape(json.at("shape"), join_path(where, "shape"), quiet, findings);
     if (!shape || !motion || !material || findings.touches(where)) continue;
     Emitter emitter = read_emitter(json);
     emitter.material = *material;
@@ -62,11 +69,12 @@ std::vector<std::size_t> build_emitters(Json& emitters, const ShapeFiles& files,
 }
 
 std::vector<std::size_t> build_sinks(const Json& sinks, const ShapeFiles& files, Scene& scene, Findings& findings) {
+  const ShapeFiles quiet = without_warnings(files);
   std::vector<std::size_t> entries;
   for (std::size_t i = 0; i < sinks.size(); ++i) {
     const std::string where = join_path("sinks", i);
     if (!sinks[i].is_object() || !sinks[i].contains("shape")) continue;
-    auto shape = read_shape(sinks[i].at("shape"), join_path(where, "shape"), files, findings);
+    auto shape = read_shape(sinks[i].at("shape"), join_path(where, "shape"), quiet, findings);
     if (!shape) continue;
     scene.sinks.push_back({std::move(*shape)});
     entries.push_back(i);

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "hooke/base/parallel.h"
+#include "hooke/physics/enclosure.h"
 
 namespace hooke {
 namespace {
@@ -86,6 +87,17 @@ std::vector<std::size_t> bricks_in_use(const openvdb::FloatGrid& grid, const Bri
   return used;
 }
 
+// Marks bricks without samples that are inside of the mesh.
+void mark_inside(const openvdb::FloatGrid& grid, const BrickLayout& layout, std::vector<std::int32_t>& directory) {
+  parallel_ranges(directory.size(), 256, [&](std::size_t first, std::size_t last) {
+    const auto values = grid.getConstAccessor();
+    for (std::size_t brick = first; brick < last; ++brick) {
+      const bool empty = directory[brick] == DistanceFieldView::kNothing;
+      if (empty && values.getValue(layout.origin(brick)) < 0) directory[brick] = kBrickInside;
+    }
+  });
+}
+
 void fill_samples(const openvdb::FloatGrid& grid, const BrickLayout& layout, const std::vector<std::size_t>& used,
                   double cell, std::vector<float>& samples) {
   constexpr std::size_t kPerBrick = std::size_t{kSamples} * kSamples * kSamples;
@@ -140,6 +152,7 @@ DistanceField make_distance_field(const TriangleMesh& mesh, const FieldOptions& 
   const std::vector<std::size_t> used = bricks_in_use(*grid, layout);
   field.directory.assign(layout.size(), DistanceFieldView::kNothing);
   for (std::size_t i = 0; i < used.size(); ++i) field.directory[used[i]] = static_cast<std::int32_t>(i);
+  if (options.closed) mark_inside(*grid, layout, field.directory);
   fill_samples(*grid, layout, used, options.cell, field.samples);
   field.min = field.max = mesh.vertices.front();
   for (const Vec3d& x : mesh.vertices) {

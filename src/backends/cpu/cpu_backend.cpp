@@ -34,6 +34,7 @@
 #include "hooke/core/sums.h"
 #include "hooke/neighbours/neighbour_list.h"
 #include "hooke/physics/drag.h"
+#include "hooke/physics/enclosure.h"
 #include "hooke/physics/integrate.h"
 
 namespace hooke {
@@ -590,7 +591,7 @@ class CpuBackend final : public Backend {
 
   bool is_in_a_sink(const Vec3d& x) const {
     return std::any_of(sinks_.begin(), sinks_.end(), [&](const PlacedSink& sink) {
-      return is_inside(sink.box, x) && shape_distance(sink.shape, x).distance < 0;
+      return is_inside(sink.box, x) && encloses(sink.shape, x);
     });
   }
 

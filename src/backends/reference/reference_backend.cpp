@@ -17,6 +17,7 @@
 #include "hooke/core/sums.h"
 #include "hooke/physics/contact.h"
 #include "hooke/physics/drag.h"
+#include "hooke/physics/enclosure.h"
 #include "hooke/physics/integrate.h"
 #include "hooke/physics/periodic.h"
 #include "hooke/physics/wall.h"
@@ -132,7 +133,7 @@ class ReferenceBackend final : public Backend {
   void sink_particles() override {
     const auto sunk = [&](std::size_t i) {
       return std::any_of(sinks_.begin(), sinks_.end(), [&](const ShapeGeometry<double>& sink) {
-        return shape_distance(sink, p_.position[i]).distance < 0;
+        return encloses(sink, p_.position[i]);
       });
     };
     remove_where(sunk).book_gone(ledger_, ledger_.population.sunk);
