@@ -10,8 +10,11 @@
 #include <numeric>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include "hooke/base/parallel.h"
+#include "hooke/core/placed_colliders.h"
+#include "hooke/core/springs.h"
 #include "hooke/neighbours/cell_grid.h"
 #include "hooke/physics/contact.h"
 #include "hooke/physics/periodic.h"
@@ -32,11 +35,13 @@ struct Touch {
 // Particles in cells, and who touches whom there.
 class ContactSearch {
  public:
-  ContactSearch(const Scene& scene, const ParticleSet& particles)
+  ContactSearch(const Scene& scene, const ParticleSet& particles, const ContactInstant& now)
       : scene_(scene),
         particles_(particles),
         table_(scene.materials, scene.contacts) {
     if (particles.empty()) return;
+    place_colliders(now.time);
+    find_apart(now.broken_springs);
     lay_out_grid();
     sort_spheres();
   }
@@ -53,6 +58,7 @@ class ContactSearch {
         touches.clear();
         add_pairs(k, around.near(k), touches);
         add_walls(k, touches);
+        add_colliders(k, touches);
         body(spheres_[k].index, std::span(touches));
       }
     });
@@ -118,7 +124,7 @@ class ContactSearch {
           const Sphere& p = search_.spheres_[n];
           const double distance_squared =
               squared(i.x.x - p.x.x, period.x) + squared(i.x.y - p.x.y, period.y) + squared(i.x.z - p.x.z, period.z);
-          const double reach = i.radius + p.radius;
+          const double reach = i.radius + p.radius + search_.table_.widest_range();
           near_[count] = static_cast<std::uint32_t>(n);
           count += distance_squared < reach * reach * (1 + 1e-9) ? 1 : 0;
         }
@@ -136,6 +142,35 @@ class ContactSearch {
 
   double radius(std::size_t i) const { return scene_.materials[particles_.material[i]].radius; }
 
+  void place_colliders(double time) {
+    const double reach = largest_radius() + table_.widest_range();
+    for (const Collider& collider : scene_.colliders) {
+      colliders_.push_back(place_collider<double>(collider, pose_at(collider, time), reach));
+    }
+  }
+
+  double largest_radius() const {
+    double largest = 0;
+    for (const Material& m : scene_.materials) largest = std::max(largest, m.radius);
+    return largest;
+  }
+
+  void find_apart(std::span<const std::uint64_t> broken) {
+    if (!scene_.structure) return;
+    const SpringSet& springs = scene_.structure->springs;
+    for (std::size_t s = 0; s < springs.size(); ++s) {
+      if (springs.contact[s] != 0 || std::binary_search(broken.begin(), broken.end(), s)) continue;
+      apart_.emplace_back(std::minmax(springs.a[s], springs.b[s]));
+    }
+    std::sort(apart_.begin(), apart_.end());
+  }
+
+  bool keeps_apart(std::uint32_t a, std::uint32_t b) const {
+    if (apart_.empty()) return false;
+    const auto ids = std::minmax(particles_.id[a], particles_.id[b]);
+    return std::binary_search(apart_.begin(), apart_.end(), IdPair(ids));
+  }
+
   void lay_out_grid() {
     double largest = 0;
     Vec3d min = particles_.position.front();
@@ -146,7 +181,7 @@ class ContactSearch {
       min = {std::min(min.x, x.x), std::min(min.y, x.y), std::min(min.z, x.z)};
       max = {std::max(max.x, x.x), std::max(max.y, x.y), std::max(max.z, x.z)};
     }
-    const double reach = 2 * largest;
+    const double reach = 2 * largest + table_.widest_range();
     bool periodic[3];
     for (int axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<std::size_t>(axis);
@@ -224,9 +259,10 @@ class ContactSearch {
     if (!scene_.materials[i.material].interacts || !scene_.materials[p.material].interacts) return;
     const double distance = std::sqrt(dot(x_ip, x_ip));
     const double overlap = i.radius + p.radius - distance;
-    if (!(overlap > 0)) return;
+    const ContactLaw<double>& law = table_.pair(i.material, p.material);
+    if (!(overlap > -law.surface.range) || keeps_apart(i.index, p.index)) return;
     const Vec3d normal = contact_normal(x_ip, distance, i.index > p.index ? 1.0 : -1.0);  // indices go with ids
-    const Vec3d force = contact_force(overlap, normal, p.v - i.v, table_.pair(i.material, p.material));
+    const Vec3d force = contact_force(overlap, normal, p.v - i.v, law);
     touches.push_back({{i.index, p.index, Face::none, image, overlap, force}, dot(force, normal)});
   }
 
@@ -234,8 +270,9 @@ class ContactSearch {
     const Domain& domain = scene_.domain;
     const Sphere& i = spheres_[k];
     const auto add = [&](int face, const Vec3d& normal, double overlap) {
-      if (!(overlap > 0)) return;
-      const Vec3d force = contact_force(overlap, normal, -i.v, table_.wall(i.material));
+      const ContactLaw<double>& law = table_.wall(i.material);
+      if (!(overlap > -law.surface.range)) return;
+      const Vec3d force = contact_force(overlap, normal, -i.v, law);
       touches.push_back({{i.index, Contact::kWall, static_cast<Face>(face), {}, overlap, force}, dot(force, normal)});
     };
     for (int axis = 0; axis < 3; ++axis) {
@@ -246,9 +283,30 @@ class ContactSearch {
     }
   }
 
+  void add_colliders(std::size_t k, std::vector<Touch>& touches) const {
+    const Sphere& i = spheres_[k];
+    for (std::uint32_t c = 0; c < colliders_.size(); ++c) {
+      const PlacedCollider<double>& collider = colliders_[c];
+      if (!is_inside(ShapeBounds{collider.near_from, collider.near_to}, i.x)) continue;
+      const ContactLaw<double>& law = table_.collider(i.material, scene_.colliders[c].material);
+      for_each_collider_face(collider, i.x, [&](const ColliderFace<double>& face) {
+        const double overlap = i.radius - face.distance;
+        if (!(overlap > -law.surface.range)) return;
+        const Vec3d force = contact_force(overlap, face.normal, face.velocity - i.v, law);
+        const Vec3d point = i.x - face.distance * face.normal;
+        touches.push_back(
+            {{i.index, Contact::kCollider, Face::none, {}, overlap, force, c, point}, dot(force, face.normal)});
+      });
+    }
+  }
+
+  using IdPair = std::pair<std::uint64_t, std::uint64_t>;
+
   const Scene& scene_;
   const ParticleSet& particles_;
   ContactTable table_;
+  std::vector<PlacedCollider<double>> colliders_;
+  std::vector<IdPair> apart_;  // smaller id first, ascending: a spring keeps them from touching
   bool any_periodic_ = false;
   Vec3d period_{kNever, kNever, kNever};  // m, of periodic axes
   Image images_{};  // images -n to n of every particle are looked at; 0: only the nearest
@@ -271,8 +329,8 @@ const char* to_string(Face face) {
   return kNames[static_cast<std::size_t>(face)];
 }
 
-std::vector<Contact> find_contacts(const Scene& scene, const ParticleSet& particles) {
-  const ContactSearch search(scene, particles);
+std::vector<Contact> find_contacts(const Scene& scene, const ParticleSet& particles, const ContactInstant& now) {
+  const ContactSearch search(scene, particles, now);
 
   // How many each particle lists, then where its list begins.
   std::vector<std::size_t> begin(particles.size() + 1);
@@ -288,24 +346,29 @@ std::vector<Contact> find_contacts(const Scene& scene, const ParticleSet& partic
     for (const Touch& touch : touches) {
       if (is_listed(touch)) *next++ = touch.contact;
     }
-    std::sort(first, next, [](const Contact& c, const Contact& d) {
-      return std::tie(c.b, c.image, c.face) < std::tie(d.b, d.image, d.face);
+    std::stable_sort(first, next, [](const Contact& c, const Contact& d) {
+      const bool by_shape = c.b == Contact::kCollider, d_by_shape = d.b == Contact::kCollider;
+      return std::tie(by_shape, c.b, c.image, c.face) < std::tie(d_by_shape, d.b, d.image, d.face);
     });
   });
   return found;
 }
 
-ContactFigures contact_figures(const Scene& scene, const ParticleSet& particles) {
-  const ContactSearch search(scene, particles);
+ContactFigures contact_figures(const Scene& scene, const ParticleSet& particles, const ContactInstant& now) {
+  const ContactSearch search(scene, particles, now);
   ContactFigures figures;
   figures.count.resize(particles.size());
   figures.pressure.resize(particles.size());
   search.for_each_particle([&](std::size_t i, std::span<const Touch> touches) {
     double normal_force = 0;
-    for (const Touch& touch : touches) normal_force += touch.normal_force;
+    std::uint32_t touching = 0;
+    for (const Touch& touch : touches) {
+      normal_force += touch.normal_force;
+      if (touch.contact.overlap > 0) ++touching;
+    }
     const double r = scene.materials[particles.material[i]].radius;
     const double volume = 4.0 / 3.0 * std::numbers::pi * r * r * r;
-    figures.count[i] = static_cast<std::uint32_t>(touches.size());
+    figures.count[i] = touching;
     figures.pressure[i] = r * normal_force / (3 * volume);
   });
   return figures;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "hooke/base/vec3.h"
@@ -13,8 +14,9 @@
 namespace hooke {
 
 // Contacts of a snapshot, found afresh from positions and velocities: for files and pictures. A running back end has
-// its own list and is not asked. Both functions want materials below scene.materials.size() and, along periodic axes,
-// positions inside the domain, as snapshots have them. Their results do not depend on the number of threads.
+// its own list and is not asked. Pairs that a spring of the scene keeps apart are no contacts. Both functions want
+// materials below scene.materials.size() and, along periodic axes, positions inside the domain, as snapshots have them.
+// Their results do not depend on the number of threads.
 
 /// A face of the domain; `none` where the partner is a particle.
 enum class Face : std::uint8_t { none, x_min, x_max, y_min, y_max, z_min, z_max };
@@ -22,30 +24,39 @@ enum class Face : std::uint8_t { none, x_min, x_max, y_min, y_max, z_min, z_max 
 /// "x-min", "x-max", ... "z-max"; "" for none.
 const char* to_string(Face face);
 
-/// Two particles, or a particle and a wall, that touch.
-struct Contact {
-  static constexpr std::uint32_t kWall = static_cast<std::uint32_t>(-1);
-
-  std::uint32_t a = 0;                    ///< index into the set
-  std::uint32_t b = 0;                    ///< index into the set, >= a; kWall for a wall
-  Face face = Face::none;                 ///< the wall
-  std::array<std::int32_t, 3> image{};    ///< a touches b at x_b + image * length of the domain, axis by axis
-  double overlap = 0;                     ///< m, > 0
-  Vec3d force{0, 0, 0};                   ///< on a by the law of physics/contact.h, N; b takes -force
+/// What a snapshot says beside its particles.
+struct ContactInstant {
+  double time = 0;  ///< s: colliders are where they are then
+  std::span<const std::uint64_t> broken_springs{};  ///< indices into the structure's, ascending: they keep nobody apart
 };
 
-/// Every contact once, by a; a's by (b, image), then its walls along x, y, z, the lower first. A particle that touches
+/// Two particles, or a particle and a wall or a collider, that touch, or that cohesion holds across a gap.
+struct Contact {
+  static constexpr std::uint32_t kWall = static_cast<std::uint32_t>(-1), kCollider = kWall - 1;
+
+  std::uint32_t a = 0;  ///< index into the set
+  std::uint32_t b = 0;  ///< index into the set, >= a; or kWall, kCollider
+  Face face = Face::none;  ///< the wall
+  std::array<std::int32_t, 3> image{};  ///< a touches b at x_b + image * length of the domain, axis by axis
+  double overlap = 0;  ///< m; not above 0 across a gap
+  Vec3d force{0, 0, 0};  ///< on a by the law of physics/contact.h, N; b takes -force
+  std::uint32_t collider = 0;  ///< index into the scene's, of kCollider
+  Vec3d point{0, 0, 0};  ///< of its surface, nearest to the centre of a, m
+};
+
+/// Every contact once, by a; a's by (b, image), then its walls along x, y, z, the lower first, then
+/// colliders in the scene's order, face by face. A particle that touches
 /// its own image across a short periodic axis is a contact with b = a.
-std::vector<Contact> find_contacts(const Scene& scene, const ParticleSet& particles);
+std::vector<Contact> find_contacts(const Scene& scene, const ParticleSet& particles, const ContactInstant& now = {});
 
 /// What the contacts do to each particle, in the order of the set.
 struct ContactFigures {
-  std::vector<std::uint32_t> count;  ///< touching particles, images of its own and walls
+  std::vector<std::uint32_t> count;  ///< touching particles, images of its own, walls and colliders
   /// Pa: the mean stress that the contacts put on the particle, compression positive, a third of the trace of its
   /// virial over its volume: p = sum(r F_n) / (3 V), V = 4/3 pi r^3. The arm of each force is the radius r; F_n (N) is
   /// its component along the normal, springs and dashpots, which is negative where a dashpot holds a contact back.
   std::vector<double> pressure;
 };
-ContactFigures contact_figures(const Scene& scene, const ParticleSet& particles);
+ContactFigures contact_figures(const Scene& scene, const ParticleSet& particles, const ContactInstant& now = {});
 
 }  // namespace hooke

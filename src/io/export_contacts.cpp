@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: MIT
 
 // Contacts, as core/contacts.h finds them in a snapshot. CSV: a row a contact. VTK: a line from centre to centre, or
-// from a centre to the wall, with the contact's figures.
+// from a centre to the wall or the collider, with the contact's figures.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "hooke/core/contacts.h"
+#include "hooke/io/checkpoint.h"
 #include "hooke/io/export_format.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/polydata_file.h"
@@ -29,12 +32,23 @@ const Scene& scene_of(const ExportJob& job) {
   return scene;
 }
 
+/// The springs of the run that are broken, as of its checkpoint: of those that keep particles from touching.
+std::vector<std::uint64_t> broken_springs(const ExportJob& job, const Scene& scene) {
+  if (!scene.structure || scene.structure->springs.empty()) return {};
+  const std::vector<std::uint8_t>& contact = scene.structure->springs.contact;
+  if (std::find(contact.begin(), contact.end(), 0) == contact.end()) return {};
+  return take(read_checkpoint(job.run.file().parent_path())).state.broken_springs;
+}
+
 template <class Real>
-void append_row(std::string& text, const std::string& instant, const Contact& c, const ParticleSet& particles) {
+void append_row(std::string& text, const std::string& instant, const Contact& c, const Scene& scene,
+                const ParticleSet& particles) {
   text += instant;
   append_number(text, particles.id[c.a]);
   text += ',';
-  if (c.face == Face::none) {
+  if (c.b == Contact::kCollider) {
+    text += csv_field("collider:" + scene.colliders[c.collider].name);
+  } else if (c.face == Face::none) {
     append_number(text, particles.id[c.b]);
   } else {
     text += "wall:";
@@ -53,6 +67,7 @@ void append_row(std::string& text, const std::string& instant, const Contact& c,
 
 template <class Real>
 void write_csv(const ExportJob& job, const Scene& scene) {
+  const std::vector<std::uint64_t> broken = broken_springs(job, scene);
   OutputFile out(job.file);
   out.write("step,t,id_a,id_b,image_x,image_y,image_z,overlap,fx,fy,fz\n");
   for (const std::size_t index : job.indices) {
@@ -62,16 +77,18 @@ void write_csv(const ExportJob& job, const Scene& scene) {
     instant += ',';
     append_number(instant, snapshot.time);
     instant += ',';
-    const std::vector<Contact> contacts = find_contacts(scene, snapshot.particles);
+    const std::vector<Contact> contacts = find_contacts(scene, snapshot.particles, {snapshot.time, broken});
     write_rows(out, contacts.size(), [&](std::string& text, std::size_t n) {
-      append_row<Real>(text, instant, contacts[n], snapshot.particles);
+      append_row<Real>(text, instant, contacts[n], scene, snapshot.particles);
     });
   }
   out.finish();
 }
 
-/// Where the contact's line ends: the centre that particle a touches, in its image, or the nearest point of the wall.
+/// Where the contact's line ends: the centre that particle a touches, in its image, or the nearest point of the wall or
+/// of the collider.
 Vec3d far_end(const Contact& c, const Scene& scene, const ParticleSet& particles) {
+  if (c.b == Contact::kCollider) return c.point;
   const Domain& domain = scene.domain;
   Vec3d end = particles.position[c.face == Face::none ? c.b : c.a];
   if (c.face == Face::none) {
@@ -86,11 +103,12 @@ Vec3d far_end(const Contact& c, const Scene& scene, const ParticleSet& particles
 }
 
 template <class Real>
-void write_vtp(const Snapshot& snapshot, const Scene& scene, const fs::path& file) {
+void write_vtp(const Snapshot& snapshot, const Scene& scene, const std::vector<std::uint64_t>& broken,
+               const fs::path& file) {
   const ParticleSet& p = snapshot.particles;
-  const std::vector<Contact> contacts = find_contacts(scene, p);
+  const std::vector<Contact> contacts = find_contacts(scene, p, {snapshot.time, broken});
   std::vector<Vec3d> ends, force;
-  std::vector<std::int64_t> id_a, id_b;
+  std::vector<std::int64_t> id_a, id_b, collider;
   std::vector<std::uint8_t> face;
   std::vector<Real> overlap;
   for (const Contact& c : contacts) {
@@ -98,7 +116,9 @@ void write_vtp(const Snapshot& snapshot, const Scene& scene, const fs::path& fil
     ends.push_back(far_end(c, scene, p));
     force.push_back(c.force);
     id_a.push_back(static_cast<std::int64_t>(p.id[c.a]));
-    id_b.push_back(c.face == Face::none ? static_cast<std::int64_t>(p.id[c.b]) : -1);
+    const bool of_two = c.b < p.size();
+    id_b.push_back(of_two ? static_cast<std::int64_t>(p.id[c.b]) : -1);
+    collider.push_back(c.b == Contact::kCollider ? static_cast<std::int64_t>(c.collider) : -1);
     face.push_back(static_cast<std::uint8_t>(c.face));
     overlap.push_back(static_cast<Real>(c.overlap));
   }
@@ -106,6 +126,7 @@ void write_vtp(const Snapshot& snapshot, const Scene& scene, const fs::path& fil
   out.add_cell_data("id_a", id_a);
   out.add_cell_data("id_b", id_b);
   out.add_cell_data("face", face);
+  out.add_cell_data("collider", collider);
   out.add_cell_data("overlap", overlap);
   out.add_cell_data("force", flatten<Real>(force), 3);
   out.set_points(flatten<Real>(ends));
@@ -124,8 +145,9 @@ std::vector<fs::path> export_contacts_csv(const ExportJob& job) {
 std::vector<fs::path> export_contacts_vtp(const ExportJob& job) {
   const Scene& scene = scene_of(job);
   const auto write = job.run.info().precision == Precision::single_precision ? write_vtp<float> : write_vtp<double>;
+  const std::vector<std::uint64_t> broken = broken_springs(job, scene);
   return export_polydata(
-      job, [&](std::size_t index, const fs::path& file) { write(take(job.run.read(index)), scene, file); });
+      job, [&](std::size_t index, const fs::path& file) { write(take(job.run.read(index)), scene, broken, file); });
 }
 
 }  // namespace hooke

@@ -6,18 +6,6 @@
 
 namespace hooke {
 
-namespace {
-
-/// A name as a CSV field: quoted where it must be.
-std::string csv_field(const std::string& name) {
-  if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
-  std::string quoted = "\"";
-  for (const char c : name) quoted.append(c == '"' ? 2 : 1, c);
-  return quoted + '"';
-}
-
-}  // namespace
-
 std::vector<std::filesystem::path> export_csv(const ExportJob& job) {
   const RunReader& run = job.run;
   std::vector<std::string> names;

@@ -29,6 +29,14 @@ void write_rows(OutputFile& out, std::size_t count, const Append& append) {
   }
 }
 
+/// A name as a CSV field: quoted where it must be.
+inline std::string csv_field(const std::string& name) {
+  if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
+  std::string quoted = "\"";
+  for (const char c : name) quoted.append(c == '"' ? 2 : 1, c);
+  return quoted + '"';
+}
+
 /// "x y z" with another separator if need be, rounded to Real.
 template <class Real>
 void append_vector(std::string& text, const Vec3d& v, const char* separator = " ") {

@@ -76,13 +76,14 @@ ColorScale default_scale(const Scene& scene, const ParticleSet& first, ColorBy b
   return {};
 }
 
-std::vector<double> color_values(const Scene& scene, const ParticleSet& particles, const Box& action, ColorBy by) {
+std::vector<double> color_values(const Scene& scene, const ParticleSet& particles, double time, const Box& action,
+                                 ColorBy by) {
   std::vector<double> values;
   if (by == ColorBy::material) return values;
-  if (by == ColorBy::pressure) return contact_figures(scene, particles).pressure;
+  if (by == ColorBy::pressure) return contact_figures(scene, particles, {time, {}}).pressure;
   values.reserve(particles.size());
   if (by == ColorBy::contacts) {
-    const auto figures = contact_figures(scene, particles);
+    const auto figures = contact_figures(scene, particles, {time, {}});
     values.assign(figures.count.begin(), figures.count.end());
     return values;
   }

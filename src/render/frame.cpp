@@ -94,7 +94,7 @@ Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, 
   if (std::any_of(scene.materials.begin(), scene.materials.end(), glows)) frame.daylight = kNight;
 
   const std::vector<Color> colors = material_colors(scene);
-  const std::vector<double> values = color_values(scene, particles, look.action, look.scale.by);
+  const std::vector<double> values = color_values(scene, particles, time, look.action, look.scale.by);
   const std::vector<float> air = values.empty() ? water_aeration(scene, particles) : std::vector<float>();
   frame.spheres.resize(particles.size());
   parallel_ranges(particles.size(), 4096, [&](std::size_t first, std::size_t last) {

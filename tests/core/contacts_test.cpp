@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "hooke/physics/contact.h"
+#include "support/engines.h"
 #include "support/particles.h"
 
 namespace hooke {
@@ -218,6 +219,102 @@ TEST(Contacts, OfAParticleWithItselfAreOneContactWithTwoSides) {
   EXPECT_EQ(contacts[0].b, 0U);
   EXPECT_EQ(contacts[0].image, (std::array<std::int32_t, 3>{1, 0, 0}));
   EXPECT_EQ(contact_figures(scene, p).count[0], 2U);
+}
+
+// Of what colliders feel, the back end's own figures know the sum, heap or not.
+TEST(Contacts, WithCollidersAddUpToTheirLoads) {
+  Scene scene = test::open_scene();
+  scene.gravity = {0, -9.8, 0};
+  scene.materials[0].contact.damping = scene.materials[0].contact.shear = 20;
+  scene.materials[0].surface.friction = 0.4;
+  Collider floor, bowl;
+  floor.name = "floor";
+  floor.shape = PlaneShape{{0, -2, 0}, {0, 1, 0}};
+  bowl.name = "bowl";
+  bowl.shape = SphereShape{{0, 0, 0}, 3};
+  bowl.hollow = true;
+  bowl.motion = SteadyMotion{{0.1, 0, 0}, {0, 1, 0}, {}};
+  scene.colliders = {floor, bowl};
+  ParticleSet heap = test::lattice(scene, {4, 3, 4}, {-1.4, -1.4, -1.4}, 0.95, 0.05, 3);
+  Simulation simulation = test::simulate(scene, heap, test::kReference);
+  ASSERT_TRUE(test::advance(simulation, 400));
+
+  const double time = simulation.time();
+  const std::vector<Contact> contacts = find_contacts(scene, simulation.particles(), {time, {}});
+  const std::vector<ColliderLoad> loads = test::measured(simulation).colliders;
+  for (std::uint32_t c = 0; c < 2; ++c) {
+    Vec3d sum{0, 0, 0}, torque{0, 0, 0};
+    std::uint64_t count = 0;
+    for (const Contact& contact : contacts) {
+      if (contact.b != Contact::kCollider || contact.collider != c) continue;
+      ++count;
+      sum += contact.force;
+      torque += cross(contact.point - simulation.collider_poses()[c].pivot, contact.force);
+      EXPECT_EQ(contact.face, Face::none);
+    }
+    EXPECT_GT(count, 3U);
+    EXPECT_EQ(count, loads[c].contacts);
+    for (int axis = 0; axis < 3; ++axis) {  // sums of the same terms
+      EXPECT_NEAR(component(sum, axis), -component(loads[c].force, axis), 1e-9);
+      EXPECT_NEAR(component(torque, axis), -component(loads[c].torque, axis), 1e-9);
+    }
+  }
+  const ContactFigures figures = contact_figures(scene, simulation.particles(), {time, {}});
+  std::uint64_t sides = 0;
+  for (const std::uint32_t count : figures.count) sides += count;
+  EXPECT_EQ(sides, 2 * test::measured(simulation).contacts + loads[0].contacts + loads[1].contacts);
+}
+
+// A bonded pair that may not touch is none for as long as its spring holds.
+TEST(Contacts, OfPairsThatASpringKeepsApartAreNone) {
+  Scene scene = test::open_scene();
+  auto structure = std::make_shared<Structure>();
+  ParticleSet p;
+  for (int k = 0; k < 4; ++k) add(p, {0.9 * k, 0, 0}, {0, 0, 0});
+  for (int k = 0; k < 3; ++k) {
+    Spring spring{p.id[static_cast<std::size_t>(k)], p.id[static_cast<std::size_t>(k) + 1]};
+    spring.contact = k == 1;
+    structure->springs.push_back(spring);
+  }
+  scene.structure = structure;
+  const std::vector<Contact> whole = find_contacts(scene, p);
+  ASSERT_EQ(whole.size(), 1U);
+  EXPECT_EQ(whole[0].a, 1U);
+  EXPECT_EQ(contact_figures(scene, p).count, (std::vector<std::uint32_t>{0, 1, 1, 0}));
+  const std::vector<std::uint64_t> broken = {2};
+  EXPECT_EQ(find_contacts(scene, p, {0, broken}).size(), 2U);
+}
+
+// 5 N at touch, falling to 0 at a gap of 0.2 m: half of it at 0.1 m. It is listed, and it pulls, but nobody touches.
+TEST(Contacts, ThatCohesionHoldsAcrossAGapAreListed) {
+  Scene scene = test::open_scene();
+  scene.materials[0].surface.cohesion = 5;
+  scene.materials[0].surface.range = 0.2;
+  scene.domain = {{0, 0, 0}, {9, 9, 9}, {kSpring, kPeriodic, kPeriodic}};
+  Collider ball;
+  ball.name = "ball";
+  ball.shape = SphereShape{{2, 8.5, 4}, 0.5};
+  scene.colliders = {ball};
+  ParticleSet p;
+  add(p, {0.6, 4, 4}, {0, 0, 0});
+  add(p, {1.7, 4, 4}, {0, 0, 0});
+  add(p, {2, 7.4, 4}, {0, 0, 0});
+  add(p, {5, 4, 4}, {0, 0, 0});
+  add(p, {6.21, 4, 4}, {0, 0, 0});  // just out of reach
+  const std::vector<Contact> contacts = find_contacts(scene, p);
+  ASSERT_EQ(contacts.size(), 3U);
+  const Vec3d forces[] = {{2.5, 0, 0}, {-2.5, 0, 0}, {0, 2.5, 0}};
+  const std::uint32_t partners[] = {1, Contact::kWall, Contact::kCollider};
+  for (std::size_t n = 0; n < 3; ++n) {
+    EXPECT_EQ(contacts[n].b, partners[n]);
+    EXPECT_NEAR(contacts[n].overlap, -0.1, 1e-12);
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(component(contacts[n].force, axis), component(forces[n], axis), 1e-9);
+    }
+  }
+  const ContactFigures figures = contact_figures(scene, p);
+  EXPECT_EQ(figures.count, (std::vector<std::uint32_t>(5, 0)));
+  EXPECT_NEAR(figures.pressure[1], -0.5 * 2.5 / (3 * volume(0.5)), 1e-9);
 }
 
 TEST(Contacts, OfNobodyAreNone) {

@@ -59,12 +59,34 @@ TEST_F(ExportContacts, AsATable) {
 TEST_F(ExportContacts, AsLinesThatVtkReads) {
   const auto files = exported("c.vtp", &scene_);
   ASSERT_TRUE(files) << files.error().text();
-  // Both ends, then face, force, id_a, id_b, overlap.
+  // Both ends, then collider, face, force, id_a, id_b, overlap.
   EXPECT_EQ(samples::output_of(fmt::format("/usr/bin/python3 '{}/tests/io/read_lines.py' '{}'", HOOKE_SOURCE_DIR,
                                            files->front().string())),
-            "0.25 0.25 5.0 -0.5 0.25 5.0 0.0 258.0 0.0 0.0 3.0 12.0 0.25\n"
-            "0.25 0.25 5.0 0.25 0.0 5.0 3.0 0.0 250.0 0.0 3.0 -1.0 0.25\n"
-            "9.5 0.25 5.0 9.5 0.0 5.0 3.0 -8.0 250.0 0.0 12.0 -1.0 0.25\n");
+            "0.25 0.25 5.0 -0.5 0.25 5.0 -1.0 0.0 258.0 0.0 0.0 3.0 12.0 0.25\n"
+            "0.25 0.25 5.0 0.25 0.0 5.0 -1.0 3.0 0.0 250.0 0.0 3.0 -1.0 0.25\n"
+            "9.5 0.25 5.0 9.5 0.0 5.0 -1.0 3.0 -8.0 250.0 0.0 12.0 -1.0 0.25\n");
+}
+
+// A ball on a plate that has risen by 0.25 m when the snapshot is taken, and its name has to be quoted.
+TEST_F(ExportContacts, WithCollidersNameThem) {
+  Collider plate;
+  plate.name = "plate, steel";
+  plate.shape = PlaneShape{{0, -0.25, 0}, {0, 1, 0}};
+  plate.motion = SteadyMotion{{0, 1.25, 0}, {0, 0, 0}, {}};
+  scene_.domain.boundary[1] = Boundary::open;
+  scene_.colliders = {plate};
+  snapshot_.particles.resize(1);
+  ASSERT_TRUE(exported("c.csv", &scene_));
+  // It stands at 0, 0.25 below the centre: the spring gives 250 N, the dashpot 8 * 1.25.
+  EXPECT_EQ(samples::read_file(folder_ / "c.csv"),
+            "step,t,id_a,id_b,image_x,image_y,image_z,overlap,fx,fy,fz\n"
+            "40,0.2,3,\"collider:plate, steel\",0,0,0,0.25,0,260,0\n");
+  std::filesystem::remove_all(folder_ / "run");
+  const auto files = exported("c.vtp", &scene_);
+  ASSERT_TRUE(files) << files.error().text();
+  EXPECT_EQ(samples::output_of(fmt::format("/usr/bin/python3 '{}/tests/io/read_lines.py' '{}'", HOOKE_SOURCE_DIR,
+                                           files->front().string())),
+            "0.25 0.25 5.0 0.25 0.0 5.0 0.0 0.0 0.0 260.0 0.0 3.0 -1.0 0.25\n");
 }
 
 TEST_F(ExportContacts, HaveARowForEachThatIsFound) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "hooke/core/contacts.h"
 #include "support/engines.h"
 #include "support/particles.h"
 
@@ -43,6 +44,36 @@ TEST(Heap, WeighsOnTheFloorWhatItsParticlesWeigh) {
       EXPECT_NEAR(mean.z / weight, 0, 1e-3);
     }
   }
+}
+
+// The same of a floor that is a collider, as the contacts of a snapshot list it.
+TEST(Heap, WeighsOnACollider) {
+  Scene scene = open_scene();
+  mix_materials(scene, 0.25);
+  for (Material& m : scene.materials) {
+    m.contact.damping = m.contact.shear = 20;
+    m.surface.friction = 0.3;
+  }
+  scene.contacts.clear();
+  scene.time_step = 0.002;
+  scene.gravity = {0, -9.8, 0};
+  Collider tray;
+  tray.name = "tray";
+  tray.shape = BoxShape{{-3, -4, -3}, {3, 4, 3}};
+  tray.hollow = true;
+  scene.colliders = {tray};
+  Simulation simulation = simulate(scene, lattice(scene, {5, 5, 5}, {-1.4, -3.5, -1.4}, 0.7, 0.05, 4), kCpuDouble);
+  double weight = 0;
+  for (const std::uint16_t m : simulation.particles().material) weight += 9.8 * scene.materials[m].mass;
+  ASSERT_TRUE(advance(simulation, 20000));
+  ASSERT_LT(measured(simulation).momentum_scale * 9.8 / weight, 0.01) << "settled: the mean speed, m/s";
+  Vec3d sum{0, 0, 0};
+  for (const Contact& contact : find_contacts(scene, simulation.particles(), {simulation.time(), {}})) {
+    if (contact.b == Contact::kCollider) sum += contact.force;
+  }
+  EXPECT_NEAR(sum.y / weight, 1, 1e-2) << "what still creeps presses a little more or less";
+  EXPECT_NEAR(sum.x / weight, 0, 1e-2);
+  EXPECT_NEAR(sum.z / weight, 0, 1e-2);
 }
 
 // A column of n: contact j carries the weight of the n - j above it.

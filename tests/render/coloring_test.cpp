@@ -31,7 +31,7 @@ struct Sample {
 TEST(ColorValues, AreTheQuantities) {
   const Sample s;
   const Box action = action_box(s.scene, s.particles);
-  const auto values = [&](ColorBy by) { return color_values(s.scene, s.particles, action, by); };
+  const auto values = [&](ColorBy by) { return color_values(s.scene, s.particles, 0, action, by); };
   EXPECT_TRUE(values(ColorBy::material).empty());
   EXPECT_EQ(values(ColorBy::speed), (std::vector<double>{0, 0, 7}));
   EXPECT_EQ(values(ColorBy::id), (std::vector<double>{3, 8, 12}));
@@ -50,7 +50,7 @@ TEST(ColorValues, AreTheQuantities) {
 TEST(ColorValues, HeightIsAgainstGravity) {
   Sample s;
   s.scene.gravity = {0, 0, 10};
-  const auto height = color_values(s.scene, s.particles, action_box(s.scene, s.particles), ColorBy::height);
+  const auto height = color_values(s.scene, s.particles, 0, action_box(s.scene, s.particles), ColorBy::height);
   ASSERT_EQ(height.size(), 3u);
   EXPECT_NEAR(height[0], 13 - 3.6, 1e-12);
 }
