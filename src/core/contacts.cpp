@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <numbers>
 #include <numeric>
 #include <span>
@@ -35,10 +36,13 @@ struct Touch {
 // Particles in cells, and who touches whom there.
 class ContactSearch {
  public:
-  ContactSearch(const Scene& scene, const ParticleSet& particles, const ContactInstant& now)
+  /// Of pairs further apart than `furthest` (m) some may not be found.
+  ContactSearch(const Scene& scene, const ParticleSet& particles, const ContactInstant& now,
+                double furthest = std::numeric_limits<double>::infinity())
       : scene_(scene),
         particles_(particles),
-        table_(scene.materials, scene.contacts) {
+        table_(scene.materials, scene.contacts),
+        furthest_(furthest) {
     if (particles.empty()) return;
     place_colliders(now.time);
     find_apart(now.broken_springs);
@@ -46,14 +50,30 @@ class ContactSearch {
     sort_spheres();
   }
 
-  // body(i, touches) for every particle of the set, on all threads, in the order of cells. Of touches, pairs come
-  // first.
+  // How far from each other those that are compared may be, m.
+  double reach() const { return reach_; }
+
+  // How many comparisons it takes to find everything.
+  double comparisons() const {
+    Neighbourhood around(*this);
+    double all = 0;
+    for (std::size_t k = 0, next; k < keys_.size(); k = next) {
+      next = k + 1;
+      while (next < keys_.size() && keys_[next] == keys_[k]) ++next;
+      around.move_to(keys_[k]);
+      all += static_cast<double>(next - k) * static_cast<double>(around.size());
+    }
+    return all;
+  }
+
+  // body(i, touches) for every particle of the set, or each `every`-th, on all threads, in the order of cells. Of
+  // touches, pairs come first.
   template <class Body>
-  void for_each_particle(const Body& body) const {
+  void for_each_particle(const Body& body, std::size_t every = 1) const {
     parallel_ranges(spheres_.size(), kBlock, [&](std::size_t first, std::size_t last) {
       Neighbourhood around(*this);
       std::vector<Touch> touches;
-      for (std::size_t k = first; k < last; ++k) {
+      for (std::size_t k = first + (every - first % every) % every; k < last; k += every) {
         around.move_to(keys_[k]);
         touches.clear();
         add_pairs(k, around.near(k), touches);
@@ -98,6 +118,12 @@ class ContactSearch {
         while (last < keys.size() && keys[last] <= cells[r].last) ++last;
         ranges_[r] = {first, last};
       }
+    }
+
+    std::size_t size() const {
+      std::size_t all = 0;
+      for (const Range& range : std::span(ranges_.data(), count_)) all += range.last - range.first;
+      return all;
     }
 
     // Whoever may touch sphere k, itself included.
@@ -181,7 +207,8 @@ class ContactSearch {
       min = {std::min(min.x, x.x), std::min(min.y, x.y), std::min(min.z, x.z)};
       max = {std::max(max.x, x.x), std::max(max.y, x.y), std::max(max.z, x.z)};
     }
-    const double reach = 2 * largest + table_.widest_range();
+    const double reach = std::min(2 * largest + table_.widest_range(), furthest_);
+    reach_ = reach;
     bool periodic[3];
     for (int axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<std::size_t>(axis);
@@ -305,6 +332,7 @@ class ContactSearch {
   const Scene& scene_;
   const ParticleSet& particles_;
   ContactTable table_;
+  double furthest_, reach_ = 0;  // m
   std::vector<PlacedCollider<double>> colliders_;
   std::vector<IdPair> apart_;  // smaller id first, ascending: a spring keeps them from touching
   bool any_periodic_ = false;
@@ -351,6 +379,54 @@ std::vector<Contact> find_contacts(const Scene& scene, const ParticleSet& partic
       return std::tie(by_shape, c.b, c.image, c.face) < std::tie(d_by_shape, d.b, d.image, d.face);
     });
   });
+  return found;
+}
+
+Overlaps count_overlaps(const Scene& scene, const ParticleSet& particles) {
+  constexpr double kMostComparisons = 2e7;
+  constexpr int kMostHalvings = 30;
+  Overlaps found;
+  std::mutex mutex;  // around it
+  const auto look = [&](const ContactSearch& search) {
+    const auto every = static_cast<std::size_t>(std::ceil(std::max(1.0, search.comparisons() / kMostComparisons)));
+    double sides = 0;
+    search.for_each_particle(
+        [&](std::size_t i, std::span<const Touch> touches) {
+          const Touch* worst = nullptr;
+          double ratio = 0, count = 0;
+          for (const Touch& touch : touches) {
+            const Contact& c = touch.contact;
+            if (c.b >= Contact::kCollider || !(c.overlap > 0)) continue;
+            ++count;
+            const auto radius = [&](std::size_t k) { return scene.materials[particles.material[k]].radius; };
+            const double its = c.overlap / (radius(i) + radius(c.b));
+            if (worst != nullptr && (its < ratio || (its == ratio && c.b > worst->contact.b))) continue;
+            worst = &touch;
+            ratio = its;
+          }
+          const std::lock_guard lock(mutex);
+          sides += count;
+          if (worst == nullptr) return;
+          const auto pair = std::minmax(worst->contact.a, worst->contact.b);
+          if (ratio < found.ratio || (ratio == found.ratio && pair >= std::minmax(found.a, found.b))) return;
+          found.a = pair.first;
+          found.b = pair.second;
+          found.overlap = worst->contact.overlap;
+          found.ratio = ratio;
+        },
+        every);
+    found.pairs = std::max(found.pairs, 0.5 * sides * static_cast<double>(every));
+    return every == 1;
+  };
+  // Where only some were looked at, all of them are by ones that are nearer.
+  double furthest = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < kMostHalvings; ++k) {
+    const ContactSearch search(scene, particles, {}, furthest);
+    if (k == 0 || search.comparisons() <= kMostComparisons) {
+      if (look(search) || k > 0) break;
+    }
+    furthest = 0.5 * search.reach();
+  }
   return found;
 }
 

@@ -49,6 +49,16 @@ struct Contact {
 /// its own image across a short periodic axis is a contact with b = a.
 std::vector<Contact> find_contacts(const Scene& scene, const ParticleSet& particles, const ContactInstant& now = {});
 
+/// How much particles overlap each other.
+struct Overlaps {
+  double pairs = 0;  ///< that touch; estimated from some of the particles where they are too many to look at
+  std::uint32_t a = 0, b = 0;  ///< indices of the pair that overlaps most for its size, where there is one
+  double overlap = 0;  ///< of this pair, m
+  double ratio = 0;  ///< over the sum of its radii
+};
+/// In little time and memory, however many they are.
+Overlaps count_overlaps(const Scene& scene, const ParticleSet& particles);
+
 /// What the contacts do to each particle, in the order of the set.
 struct ContactFigures {
   std::vector<std::uint32_t> count;  ///< touching particles, images of its own, walls and colliders
