@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+// Sums of many numbers by packs: on every instruction set the parts add up to the very sum, whatever the numbers.
+
+#include "pack_sums.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "hooke/backends/cpu/isa.h"
+#include "hooke/base/exact_sum.h"
+#include "hooke/base/random.h"
+
+namespace hooke::test {
+namespace {
+
+template <class Real>
+void add_numbers(const std::string& isa, const std::vector<Real>& values, ExactParts& parts) {
+  if (isa == "avx512") return avx512::add_numbers(values.data(), values.size(), parts);
+  if (isa == "avx2") return avx2::add_numbers(values.data(), values.size(), parts);
+  portable::add_numbers(values.data(), values.size(), parts);
+}
+
+// What the parts leave of the sum: 0 where they are exact.
+template <class Real>
+double remainder_of(const std::vector<Real>& values, const ExactParts& parts) {
+  ExactSum sum;
+  sum.add(parts.values, parts.count);
+  for (const Real value : values) sum.add(-static_cast<double>(value));
+  return sum.value();
+}
+
+enum class Kind { alike, mixed, wild, cancelling, zero, tiny };
+
+template <class Real>
+Real number(Kind kind, std::uint64_t i) {
+  const auto u = uniform4(5, i, 0, static_cast<std::uint32_t>(kind));
+  const int most = std::numeric_limits<Real>::max_exponent - 12;  // a thousand of them stay finite
+  const double sign = u[1] < 0.5 ? -1 : 1;
+  switch (kind) {
+    case Kind::alike:
+      return static_cast<Real>(sign * (0.5 + 0.5 * u[0]));
+    case Kind::mixed:
+      return static_cast<Real>(std::ldexp(sign * (0.5 + 0.5 * u[0]), static_cast<int>(40 * u[2]) - 20));
+    case Kind::wild:
+      return static_cast<Real>(std::ldexp(sign * (0.5 + 0.5 * u[0]), static_cast<int>((2 * u[2] - 1) * most)));
+    case Kind::cancelling:  // a large number, a small one, the large one again, negative
+      return static_cast<Real>(i % 64 < 32 && i % 32 == 0 ? 1e30 : i % 32 == 0 ? -1e30 : u[0]);
+    case Kind::zero:
+      return static_cast<Real>(sign * 0.0);
+    case Kind::tiny:
+      return static_cast<Real>(sign * u[0]) * std::numeric_limits<Real>::min() / 8;  // without a leading 1
+  }
+  return {};
+}
+
+template <class Real>
+void check_parts() {
+  for (const Isa& isa : available_isas()) {
+    for (const Kind kind : {Kind::alike, Kind::mixed, Kind::wild, Kind::cancelling, Kind::zero, Kind::tiny}) {
+      for (const std::size_t count : {16U, 64U, 208U, 1024U}) {
+        std::vector<Real> values(count);
+        for (std::size_t i = 0; i < count; ++i) values[i] = number<Real>(kind, i);
+        ExactParts parts;
+        parts.count = 0;
+        add_numbers(isa.name, values, parts);
+        EXPECT_EQ(remainder_of(values, parts), 0) << isa.name << ", kind " << static_cast<int>(kind) << ", " << count;
+        EXPECT_LE(parts.count, ExactParts::kMost);
+      }
+    }
+  }
+}
+
+TEST(PackSums, OfFloatsAreExact) { check_parts<float>(); }
+TEST(PackSums, OfDoublesAreExact) { check_parts<double>(); }
+
+// Parts come to what there was before; and numbers that are alike leave a few, however many they are: a number a lane,
+// or of doubles two.
+TEST(PackSums, LeaveFewPartsOfNumbersThatAreAlike) {
+  for (const Isa& isa : available_isas()) {
+    std::vector<float> floats(1024);
+    std::vector<double> doubles(1024), all;
+    for (std::size_t i = 0; i < 1024; ++i) {
+      floats[i] = number<float>(Kind::alike, i);
+      doubles[i] = number<double>(Kind::mixed, i);
+    }
+    ExactParts parts;
+    parts.count = 0;
+    add_numbers(isa.name, floats, parts);
+    EXPECT_LE(parts.count, 16U) << isa.name;
+    add_numbers(isa.name, doubles, parts);
+    EXPECT_LE(parts.count, 32U) << isa.name;
+    all.insert(all.end(), floats.begin(), floats.end());
+    all.insert(all.end(), doubles.begin(), doubles.end());
+    EXPECT_EQ(remainder_of(all, parts), 0) << isa.name;
+  }
+}
+
+}  // namespace
+}  // namespace hooke::test
