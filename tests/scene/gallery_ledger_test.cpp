@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+// The ledger on every scene of the gallery.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+
+#include "hooke/scene/load_scene.h"
+#include "support/engines.h"
+
+namespace hooke::test {
+namespace {
+
+class GalleryLedger : public testing::TestWithParam<std::string> {
+ public:
+  static std::vector<std::string> names() {
+    std::vector<std::string> found;
+    for (const auto& entry : std::filesystem::directory_iterator(HOOKE_SOURCE_DIR "/scenes")) {
+      const std::string name = entry.path().stem().string();
+      if (entry.path().extension() == ".json" && !name.ends_with("-big")) found.push_back(name);
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+  static std::string test_name(const testing::TestParamInfo<std::string>& test) {
+    std::string name = test.param;
+    std::replace_if(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+    return name;
+  }
+};
+
+// What the kinetic energy gains is the work of all causes, and what comes and goes with particles: in double but for
+// rounding, by a billionth of what goes through the ledger. Without gravity, where particles come and go, whose
+// potential energy the ledger does not tell from the kinetic.
+TEST_P(GalleryLedger, KineticEnergyBalances) {
+  const auto loaded = load_scene(HOOKE_SOURCE_DIR "/scenes/" + GetParam() + ".json");
+  ASSERT_TRUE(loaded) << loaded.error().text();
+  Scene scene = loaded->scene;
+  if (!scene.emitters.empty()) scene.gravity = {0, 0, 0};
+  Simulation s = simulate(scene, loaded->particles, {"cpu", Precision::double_precision, 2, ""});
+  const double before = measured(s).kinetic_energy;
+  const auto many = static_cast<std::int64_t>(loaded->particles.size());
+  ASSERT_TRUE(advance(s, std::clamp<std::int64_t>(4000000 / std::max<std::int64_t>(many, 1), 20, 2000)));
+  const Ledger& l = s.ledger();
+  if (scene.emitters.empty()) {
+    ASSERT_EQ(l.removed + l.population.sunk, 0U) << "takes gravity's potential along";
+  }
+  const double after = measured(s).kinetic_energy, born = l.population.born_energy;
+  double given = born - l.removed_energy, throughput = before + after + born + l.removed_energy;
+  for (const double work : l.work.of) {
+    given += work;
+    throughput += std::abs(work);
+  }
+  EXPECT_GT(throughput, 0);
+  EXPECT_NEAR(after - before, given, 1e-9 * throughput);
+}
+
+INSTANTIATE_TEST_SUITE_P(Gallery, GalleryLedger, testing::ValuesIn(GalleryLedger::names()), GalleryLedger::test_name);
+
+}  // namespace
+}  // namespace hooke::test
