@@ -6,9 +6,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "hooke/core/simulation.h"
+#include "hooke/physics/periodic.h"
 
 namespace hooke {
 namespace {
@@ -19,6 +21,17 @@ const char* limiting(double omega2, double gamma, const char* spring, const char
   if (by_spring < by_dashpot / 4) return spring;
   if (by_dashpot < by_spring / 4) return dashpot;
   return both;
+}
+
+// From y to the nearest image of x, m.
+Vec3d nearest_displacement(const Domain& domain, const Vec3d& x, const Vec3d& y) {
+  Vec3d off = x - y;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (domain.boundary[static_cast<std::size_t>(axis)] != Boundary::periodic) continue;
+    const double a = component(x, axis), b = component(y, axis), length = domain.length(axis);
+    component(off, axis) = image_displacement(a, b, nearest_image(a, b, length), length);
+  }
+  return off;
 }
 
 // The smallest step so far.
@@ -36,16 +49,19 @@ class Smallest {
   void consider_boundary(const ContactCoefficients<double>& c, double mass, const std::string& pair) {
     if (is_smaller(c.stiffness / mass, (c.shear + c.damping) / mass)) step.limit = "stiffness and damping of " + pair;
   }
-  void consider_drag(double drag, const Material& m) {
-    if (is_smaller(0, drag / m.mass)) step.limit = "drag of " + m.name;
+  // What brakes particles of a mass by `rate` (kg/s) in all.
+  void consider_drag(double rate, double mass, const std::string& what) {
+    if (is_smaller(0, rate / mass)) step.limit = what;
   }
   // The springs that tie one particle, K and C in all. No mode of particles and springs is faster than
   // omega^2 = 2 K/m, gamma = 2 C/m of the one for which that is most: (u_i - u_p)^2 <= 2 (u_i^2 + u_p^2) for each.
-  void consider_springs(double stiffness, double damping, const Material& m, std::uint64_t id) {
+  // `whose` says of what the particle is a part.
+  template <class Whose>
+  void consider_springs(double stiffness, double damping, const Material& m, std::uint64_t id, const Whose& whose) {
     const double omega2 = 2 * stiffness / m.mass, gamma = 2 * damping / m.mass;
     if (!is_smaller(omega2, gamma)) return;
     step.limit = fmt::format("{} of the springs around particle {} ({})",
-                             limiting(omega2, gamma, "stiffness", "damping", "stiffness and damping"), id, m.name);
+                             limiting(omega2, gamma, "stiffness", "damping", "stiffness and damping"), id, whose());
   }
 
   StableStep step{INFINITY, "nothing"};
@@ -75,7 +91,87 @@ void consider_contacts(const Scene& scene, Smallest& smallest) {
       smallest.consider_boundary(table.pair(a, *collider.material).linear, m.mass,
                                  m.name + " - " + scene.materials[*collider.material].name);
     }
-    smallest.consider_drag(m.drag, m);
+  }
+}
+
+// What a field brakes particles of this material by at most, kg/s, wherever they are.
+double braking(const Field& field, const Material& m, std::size_t material) {
+  const std::vector<std::size_t>& felt_by = field.materials;
+  if (!felt_by.empty() && std::find(felt_by.begin(), felt_by.end(), material) == felt_by.end()) return 0;
+  if (const auto* wind = std::get_if<Wind>(&field.law)) return wind->drag.value_or(0);  // the material's own is counted
+  const auto* push = std::get_if<PushToward>(&field.law);
+  return push != nullptr && push->time > 0 ? m.mass / push->time : 0;
+}
+
+// Drag and fields brake a particle together; named is who has a good part in it.
+void consider_braking(const Scene& scene, Smallest& smallest) {
+  constexpr double kGoodPart = 0.1;
+  for (std::size_t a = 0; a < scene.materials.size(); ++a) {
+    const Material& m = scene.materials[a];
+    if (!m.is_of_particles()) continue;
+    std::vector<std::pair<double, std::string>> parts{{m.drag, "drag"}};
+    double all = m.drag;
+    for (std::size_t f = 0; f < scene.fields.size(); ++f) {
+      const double rate = braking(scene.fields[f], m, a);
+      const char* law = std::holds_alternative<Wind>(scene.fields[f].law) ? "drag of the wind" : "time of the push";
+      parts.emplace_back(rate, fmt::format("{} fields[{}]", law, f));
+      all += rate;
+    }
+    std::string named;
+    for (const auto& [rate, name] : parts) {
+      if (rate > kGoodPart * all) named += (named.empty() ? "" : " and ") + name;
+    }
+    smallest.consider_drag(all, m.mass, named + (named == "drag" ? " of " : " on ") + m.name);
+  }
+}
+
+// Which of the scene's cloths a particle is a part of, by its id.
+class ClothNames {
+ public:
+  explicit ClothNames(const Structure& structure) {
+    for (std::size_t k = 0; k < structure.surfaces.size(); ++k) {
+      ids_.push_back(structure.surfaces[k].particles);
+      std::sort(ids_.back().begin(), ids_.back().end());
+    }
+  }
+  // "cloths[0], linen", or just the material.
+  std::string operator()(std::uint64_t id, const Material& m) const {
+    for (std::size_t k = 0; k < ids_.size(); ++k) {
+      if (std::binary_search(ids_[k].begin(), ids_[k].end(), id)) return fmt::format("cloths[{}], {}", k, m.name);
+    }
+    return m.name;
+  }
+
+ private:
+  std::vector<std::vector<std::uint64_t>> ids_;
+};
+
+// Wind on a triangle brakes each corner along the normal, by a third of k_A A (docs/theory.md eq. 15): no mode of a
+// sheet is braked faster than the corner that has the most of it.
+void consider_sheets(const Structure& structure, const Scene& scene, const ParticleSet& particles, Smallest& smallest) {
+  for (std::size_t f = 0; f < scene.fields.size(); ++f) {
+    const auto* wind = std::get_if<Wind>(&scene.fields[f].law);
+    if (wind == nullptr || !(wind->area_drag > 0)) continue;
+    for (std::size_t k = 0; k < structure.surfaces.size(); ++k) {
+      const Surface& surface = structure.surfaces[k];
+      std::vector<double> area(surface.particles.size(), 0);
+      for (std::size_t t = 0; t + 2 < surface.triangles.size(); t += 3) {
+        std::array<std::size_t, 3> at{};
+        for (std::size_t c = 0; c < 3; ++c) at[c] = particles.find(surface.particles[surface.triangles[t + c]]);
+        if (std::find(at.begin(), at.end(), particles.size()) != at.end()) continue;
+        const auto edge = [&](std::size_t c) {
+          return nearest_displacement(scene.domain, particles.position[at[c]], particles.position[at[0]]);
+        };
+        const Vec3d twice = cross(edge(1), edge(2));
+        for (std::size_t c = 0; c < 3; ++c) area[surface.triangles[t + c]] += std::sqrt(dot(twice, twice)) / 6;
+      }
+      for (std::size_t c = 0; c < area.size(); ++c) {
+        const std::size_t i = particles.find(surface.particles[c]);
+        if (i == particles.size()) continue;
+        smallest.consider_drag(wind->area_drag * area[c], scene.materials[particles.material[i]].mass,
+                               fmt::format("area_drag of the wind fields[{}] on cloths[{}]", f, k));
+      }
+    }
   }
 }
 
@@ -91,9 +187,12 @@ void consider_springs(const Structure& structure, const Scene& scene, const Part
       damping[i] += springs.damping[s];
     }
   }
+  const ClothNames names(structure);
   for (std::size_t i = 0; i < particles.size(); ++i) {
     if (std::binary_search(structure.held.begin(), structure.held.end(), particles.id[i])) continue;
-    smallest.consider_springs(stiffness[i], damping[i], scene.materials[particles.material[i]], particles.id[i]);
+    const Material& m = scene.materials[particles.material[i]];
+    const std::uint64_t id = particles.id[i];
+    smallest.consider_springs(stiffness[i], damping[i], m, id, [&] { return names(id, m); });
   }
 }
 
@@ -102,7 +201,11 @@ void consider_springs(const Structure& structure, const Scene& scene, const Part
 StableStep stable_step(const Scene& scene, const ParticleSet& particles) {
   Smallest smallest;
   consider_contacts(scene, smallest);
-  if (scene.structure) consider_springs(*scene.structure, scene, particles, smallest);
+  consider_braking(scene, smallest);
+  if (scene.structure) {
+    consider_springs(*scene.structure, scene, particles, smallest);
+    consider_sheets(*scene.structure, scene, particles, smallest);
+  }
   return smallest.step;
 }
 

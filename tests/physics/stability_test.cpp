@@ -157,6 +157,63 @@ TEST(StableStep, IsThatOfDrag) {
   EXPECT_EQ(stable_step(scene).limit, "drag of " + scene.materials[0].name);
 }
 
+// Drag of the medium and of fields brake together; the step at which they let a particle's speed grow is the one that
+// is said, and named is who has a part in it.
+TEST(StableStep, CountsWhatFieldsBrake) {
+  Scene scene = open_scene();
+  scene.materials[0].contact = {0, 0, 0};
+  scene.materials[0].drag = 1;
+  scene.materials[0].mass = 2;
+  const std::string name = scene.materials[0].name;
+  Wind wind;
+  scene.fields = {{wind, {}, {}}};
+  EXPECT_DOUBLE_EQ(stable_step(scene).seconds, 2.0 * 2 / 1) << "the material's own drag, against the wind";
+  EXPECT_EQ(stable_step(scene).limit, "drag of " + name);
+  wind.drag = 30;
+  scene.fields = {{UniformPush{{1, 0, 0}}, {}, {}}, {wind, {}, {}}};
+  EXPECT_DOUBLE_EQ(stable_step(scene).seconds, 2.0 * 2 / 31);
+  EXPECT_EQ(stable_step(scene).limit, "drag of the wind fields[1] on " + name);
+  scene.fields.push_back({PushToward{{0, 0, 0}, 0, 0, 0.1}, {}, {}});
+  EXPECT_DOUBLE_EQ(stable_step(scene).seconds, 2.0 * 2 / 51);
+  EXPECT_EQ(stable_step(scene).limit, "drag of the wind fields[1] and time of the push fields[2] on " + name);
+
+  ParticleSet one;
+  add(one, {3, 0, 0}, {0.1, 0, 0});
+  for (const double part : {0.98, 1.02}) {
+    scene.time_step = part * stable_step(scene).seconds;
+    Simulation s = simulate(scene, one, kReference);
+    (void)s.step(200);
+    const double speed = std::sqrt(dot(s.velocities()[0], s.velocities()[0]));
+    EXPECT_EQ(speed > 5, part > 1) << speed;
+  }
+}
+
+TEST(StableStep, NamesTheClothAndTheWindOnIt) {
+  Scene scene = open_scene();
+  scene.materials[0].contact = {0, 0, 0};
+  ParticleSet corners;
+  for (const Vec3d& x : {Vec3d{0, 0, 0}, Vec3d{2, 0, 0}, Vec3d{0, 0, 2}}) add(corners, x, {0, 0, 0});
+  auto structure = std::make_shared<Structure>();
+  structure->surfaces = {{"linen", {1, 2, 3}, {0, 1, 2}}};
+  structure->springs.push_back({1, 2, 2, 100, 0});
+  scene.structure = structure;
+  const std::string name = scene.materials[0].name;
+  EXPECT_EQ(stable_step(scene, corners).limit, "stiffness of the springs around particle 1 (cloths[0], " + name + ")");
+  Wind wind;
+  wind.area_drag = 300;  // on 2 m^2, a third of it a corner
+  scene.fields = {{wind, {}, {}}};
+  EXPECT_DOUBLE_EQ(stable_step(scene, corners).seconds, 2 / 200.0);
+  EXPECT_EQ(stable_step(scene, corners).limit, "area_drag of the wind fields[0] on cloths[0]");
+  for (const double part : {0.98, 1.02}) {
+    scene.time_step = part * 2 / 200.0;
+    ParticleSet moved = corners;
+    for (Vec3d& v : moved.velocity) v = {0, 1, 0};
+    Simulation s = simulate(scene, moved, kReference);
+    (void)s.step(100);
+    EXPECT_EQ(std::abs(s.velocities()[0].y) > 10, part > 1) << s.velocities()[0].y;
+  }
+}
+
 TEST(StableStep, IsInfiniteWhereNothingOscillates) {
   Scene scene = open_scene();
   scene.materials[0].contact = {0, 0, 0};
