@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "commands.h"
-#include "hooke/io/checkpoint.h"
 #include "hooke/io/export.h"
-#include "hooke/scene/load_scene.h"
+#include "hooke/io/run_folder.h"
+#include "kept_scene.h"
 #include "log.h"
 #include "output_file.h"
 
@@ -36,17 +36,10 @@ Expected<std::vector<std::size_t>> pick(const RunReader& run, const ExportArgume
 
 // The scene that the run folder keeps; none where `run` is a file, or the folder has lost it.
 Expected<std::optional<Scene>> scene_of(const std::filesystem::path& run) {
-  const std::filesystem::path file = run / kSceneFile;
   std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) return std::nullopt;
-  LoadOptions options;
-  options.allow_outside = true;  // the particles that such paths lead to are not read again
-  options.with_particles = false;
-  auto loaded = load_scene(file, options);
+  if (!std::filesystem::exists(run / kSceneFile, ignored)) return std::nullopt;
+  auto loaded = load_kept_scene(run);
   if (!loaded) return fail(std::move(loaded.error()));
-  auto structure = read_structure_of_run(run);
-  if (!structure) return fail(std::move(structure.error()));
-  loaded->scene.structure = std::move(*structure);
   return std::move(loaded->scene);
 }
 

@@ -10,13 +10,13 @@
 #include <utility>
 
 #include "commands.h"
-#include "hooke/io/checkpoint.h"
 #include "hooke/io/report.h"
 #include "hooke/io/run_folder.h"
 #include "hooke/render/film.h"
 #include "hooke/render/interpolate.h"
 #include "hooke/scene/load_scene.h"
 #include "interrupt.h"
+#include "kept_scene.h"
 #include "log.h"
 #include "output_file.h"
 #include "progress.h"
@@ -76,22 +76,6 @@ Expected<void> write_picture(const Image& image, const std::filesystem::path& fi
   const auto bytes = encode_png(image);
   if (!bytes) return fail(bytes.error());
   return write_text_file(file, *bytes);
-}
-
-// The scene that the run folder keeps, with what --set changes of it.
-Expected<LoadedScene> load_kept_scene(const RenderArguments& arguments) {
-  LoadOptions options;
-  options.overrides = arguments.overrides;
-  options.allow_outside = true;  // the particles that such paths lead to are not read again
-  options.with_particles = false;
-  const std::filesystem::path& run = arguments.run;
-  const std::filesystem::path folder = std::filesystem::is_directory(run) ? run : run.parent_path();
-  auto loaded = load_scene(folder / kSceneFile, options);
-  if (!loaded) return loaded;
-  auto structure = read_structure_of_run(folder);
-  if (!structure) return fail(std::move(structure).error());
-  loaded->scene.structure = std::move(*structure);
-  return loaded;
 }
 
 Expected<void> check_time(double time, const RunReader& run) {
@@ -186,7 +170,9 @@ Expected<ExitStatus> render(const RenderArguments& arguments) {
   if (arguments.time) {
     if (auto inside = check_time(*arguments.time, *run); !inside) return fail(inside.error());
   }
-  const auto loaded = load_kept_scene(arguments);
+  const std::filesystem::path folder =
+      std::filesystem::is_directory(arguments.run) ? arguments.run : arguments.run.parent_path();
+  const auto loaded = load_kept_scene(folder, arguments.overrides);
   if (!loaded) return fail(loaded.error());
   auto studio = Studio::open(arguments.picture);
   if (!studio) return fail(std::move(studio).error());

@@ -9,8 +9,8 @@
 #include <array>
 #include <cmath>
 
+#include "hooke/core/nearest_displacement.h"
 #include "hooke/core/simulation.h"
-#include "hooke/physics/periodic.h"
 
 namespace hooke {
 namespace {
@@ -21,17 +21,6 @@ const char* limiting(double omega2, double gamma, const char* spring, const char
   if (by_spring < by_dashpot / 4) return spring;
   if (by_dashpot < by_spring / 4) return dashpot;
   return both;
-}
-
-// From y to the nearest image of x, m.
-Vec3d nearest_displacement(const Domain& domain, const Vec3d& x, const Vec3d& y) {
-  Vec3d off = x - y;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (domain.boundary[static_cast<std::size_t>(axis)] != Boundary::periodic) continue;
-    const double a = component(x, axis), b = component(y, axis), length = domain.length(axis);
-    component(off, axis) = image_displacement(a, b, nearest_image(a, b, length), length);
-  }
-  return off;
 }
 
 // The smallest step so far.

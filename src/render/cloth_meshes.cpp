@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/core/torn_edges.h"
+
 namespace hooke {
 
 namespace {
@@ -22,8 +24,9 @@ bool spans_domain(const Scene& scene, const Vec3d& edge) {
   return false;
 }
 
-ShadedMesh make_mesh(const Surface& surface, const Scene& scene, const ParticleSet& particles, const Vec3d& origin,
-                     const std::function<Color(std::size_t)>& color_of, std::vector<char>& covered) {
+ShadedMesh make_mesh(const Surface& surface, const Scene& scene, const TornEdges& torn, const ParticleSet& particles,
+                     const Vec3d& origin, const std::function<Color(std::size_t)>& color_of,
+                     std::vector<char>& covered) {
   std::vector<std::size_t> index(surface.particles.size());
   for (std::size_t k = 0; k < index.size(); ++k) index[k] = particles.find(surface.particles[k]);
   const auto is_gone = [&](std::uint32_t corner) { return index[corner] == particles.size(); };
@@ -33,6 +36,7 @@ ShadedMesh make_mesh(const Surface& surface, const Scene& scene, const ParticleS
   for (std::size_t t = 0; t + 2 < surface.triangles.size(); t += 3) {
     const std::uint32_t* corner = surface.triangles.data() + t;
     if (std::any_of(corner, corner + 3, is_gone)) continue;
+    if (torn.any_of({index[corner[0]], index[corner[1]], index[corner[2]]}, particles)) continue;
     const Vec3d& a = particles.position[index[corner[0]]];
     const Vec3d ab = particles.position[index[corner[1]]] - a, ac = particles.position[index[corner[2]]] - a;
     if (spans_domain(scene, ab) || spans_domain(scene, ac) || spans_domain(scene, ac - ab)) continue;
@@ -56,8 +60,9 @@ ShadedMesh make_mesh(const Surface& surface, const Scene& scene, const ParticleS
 std::vector<ShadedMesh> cloth_meshes(const Scene& scene, const ParticleSet& particles, const Vec3d& origin,
                                      const std::function<Color(std::size_t)>& color_of, std::vector<char>& covered) {
   std::vector<ShadedMesh> meshes;
+  const TornEdges torn(scene);
   for (const Surface& surface : scene.structure->surfaces) {
-    meshes.push_back(make_mesh(surface, scene, particles, origin, color_of, covered));
+    meshes.push_back(make_mesh(surface, scene, torn, particles, origin, color_of, covered));
   }
   return meshes;
 }

@@ -33,6 +33,21 @@ TEST_F(ExportCommand, GivesFormatsTheScene) {
   EXPECT_THAT(read("p.usda"), HasSubstr("upAxis = \"Z\""));
 }
 
+// A run that has not come to its first checkpoint, or has lost it: cloths are as the scene makes them.
+TEST_F(ExportCommand, FindsClothsWithoutACheckpoint) {
+  write("flag.json", R"({ "hooke": 1, "time": { "step": 0.001, "end": 0.02 },
+      "domain": { "min": [-5, -5, -5], "max": [5, 5, 5] },
+      "materials": { "linen": { "radius": 0.05, "mass": 0.01, "stiffness": 100 } }, "particles": [],
+      "cloths": [ { "material": "linen", "corner": [0, 0, 0], "edges": [[1, 0, 0], [0, 0, 1]], "cells": [4, 4],
+                    "stretch": 100, "shear": 10 } ], "output": { "every": 0.01 } })");
+  hooke_ok({"run", "flag.json", "-o", "flag", "--quiet"});
+  hooke_ok({"export", "flag", "--as", "cloths", "-o", "with.obj"});
+  std::filesystem::remove(path("flag/checkpoint.h5"));
+  hooke_ok({"export", "flag", "--as", "cloths", "-o", "without.obj"});
+  EXPECT_THAT(read("with.obj"), HasSubstr("\nf 1//1 "));
+  EXPECT_EQ(read("with.obj"), read("without.obj"));
+}
+
 TEST_F(ExportCommand, DoesWithoutTheSceneOfAFile) {
   hooke_ok({"export", "s/particles.vtkhdf", "-o", "p.xyz"});
   EXPECT_THAT(read("p.xyz"), Not(HasSubstr("Lattice=")));

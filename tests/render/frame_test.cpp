@@ -49,6 +49,16 @@ TEST(MakeFrame, SurfacesAreDrawnInPlaceOfTheirParticles) {
   EXPECT_EQ(mesh.color, (Color{0xc0, 0x20, 0x40}));
   EXPECT_EQ(mesh.corners[2].position, vec_cast<float>(particles.position[2] - frame.origin));
 
+  // Where a spring along an edge, 1 m long here, is stretched so far that it breaks, there is a hole.
+  for (const double break_strain : {0.2, 0.3}) {
+    auto tearable = std::make_shared<Structure>(*structure);
+    tearable->springs.push_back({2, 1, 0.8, 100, 0, break_strain});
+    scene.structure = tearable;
+    const Frame torn = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
+    EXPECT_EQ(torn.meshes[0].corners.size(), break_strain < 0.25 ? 0u : 3u);
+  }
+  scene.structure = structure;
+
   // Across a periodic face its two ends are neighbours, not on a picture.
   scene.domain.boundary = {Boundary::periodic, Boundary::periodic, Boundary::periodic};
   particles.position[1].x = scene.domain.min.x + 0.9 * scene.domain.length(0);

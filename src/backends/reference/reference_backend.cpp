@@ -132,9 +132,8 @@ class ReferenceBackend final : public Backend {
 
   void sink_particles() override {
     const auto sunk = [&](std::size_t i) {
-      return std::any_of(sinks_.begin(), sinks_.end(), [&](const ShapeGeometry<double>& sink) {
-        return encloses(sink, p_.position[i]);
-      });
+      return std::any_of(sinks_.begin(), sinks_.end(),
+                         [&](const ShapeGeometry<double>& sink) { return encloses(sink, p_.position[i]); });
     };
     remove_where(sunk).book_gone(ledger_, ledger_.population.sunk);
   }

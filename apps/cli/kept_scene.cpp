@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "kept_scene.h"
+
+#include <utility>
+
+#include "hooke/io/checkpoint.h"
+#include "hooke/io/run_folder.h"
+
+namespace hooke::cli {
+
+Expected<LoadedScene> load_kept_scene(const std::filesystem::path& folder, const std::vector<std::string>& overrides) {
+  LoadOptions options;
+  options.overrides = overrides;
+  options.allow_outside = true;  // the particles that such paths lead to are not read again
+  options.with_particles = false;
+  auto loaded = load_scene(folder / kSceneFile, options);
+  if (!loaded) return loaded;
+  auto structure = read_structure_of_run(folder);
+  if (!structure) return fail(std::move(structure).error());
+  loaded->scene.structure = std::move(*structure);
+  std::error_code ignored;
+  if (std::filesystem::exists(folder / kCheckpointFile, ignored)) return loaded;
+  options.with_particles = true;
+  if (auto whole = load_scene(folder / kSceneFile, options))
+    loaded->scene.structure = std::move(whole->scene.structure);
+  return loaded;
+}
+
+}  // namespace hooke::cli
