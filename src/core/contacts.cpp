@@ -374,10 +374,10 @@ std::vector<Contact> find_contacts(const Scene& scene, const ParticleSet& partic
     for (const Touch& touch : touches) {
       if (is_listed(touch)) *next++ = touch.contact;
     }
-    std::stable_sort(first, next, [](const Contact& c, const Contact& d) {
-      const bool by_shape = c.b == Contact::kCollider, d_by_shape = d.b == Contact::kCollider;
-      return std::tie(by_shape, c.b, c.image, c.face) < std::tie(d_by_shape, d.b, d.image, d.face);
-    });
+    // Walls and colliders follow the pairs, in order.
+    Contact* const pairs_end = std::find_if(first, next, [](const Contact& c) { return c.b >= Contact::kCollider; });
+    std::sort(first, pairs_end,
+              [](const Contact& c, const Contact& d) { return std::tie(c.b, c.image) < std::tie(d.b, d.image); });
   });
   return found;
 }
