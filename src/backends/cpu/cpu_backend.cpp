@@ -590,9 +590,8 @@ class CpuBackend final : public Backend {
   }
 
   bool is_in_a_sink(const Vec3d& x) const {
-    return std::any_of(sinks_.begin(), sinks_.end(), [&](const PlacedSink& sink) {
-      return is_inside(sink.box, x) && encloses(sink.shape, x);
-    });
+    return std::any_of(sinks_.begin(), sinks_.end(),
+                       [&](const PlacedSink& sink) { return is_inside(sink.box, x) && encloses(sink.shape, x); });
   }
 
   void collect(Departures& total, const Departures& part) const {
