@@ -58,7 +58,8 @@ struct HeldMotion {
 
 using Motion = std::variant<NoMotion, SteadyMotion, KeyframeMotion, Oscillation, HeldMotion>;
 
-/// A fixed or moving boundary: a partner of infinite mass in contacts with particles.
+/// A fixed or moving boundary: a partner of infinite mass in contacts with particles. Across periodic faces it has
+/// images (placed_colliders.h).
 struct Collider {
   std::string name;                      ///< unique
   Shape shape;

@@ -169,10 +169,9 @@ class ContactSearch {
   double radius(std::size_t i) const { return scene_.materials[particles_.material[i]].radius; }
 
   void place_colliders(double time) {
-    const double reach = largest_radius() + table_.widest_range();
-    for (const Collider& collider : scene_.colliders) {
-      colliders_.push_back(place_collider<double>(collider, pose_at(collider, time), reach));
-    }
+    std::vector<ColliderPose> poses;
+    for (const Collider& collider : scene_.colliders) poses.push_back(pose_at(collider, time));
+    colliders_ = hooke::place_colliders<double>(scene_, poses, largest_radius() + table_.widest_range());
   }
 
   double largest_radius() const {
@@ -312,8 +311,9 @@ class ContactSearch {
 
   void add_colliders(std::size_t k, std::vector<Touch>& touches) const {
     const Sphere& i = spheres_[k];
-    for (std::uint32_t c = 0; c < colliders_.size(); ++c) {
-      const PlacedCollider<double>& collider = colliders_[c];
+    for (std::size_t n = 0; n < colliders_.all.size(); ++n) {
+      const std::uint32_t c = colliders_.of[n];
+      const PlacedCollider<double>& collider = colliders_.all[n];
       if (!is_inside(ShapeBounds{collider.near_from, collider.near_to}, i.x)) continue;
       const ContactLaw<double>& law = table_.collider(i.material, scene_.colliders[c].material);
       for_each_collider_face(collider, i.x, [&](const ColliderFace<double>& face) {
@@ -333,7 +333,7 @@ class ContactSearch {
   const ParticleSet& particles_;
   ContactTable table_;
   double furthest_, reach_ = 0;  // m
-  std::vector<PlacedCollider<double>> colliders_;
+  PlacedColliders<double> colliders_;
   std::vector<IdPair> apart_;  // smaller id first, ascending: a spring keeps them from touching
   bool any_periodic_ = false;
   Vec3d period_{kNever, kNever, kNever};  // m, of periodic axes

@@ -104,11 +104,8 @@ void Emission::emit(const Scene& scene, std::uint32_t index, std::int64_t step, 
 
   // Who and what is in the way.
   const Material& material = scene.materials[emitter.material];
-  std::vector<PlacedCollider<double>> colliders;
-  for (std::size_t c = 0; c < poses.size(); ++c) {
-    colliders.push_back(place_collider<double>(scene.colliders[c], poses[c], material.radius));
-  }
-  FreeSpace space(scene, emitter.material, colliders);
+  const PlacedColliders<double> colliders = place_colliders<double>(scene, poses, material.radius);
+  FreeSpace space(scene, emitter.material, colliders.all);
   const double time = static_cast<double>(step) * scene.time_step;
   const PlacedEmitter placed = place_emitter(emitter, index, time, space.reach(), areas_[index]);
   if (material.interacts) {

@@ -3,8 +3,12 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include "hooke/core/colliders.h"
+#include "hooke/core/scene.h"
 #include "hooke/physics/collider.h"
 
 namespace hooke {
@@ -48,6 +52,49 @@ PlacedCollider<S> place_collider(const Collider& collider, const ColliderPose& p
     const bool everywhere = !std::isfinite(far);  // a plane
     component(placed.near_from, axis) = static_cast<S>(everywhere ? -kBeyondReach : at - far - slack);
     component(placed.near_to, axis) = static_cast<S>(everywhere ? kBeyondReach : at + far + slack);
+  }
+  return placed;
+}
+
+/// All colliders of a scene where they are, in its order, each with its images across periodic faces.
+template <class S>
+struct PlacedColliders {
+  std::vector<PlacedCollider<S>> all;
+  std::vector<std::uint32_t> of;  ///< the index in the scene of each
+};
+
+/// `reach` as above. Images are what can be touched inside of the domain: of a collider that is shorter along a
+/// periodic axis than the domain, where it may have moved on across the face. A longer one, as a plane is, spans the
+/// domain, and is there once, as it is.
+template <class S>
+PlacedColliders<S> place_colliders(const Scene& scene, std::span<const ColliderPose> poses, double reach) {
+  PlacedColliders<S> placed;
+  for (std::uint32_t c = 0; c < poses.size(); ++c) {
+    const Collider& collider = scene.colliders[c];
+    const PlacedCollider<double> body = place_collider<double>(collider, poses[c], 0);
+    const PlacedCollider<double> near = place_collider<double>(collider, poses[c], reach);
+    std::int64_t from[3] = {0, 0, 0}, to[3] = {0, 0, 0};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double length = scene.domain.length(axis);
+      const bool periodic = scene.domain.boundary[static_cast<std::size_t>(axis)] == Boundary::periodic;
+      if (!periodic || !(component(body.near_to, axis) - component(body.near_from, axis) < length)) continue;
+      from[axis] = static_cast<std::int64_t>(
+          std::ceil((component(scene.domain.min, axis) - component(near.near_to, axis)) / length));
+      to[axis] = static_cast<std::int64_t>(
+          std::floor((component(scene.domain.max, axis) - component(near.near_from, axis)) / length));
+    }
+    for (std::int64_t sx = from[0]; sx <= to[0]; ++sx) {
+      for (std::int64_t sy = from[1]; sy <= to[1]; ++sy) {
+        for (std::int64_t sz = from[2]; sz <= to[2]; ++sz) {
+          ColliderPose image = poses[c];
+          image.pivot +=
+              Vec3d{static_cast<double>(sx) * scene.domain.length(0), static_cast<double>(sy) * scene.domain.length(1),
+                    static_cast<double>(sz) * scene.domain.length(2)};
+          placed.all.push_back(place_collider<S>(collider, image, reach));
+          placed.of.push_back(c);
+        }
+      }
+    }
   }
   return placed;
 }

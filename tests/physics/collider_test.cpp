@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hooke/core/contacts.h"
 #include "support/engines.h"
 #include "support/particles.h"
 
@@ -191,6 +192,57 @@ TEST(Drum, LiftsGrainsHigherTheFasterItTurns) {
       EXPECT_GT(x.z, 0);
       EXPECT_LT(x.z, 3);
     }
+  }
+}
+
+// A ball that sticks out of a periodic domain, and has moved on for three lengths of it, is felt on the other side: as
+// in a domain that has it in its middle. One as long as the domain is there once.
+TEST(PeriodicColliders, AreFeltAcrossTheFaces) {
+  Collider ball = make_collider(SphereShape{{9.75, -1, -9.5}, 1.5}, SteadyMotion{{30, 0, 0}, {0, 0, 3}, {}});
+  Collider floor = make_collider(BoxShape{{-5, -4, -20}, {15, -2, 20}});
+  floor.name = "floor";
+  Scene scene = scene_with(ball);
+  scene.colliders.push_back(floor);
+  scene.domain = {{0, -10, -10}, {10, 10, 10}, {Boundary::periodic, Boundary::open, Boundary::periodic}};
+  const Vec3d shift{4.75, 0, -9};
+  Scene middle = scene;
+  middle.domain.min += shift;
+  middle.domain.max += shift;
+  ParticleSet grains, shifted;
+  for (int k = 0; k < 12; ++k) {
+    const double angle = 0.55 * k;  // around the ball, on both sides of both faces
+    Vec3d x{9.75 + 1.3 * std::cos(angle), 1 + 0.1 * k, -9.5 + 1.3 * std::sin(angle)};
+    add(shifted, x, {0, 0, 0});
+    if (x.x >= 10) x.x -= 10;
+    if (x.z < -10) x.z += 20;
+    add(grains, x, {0, 0, 0});
+  }
+  for (const Engine& engine : {kReference, kCpuDouble}) {
+    Simulation across = simulate(scene, grains, engine), within = simulate(middle, shifted, engine);
+    for (int i = 0; i < 10; ++i) {
+      ASSERT_TRUE(advance(across, 100));
+      ASSERT_TRUE(advance(within, 100));
+      for (std::size_t k = 0; k < grains.size(); ++k) {
+        Vec3d off = across.positions()[k] - within.positions()[k];
+        off.x -= 10 * std::round(off.x / 10);
+        off.z -= 20 * std::round(off.z / 20);
+        // What rounding of the images makes of it grows while they collide.
+        EXPECT_LT(dot(off, off), 1e-16) << engine.name() << ' ' << i << ' ' << k;
+      }
+    }
+    const Measurements a = measured(across), b = measured(within);
+    EXPECT_GT(across.ledger().impulse[Cause::collider].y, 1) << engine.name();
+    for (std::size_t c = 0; c < 2; ++c) {
+      EXPECT_EQ(a.colliders[c].contacts, b.colliders[c].contacts);
+      for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(component(a.colliders[c].force, axis), component(b.colliders[c].force, axis), 1e-4);
+      }
+    }
+    std::size_t contacts = 0;
+    for (const Contact& contact : find_contacts(scene, across.particles(), {across.time(), {}})) {
+      if (contact.b == Contact::kCollider) ++contacts;
+    }
+    EXPECT_EQ(contacts, a.colliders[0].contacts + a.colliders[1].contacts);
   }
 }
 

@@ -11,8 +11,8 @@ HOOKE_HD Mask<Real> is_inside(const Vec3<Pack<Real>>& x, const Vec3<Real>& from,
          (x.z < P(to.z));
 }
 
-// All colliders near the lanes' particles, in the scene's order. The first look tells whether any can be touched; what
-// follows is no part of the loop that everybody runs, and so not inlined into it.
+// All colliders near the lanes' particles, in the scene's order, image by image. The first look tells whether any can
+// be touched; what follows is no part of the loop that everybody runs, and so not inlined into it.
 template <class Real, Materials kMaterials>
 struct ColliderLoop {
   using P = Pack<Real>;
@@ -37,7 +37,8 @@ struct ColliderLoop {
       const PlacedCollider<Real>& collider = pass.colliders[c];
       const Mask<Real> near = present & is_inside(own.x, collider.near_from, collider.near_to);
       if (!any(near)) continue;
-      const auto pair = load_pairs<Real, kMaterials>(pass.collider_pairs + c * pass.material_count, own.material);
+      const auto pair = load_pairs<Real, kMaterials>(
+          pass.collider_pairs + std::size_t{pass.collider_of[c]} * pass.material_count, own.material);
       for_each_collider_face(collider, own.x, [&](const ColliderFace<P>& face) {
         const P overlap = pair.reach - face.distance;
         const Mask<Real> here = near & acts<Real>(overlap, pair.law);

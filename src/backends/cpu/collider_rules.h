@@ -15,12 +15,12 @@ namespace hooke {
 /// A scene's colliders as the force pass wants them, and where they are.
 template <class Real>
 struct ColliderRules {
-  std::vector<PlacedCollider<Real>> placed;
+  PlacedColliders<Real> placed;
   std::vector<PairRow<Real>> pairs;  ///< a row of materials a collider
 
   void configure(const Scene& scene, std::size_t material_count) {
     const ContactTable table(scene.materials, scene.contacts);
-    placed.clear();
+    placed = {};
     pairs.clear();
     for (const Collider& collider : scene.colliders) {
       for (std::size_t m = 0; m < material_count; ++m) {
@@ -32,17 +32,15 @@ struct ColliderRules {
 
   /// Moves them, and aims `pass` at them. `reach`: how far from a particle's centre one acts on it, m.
   void place(const Scene& scene, std::span<const ColliderPose> poses, double reach, ForcePass<Real>& pass) {
-    placed.clear();
-    for (std::size_t c = 0; c < poses.size(); ++c) {
-      placed.push_back(place_collider<Real>(scene.colliders[c], poses[c], reach));
-    }
-    pass.colliders = placed.data();
-    pass.collider_count = placed.size();
+    placed = place_colliders<Real>(scene, poses, reach);
+    pass.colliders = placed.all.data();
+    pass.collider_of = placed.of.data();
+    pass.collider_count = placed.all.size();
     pass.collider_pairs = pairs.data();
-    if (placed.empty()) return;
-    pass.near_colliders_from = placed[0].near_from;
-    pass.near_colliders_to = placed[0].near_to;
-    for (const PlacedCollider<Real>& collider : placed) {
+    if (placed.all.empty()) return;
+    pass.near_colliders_from = placed.all[0].near_from;
+    pass.near_colliders_to = placed.all[0].near_to;
+    for (const PlacedCollider<Real>& collider : placed.all) {
       for (int axis = 0; axis < 3; ++axis) {
         Real &from = component(pass.near_colliders_from, axis), &to = component(pass.near_colliders_to, axis);
         from = std::min(from, component(collider.near_from, axis));

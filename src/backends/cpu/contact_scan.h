@@ -58,10 +58,11 @@ class ContactScan {
     for (std::size_t c = 0; c < pass_.collider_count; ++c) {
       const PlacedCollider<Real>& collider = pass_.colliders[c];
       if (!is_between(records_[i].x, collider.near_from, collider.near_to)) continue;
-      const PairRow<Real>& row = this->collider(i, c);
+      const std::size_t index = pass_.collider_of[c];
+      const PairRow<Real>& row = this->collider(i, index);
       for_each_collider_face(collider, x, [&](const ColliderFace<double>& face) {
         const double overlap = static_cast<double>(row.reach) - face.distance;
-        if (overlap > -static_cast<double>(row.range)) visit(c, face, overlap);
+        if (overlap > -static_cast<double>(row.range)) visit(index, face, overlap);
       });
     }
   }

@@ -67,9 +67,10 @@ struct ForcePass {
   bool has_drag = false;                      // some material's is not 0
   bool wall[3]{};                             // spring walls across this axis
   Vec3<Real> clear_of_walls_from{}, clear_of_walls_to{};  // m: the largest particles between these touch no wall
-  const PlacedCollider<Real>* colliders = nullptr;        // where they are in this pass
+  const PlacedCollider<Real>* colliders = nullptr;        // where they are in this pass, images included
+  const std::uint32_t* collider_of = nullptr;             // of each, which of the scene's it is
   std::size_t collider_count = 0;
-  const PairRow<Real>* collider_pairs = nullptr;          // a row of material_count a collider
+  const PairRow<Real>* collider_pairs = nullptr;          // a row of material_count a collider of the scene
   Vec3<Real> near_colliders_from{}, near_colliders_to{};  // m: outside of this box none touches a collider
   bool open_or_periodic[3]{};
   bool periodic[3]{};

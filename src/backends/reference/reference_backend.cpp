@@ -77,11 +77,7 @@ class ReferenceBackend final : public Backend {
   void set_time(double seconds) override { time_ = seconds; }
 
   void place_colliders(std::span<const ColliderPose> poses) override {
-    colliders_.clear();
-    const double reach = largest_radius() + table_.widest_range();
-    for (std::size_t c = 0; c < poses.size(); ++c) {
-      colliders_.push_back(place_collider<double>(scene_.colliders[c], poses[c], reach));
-    }
+    colliders_ = hooke::place_colliders<double>(scene_, poses, largest_radius() + table_.widest_range());
   }
 
   void half_kick_and_drift() override {
@@ -373,12 +369,14 @@ class ReferenceBackend final : public Backend {
     }
   }
 
-  // visit(collider, face, overlap) for every face of a collider that acts on particle i, in the scene's order.
+  // visit(collider, face, overlap) for every face of a collider that acts on particle i, in the scene's order, image by
+  // image.
   template <class Visit>
   void for_each_collider(std::size_t i, Visit&& visit) const {
     const double radius = material(i).radius;
-    for (std::size_t c = 0; c < colliders_.size(); ++c) {
-      for_each_collider_face(colliders_[c], p_.position[i], [&](const ColliderFace<double>& face) {
+    for (std::size_t k = 0; k < colliders_.all.size(); ++k) {
+      const std::size_t c = colliders_.of[k];
+      for_each_collider_face(colliders_.all[k], p_.position[i], [&](const ColliderFace<double>& face) {
         const double overlap = radius - face.distance;
         if (overlap > -collider_pair(i, c).surface.range) visit(c, face, overlap);
       });
@@ -446,7 +444,7 @@ class ReferenceBackend final : public Backend {
   ReferenceSprings springs_;
   ReferenceAttraction attraction_;
   std::array<int, 3> images_{};  // images -n to n of every particle are looked at, a periodic axis
-  std::vector<PlacedCollider<double>> colliders_;
+  PlacedColliders<double> colliders_;
   std::vector<ShapeGeometry<double>> sinks_;
   ParticleSet p_;
   Ledger ledger_;
