@@ -3,9 +3,23 @@
 
 #include "support/colliders.h"
 
+#include <algorithm>
 #include <string>
 
+#include "scene/made_meshes.h"
+
 namespace hooke::test {
+namespace {
+
+// A capsule of triangles, closed, or open at its top.
+MeshShape mesh_around(const Vec3d& middle, double radius, bool closed, double reach) {
+  TriangleMesh mesh = capsule_mesh(radius, -radius, radius, 16);
+  if (!closed) mesh.triangles.erase(mesh.triangles.begin(), mesh.triangles.begin() + 24);
+  for (Vec3d& x : mesh.vertices) x += middle;
+  return shape_of(mesh, 0.2 * radius, reach);
+}
+
+}  // namespace
 
 void add_every_collider(Scene& scene, const Vec3d& middle, double size) {
   Material steel;
@@ -41,6 +55,16 @@ void add_every_collider(Scene& scene, const Vec3d& middle, double size) {
       scene.colliders.push_back(c);
       ++i;
     }
+  }
+  double reach = 0;
+  for (const Material& m : scene.materials) reach = std::max(reach, 1.1 * m.radius);
+  for (const bool closed : {true, false}) {
+    Collider c;
+    c.name = closed ? "mesh" : "open mesh";
+    c.shape = mesh_around(closed ? at(-0.5, -0.3, -0.6) : at(0.6, 0.6, -0.6), r, closed, reach);
+    c.motion = closed ? Motion(Oscillation{{0, 0.05 * size, 0}, 3, 0.1})
+                      : Motion(SteadyMotion{{0, 0, 0}, {0, 2, 1}, std::nullopt});
+    scene.colliders.push_back(c);
   }
 }
 
