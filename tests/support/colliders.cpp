@@ -11,6 +11,12 @@
 namespace hooke::test {
 namespace {
 
+#ifdef __SANITIZE_THREAD__
+constexpr bool kHasMeshes = false;  // OpenVDB, in headers, is watched, and TBB, which orders what it does, is not
+#else
+constexpr bool kHasMeshes = true;
+#endif
+
 // A capsule of triangles, closed, or open at its top.
 MeshShape mesh_around(const Vec3d& middle, double radius, bool closed, double reach) {
   TriangleMesh mesh = capsule_mesh(radius, -radius, radius, 16);
@@ -59,6 +65,7 @@ void add_every_collider(Scene& scene, const Vec3d& middle, double size) {
   double reach = 0;
   for (const Material& m : scene.materials) reach = std::max(reach, 1.1 * m.radius);
   for (const bool closed : {true, false}) {
+    if (!kHasMeshes) break;
     Collider c;
     c.name = closed ? "mesh" : "open mesh";
     c.shape = mesh_around(closed ? at(-0.5, -0.3, -0.6) : at(0.6, 0.6, -0.6), r, closed, reach);
