@@ -47,7 +47,10 @@ struct Ledger {
   ByCause<Vec3d> impulse;
   Vec3d removed_momentum{0, 0, 0};  ///< taken along by particles that left, expired or sank, kg m/s
   double removed_energy = 0;        ///< kinetic and potential, taken along likewise, J
-  std::uint64_t removed = 0;        ///< particles that left through open faces
+  /// That was in contacts between particles and in springs when one of them left, expired or sank, less what was in
+  /// contacts of those born, J.
+  double removed_elastic = 0;
+  std::uint64_t removed = 0;  ///< particles that left through open faces
   PopulationLedger population;
   SpringLedger springs;
   /// Velocity Verlet: the rates of the last evaluation during the kick that is still to come. Else unused.

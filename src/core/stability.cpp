@@ -205,7 +205,8 @@ StableStep stable_step(const Simulation& simulation) {
 
 double integration_error(const Measurements& now, const Ledger& ledger, double initial_elastic) {
   const double by_springs = ledger.work[Cause::springs] + ledger.springs.dissipated + ledger.springs.broken_energy;
-  return ledger.work[Cause::contact_spring] + by_springs + (now.elastic_energy + now.spring_energy - initial_elastic);
+  const double gained = now.elastic_energy + now.spring_energy + ledger.removed_elastic - initial_elastic;
+  return ledger.work[Cause::contact_spring] + by_springs + gained;
 }
 
 double momentum_drift(const Measurements& now, const Ledger& ledger, const Vec3d& initial_momentum) {

@@ -102,6 +102,7 @@ void RemovalSums::add_particle(double mass, const Vec3d& x, const Vec3d& v, cons
 void RemovalSums::add(const RemovalSums& other) {
   momentum.add(other.momentum);
   energy.add(other.energy);
+  elastic.add(other.elastic);
   count += other.count;
 }
 
@@ -110,13 +111,15 @@ void RemovalSums::book(Ledger& ledger) const { book_gone(ledger, ledger.removed)
 void RemovalSums::book_gone(Ledger& ledger, std::uint64_t& tally) const {
   ledger.removed_momentum += momentum.value();
   ledger.removed_energy += energy.value();
+  ledger.removed_elastic += elastic.value();
   tally += count;
 }
 
-void RemovalSums::book_born(PopulationLedger& ledger) const {
-  ledger.born_momentum += momentum.value();
-  ledger.born_energy += energy.value();
-  ledger.born += count;
+void RemovalSums::book_born(Ledger& ledger) const {
+  ledger.population.born_momentum += momentum.value();
+  ledger.population.born_energy += energy.value();
+  ledger.population.born += count;
+  ledger.removed_elastic -= elastic.value();
 }
 
 void ColliderLoadSums::add_contact(std::size_t index, const Vec3d& point, const Vec3d& force) {

@@ -81,6 +81,7 @@ StepRates first_rates(const StepSums& start, const AppliedSums* applied, const V
 struct RemovalSums {
   ExactVectorSum momentum;  ///< kg m/s
   ExactSum energy;  ///< J
+  ExactSum elastic;  ///< in contacts between particles and in springs, of each once, J
   std::uint64_t count = 0;
 
   void add_particle(double mass, const Vec3d& x, const Vec3d& v, const Vec3d& gravity);
@@ -90,7 +91,7 @@ struct RemovalSums {
   /// As left for another reason, whose count is `tally`.
   void book_gone(Ledger& ledger, std::uint64_t& tally) const;
   /// As born.
-  void book_born(PopulationLedger& ledger) const;
+  void book_born(Ledger& ledger) const;
 };
 
 /// What particles do to each collider, gathered in any order.

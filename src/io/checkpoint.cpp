@@ -20,7 +20,7 @@ namespace hooke {
 
 namespace {
 
-constexpr std::int64_t kFormat = 2;
+constexpr std::int64_t kFormat = 3;
 constexpr const char* kType = "hooke checkpoint";
 
 static_assert(sizeof(Vec3d) == 3 * sizeof(double));
@@ -48,6 +48,7 @@ void for_each_real(State& s, Visit&& visit) {
   vector(ledger.removed_momentum);
   vector(s.initial_momentum);
   visit(ledger.removed_energy);
+  visit(ledger.removed_elastic);
   visit(ledger.springs.dissipated);
   visit(ledger.springs.broken_energy);
   visit(ledger.last.spring_dissipation);

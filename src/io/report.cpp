@@ -39,8 +39,8 @@ double RunReport::energy_balance() const {
                      measurements.spring_energy + measurements.attraction_energy;
   const double given = ledger.work[Cause::wall] + ledger.work[Cause::collider] + ledger.work[Cause::hold] +
                        ledger.work[Cause::field] + ledger.population.born_energy;
-  const double lost =
-      ledger.dissipated() + ledger.springs.dissipated + ledger.springs.broken_energy + ledger.removed_energy;
+  const double lost = ledger.dissipated() + ledger.springs.dissipated + ledger.springs.broken_energy +
+                      ledger.removed_energy + ledger.removed_elastic;
   return now - initial_energy - (given - lost);
 }
 
@@ -106,6 +106,7 @@ std::string to_json(const RunReport& r) {
                     {"collider_elastic", m.collider_elastic_energy},
                     {"work_by_colliders", r.ledger.work[Cause::collider]},
                     {"removed", r.ledger.removed_energy},
+                    {"removed_elastic", r.ledger.removed_elastic},
                     {"born", r.ledger.population.born_energy},
                     {"initial", r.initial_energy},
                     {"springs", m.spring_energy},

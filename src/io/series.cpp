@@ -57,6 +57,7 @@ void for_each_column(const SeriesRow& row, Visit&& column) {
   column("attraction_work", l.work[Cause::attraction]);
   column("integration", row.integration);
   column("removed_energy", l.removed_energy);
+  column("removed_elastic", l.removed_elastic);
   column("born", l.population.born);
   column("born_energy", l.population.born_energy);
   column("expired", l.population.expired);

@@ -88,6 +88,9 @@ TEST_P(Births, AreThoseOfTheReference) {
     EXPECT_GT(a.expired, 100U);
     EXPECT_GT(a.sunk, 3U);
     EXPECT_EQ(reference.ledger().removed, cpu.ledger().removed);
+    const double elastic = reference.ledger().removed_elastic;
+    EXPECT_GT(std::abs(elastic), 0.1);
+    EXPECT_NEAR(cpu.ledger().removed_elastic, elastic, 1e-12 * std::abs(elastic));
     EXPECT_EQ(measured(reference).contacts, measured(cpu).contacts);
     EXPECT_EQ(cpu.neighbour_statistics().missed_contacts, 0U);
   }

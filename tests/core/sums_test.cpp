@@ -121,11 +121,17 @@ TEST(MeasurementSums, OfNothingAreZeros) {
 TEST(RemovalSums, BookWhatDepartedTookAlong) {
   RemovalSums removed;
   removed.add_particle(2, {0, 10, 0}, {3, 0, 0}, {0, -10, 0});
+  removed.elastic.add(0.5);
   Ledger ledger;
   removed.book(ledger);
   EXPECT_EQ(ledger.removed, 1U);
   EXPECT_EQ(ledger.removed_momentum, (Vec3d{6, 0, 0}));
   EXPECT_EQ(ledger.removed_energy, 9 + 200);
+  EXPECT_EQ(ledger.removed_elastic, 0.5);
+  removed.book_born(ledger);
+  EXPECT_EQ(ledger.population.born, 1U);
+  EXPECT_EQ(ledger.population.born_energy, 9 + 200);
+  EXPECT_EQ(ledger.removed_elastic, 0);
 }
 
 }  // namespace

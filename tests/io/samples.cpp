@@ -71,6 +71,7 @@ SimulationState state(std::int64_t step, std::size_t n) {
   s.ledger.impulse[Cause::gravity] = {0, -9.8 / 7, 3};
   s.ledger.removed_momentum = {1, 2, 1e-300};
   s.ledger.removed_energy = 12.5;
+  s.ledger.removed_elastic = -1.0 / 11;
   s.ledger.removed = 0xffffffffffffffffU;
   s.ledger.population = {{1.0 / 3, -2, 1e-300}, 2.0 / 7, 12, 5, 0xfffffffffffffffeU};
   s.emission.emitters = {{1.0 / 3, 12, 3, 0xffffffffU, 64}, {}};

@@ -156,6 +156,13 @@ class AppliedForces {
     if (!attraction_.empty()) m.attraction_energy = attraction_.energy(records, count, alive, ids);
   }
 
+  /// Adds the energy (J) of the springs that tie record i; half of it where among(other) says that the other end adds
+  /// it too. Once laid out.
+  template <class Among>
+  void add_spring_energy(const Records& records, std::size_t i, const Among& among, ExactSum& sum) const {
+    springs_.add_energy(records.data(), place_, rank_of(records[i].rank), among, sum);
+  }
+
  private:
   struct Acting {
     Cause cause;

@@ -62,4 +62,14 @@ void measure_particle(const ContactScan<Real>& scan, std::size_t i, std::span<co
   });
 }
 
+/// Adds the energy (J) of the contacts of particle i with others; half of it where among(other) says that the other
+/// adds it too.
+template <class Real, class Among>
+void add_contact_energy(const ContactScan<Real>& scan, std::size_t i, std::span<const std::uint32_t> rows,
+                        const Among& among, ExactSum& sum) {
+  scan.for_each_contact(i, rows, [&](std::size_t p, const Vec3d&, double overlap) {
+    sum.add((among(p) ? 0.5 : 1.0) * contact_energy(overlap, law_of(scan.pair(i, p))));
+  });
+}
+
 }  // namespace hooke

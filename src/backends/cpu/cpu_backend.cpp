@@ -134,7 +134,7 @@ class CpuBackend final : public Backend {
     });
     drifting.stop();
     follow_motion();
-    book(removed, ledger_.removed);
+    let_go(removed, ledger_.removed);
   }
 
   bool neighbours_stale() const override { return !list_.good(); }
@@ -192,7 +192,7 @@ class CpuBackend final : public Backend {
     } else if (released) {  // nobody has moved; rows are mended before the next forces, but somebody may look
       threads_.run([&] { list_.mend_released(records_.data()); });
     }
-    book(removed, ledger_.removed);
+    let_go(removed, ledger_.removed);
     return condition;
   }
 
@@ -201,11 +201,11 @@ class CpuBackend final : public Backend {
     for_ranges(slots_.end(), kSegment, [&](std::size_t first, std::size_t last) {
       Departures part;
       for (std::size_t i = first; i < last; ++i) {
-        if (!is_nowhere(records_[i]) && is_in_a_sink(vec_cast<double>(records_[i].x))) take_away(i, part);
+        if (!is_nowhere(records_[i]) && is_in_a_sink(vec_cast<double>(records_[i].x))) leave_at_end_of_step(i, part);
       }
       collect(sunk, part);
     });
-    book(sunk, ledger_.population.sunk);
+    let_go(sunk, ledger_.population.sunk);
   }
 
   void expire(std::span<const std::uint64_t> ids, std::vector<std::uint8_t>& was_there) override {
@@ -221,11 +221,11 @@ class CpuBackend final : public Backend {
             rank_of(records_[slot].rank) != rank)
           continue;
         was_there[k] = 1;
-        take_away(slot, part);
+        leave_at_end_of_step(slot, part);
       }
       collect(expired, part);
     });
-    book(expired, ledger_.population.expired);
+    let_go(expired, ledger_.population.expired);
   }
 
   void give_birth(const ParticleSet& newborn) override {
@@ -235,6 +235,7 @@ class CpuBackend final : public Backend {
     const bool many_gone = ids_.size() + newborn.size() > 4 * alive_ + 65536;
     if (many_gone || !slots_.has_room(newborn.size() - loose, loose)) move_into_room(newborn.size());
     RemovalSums born;
+    std::vector<std::uint32_t> touching;
     for (std::size_t k = 0; k < newborn.size(); ++k) {
       const Material& m = scene_.materials[newborn.material[k]];
       const std::size_t slot =
@@ -244,13 +245,18 @@ class CpuBackend final : public Backend {
       put(slot, rank, newborn, k);
       applied_.add(slot, ids_.size());
       if (verlet()) acceleration_[slot] = {Real(0), Real(0), Real(0)};
-      if (m.interacts) list_.add(slot, static_cast<std::uint32_t>(rank));
+      if (m.interacts) {
+        list_.add(slot, static_cast<std::uint32_t>(rank));
+        touching.push_back(static_cast<std::uint32_t>(slot));
+      }
       ++alive_of_[newborn.material[k]];
       born.add_particle(m.mass, vec_cast<double>(records_[slot].x), vec_cast<double>(records_[slot].v), scene_.gravity);
     }
     if (loose < newborn.size()) threads_.run([&] { list_.mend_released(records_.data()); });
-    born.book_born(ledger_.population);
     count_alive();
+    // They are born into no overlap, but perhaps to where cohesion reaches.
+    if (rules_.widest_range > 0) add_elastic(touching, born.elastic);
+    born.book_born(ledger_);
   }
 
   void find_inside(const ShapeBounds& box, std::vector<Occupant>& out) const override {
@@ -563,10 +569,10 @@ class CpuBackend final : public Backend {
 
   // Boundaries -------------------------------------------------------------------------------------------------------
 
-  // Wraps periodic coordinates; a particle outside an open face goes nowhere.
+  // Wraps periodic coordinates; a particle outside an open face leaves.
   void apply_boundaries(Record& p, std::size_t slot, Departures& left) const {
     wrap_periodic(pass_, p);
-    if (is_outside_open_face(pass_, p)) send_nowhere(p, slot, p.v, left);
+    if (is_outside_open_face(pass_, p)) leave(p, slot, p.v, left);
   }
 
   void apply_boundaries_to_group(std::size_t s, std::size_t g, Departures& left) {
@@ -576,17 +582,15 @@ class CpuBackend final : public Backend {
     }
   }
 
-  void send_nowhere(Record& p, std::size_t slot, const Vec3<Real>& v, Departures& left) const {
+  // Particle p is to leave, with a velocity v; it is there until let_go().
+  void leave(const Record& p, std::size_t slot, const Vec3<Real>& v, Departures& left) const {
     left.add(slot, material_of(p).mass, vec_cast<double>(p.x), vec_cast<double>(v), scene_.gravity);
-    const Real material = p.material;
-    p = nowhere_record<Real>(p.rank);
-    p.material = material;
   }
 
-  // At the end of a step; under velocity Verlet with what the half kick to come would have given it.
-  void take_away(std::size_t slot, Departures& left) {
-    Record& p = records_[slot];
-    send_nowhere(p, slot, verlet() ? kick(p.v, acceleration_[slot], Real(0.5) * pass_.dt) : p.v, left);
+  // Under velocity Verlet with what the half kick to come would have given it.
+  void leave_at_end_of_step(std::size_t slot, Departures& left) const {
+    const Record& p = records_[slot];
+    leave(p, slot, verlet() ? kick(p.v, acceleration_[slot], Real(0.5) * pass_.dt) : p.v, left);
   }
 
   bool is_in_a_sink(const Vec3d& x) const {
@@ -600,15 +604,54 @@ class CpuBackend final : public Backend {
     total.add(part);
   }
 
-  // `tally` is the ledger's count of those that go that way.
-  void book(const Departures& gone, std::uint64_t& tally) {
-    if (gone.slots.empty()) return;
-    gone.sums.book_gone(ledger_, tally);
-    for (const std::uint32_t slot : gone.slots) {
-      --alive_of_[static_cast<std::size_t>(records_[slot].material)];
+  // Those that leave go nowhere. `tally` is the ledger's count of those that go that way.
+  void let_go(Departures& leaving, std::uint64_t& tally) {
+    if (leaving.slots.empty()) return;
+    add_elastic(leaving.slots, leaving.sums.elastic);
+    leaving.sums.book_gone(ledger_, tally);
+    for (const std::uint32_t slot : leaving.slots) {
+      Record& p = records_[slot];
+      --alive_of_[static_cast<std::size_t>(p.material)];
+      p = nowhere_record<Real>(p.rank);
       slots_.leave(slot);
     }
     count_alive();
+  }
+
+  // Energy of the contacts between particles and of the springs that end at one of some particles. It takes a list that
+  // is good: where a new one is built for it, `slots` are where they lie then.
+  void add_elastic(std::vector<std::uint32_t>& slots, ExactSum& sum) {
+    const auto is_listed = [&](std::uint32_t slot) { return !slots_.is_loose(slot); };
+    if (applied_.springs().empty() && std::none_of(slots.begin(), slots.end(), is_listed)) return;
+    if (!list_.good() && !rebuild_under(slots)) return;
+    std::sort(slots.begin(), slots.end());
+    const auto among = [&](std::size_t slot) { return std::binary_search(slots.begin(), slots.end(), slot); };
+    for_ranges(slots.size(), 64, [&](std::size_t first, std::size_t last) {
+      const ContactScan<Real> scan(pass_, records_.data());
+      ExactSum part;
+      for (std::size_t k = first; k < last; ++k) {
+        const std::size_t i = slots[k];
+        add_contact_energy(scan, i, rows_of(i / kSegment, i % kSegment / kLanes), among, part);
+        applied_.add_spring_energy(records_, i, among, part);
+      }
+      const std::lock_guard lock(mutex_);
+      sum.add(part);
+    });
+  }
+
+  // Builds a list, and puts those of `slots` to where it has put their particles. Returns whether there is one.
+  bool rebuild_under(std::vector<std::uint32_t>& slots) {
+    std::vector<std::uint32_t> ranks;
+    for (const std::uint32_t slot : slots) ranks.push_back(rank_of(records_[slot].rank));
+    std::sort(ranks.begin(), ranks.end());
+    if (!build_neighbours().good()) return false;
+    slots.clear();
+    for (std::size_t i = 0; i < slots_.end(); ++i) {
+      if (!is_nowhere(records_[i]) && std::binary_search(ranks.begin(), ranks.end(), rank_of(records_[i].rank))) {
+        slots.push_back(static_cast<std::uint32_t>(i));
+      }
+    }
+    return true;
   }
 
   void count_alive() {

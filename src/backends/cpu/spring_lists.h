@@ -190,14 +190,11 @@ class SpringLists {
       ExactSum part;
       std::uint64_t count = 0;
       for (std::size_t rank = first; rank < last; ++rank) {
-        for (std::uint32_t k = first_side_[rank]; k < first_side_[rank + 1]; ++k) {
-          const Side& side = sides_[k];
-          if (side.partner < rank || broken_[side.spring] != 0) continue;
-          const std::uint32_t i = place[rank], p = place[side.partner];
-          if (i == kNowherePlace || p == kNowherePlace || is_nowhere(records[i]) || is_nowhere(records[p])) continue;
+        for_each_side(records, place, rank, [&](const Side& side, std::size_t i, std::size_t p) {
+          if (side.partner < rank) return;
           ++count;
           part.add(energy_of(side.spring, records[i], records[p]));
-        }
+        });
       }
       holding += count;
       const std::lock_guard lock(mutex_);
@@ -207,10 +204,34 @@ class SpringLists {
     m.spring_energy = energy.value();
   }
 
+  /// Adds the energy (J) of the springs that tie the particle of a rank; half of it where among(index of the other
+  /// end).
+  template <class Among>
+  void add_energy(const Record* records, const std::vector<std::uint32_t>& place, std::size_t rank, const Among& among,
+                  ExactSum& sum) const {
+    if (empty()) return;
+    for_each_side(records, place, rank, [&](const Side& side, std::size_t i, std::size_t p) {
+      sum.add((among(p) ? 0.5 : 1.0) * energy_of(side.spring, records[i], records[p]));
+    });
+  }
+
  private:
   struct Side {
     std::uint32_t spring, partner;  // index, rank
   };
+
+  // visit(side, i, p) for each spring of a rank that holds, between records i and p.
+  template <class Visit>
+  void for_each_side(const Record* records, const std::vector<std::uint32_t>& place, std::size_t rank,
+                     const Visit& visit) const {
+    const std::uint32_t i = place[rank];
+    if (i == kNowherePlace || is_nowhere(records[i])) return;
+    for (std::uint32_t k = first_side_[rank]; k < first_side_[rank + 1]; ++k) {
+      const Side& side = sides_[k];
+      const std::uint32_t p = place[side.partner];
+      if (broken_[side.spring] == 0 && p != kNowherePlace && !is_nowhere(records[p])) visit(side, i, p);
+    }
+  }
 
   void take(const std::shared_ptr<const Structure>& structure) {
     structure_ = structure;

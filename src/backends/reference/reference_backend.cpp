@@ -154,7 +154,9 @@ class ReferenceBackend final : public Backend {
       wrap_periodic(p_.position.back());
       born.add_particle(material(p_.size() - 1).mass, p_.position.back(), p_.velocity.back(), scene_.gravity);
     }
-    born.book_born(ledger_.population);
+    const std::size_t first = p_.size() - newborn.size();
+    add_elastic([&](std::size_t i) { return i >= first; }, born.elastic);
+    born.book_born(ledger_);
   }
 
   void find_inside(const ShapeBounds& box, std::vector<Occupant>& out) const override {
@@ -413,9 +415,12 @@ class ReferenceBackend final : public Backend {
   template <class Gone>
   RemovalSums remove_where(const Gone& gone, bool kick_to_come = true) {
     RemovalSums removed;
+    std::vector<bool> goes(p_.size());
+    for (std::size_t i = 0; i < p_.size(); ++i) goes[i] = gone(i);
+    add_elastic([&](std::size_t i) { return goes[i]; }, removed.elastic);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < p_.size(); ++i) {
-      if (gone(i)) {
+      if (goes[i]) {
         const bool kicked = verlet() && kick_to_come && !springs_.is_held(p_.id[i]);
         const Vec3d v = kicked ? kick(p_.velocity[i], p_.acceleration[i], scene_.time_step / 2) : p_.velocity[i];
         removed.add_particle(material(i).mass, p_.position[i], v, scene_.gravity);
@@ -430,6 +435,18 @@ class ReferenceBackend final : public Backend {
     }
     p_.resize(kept);
     return removed;
+  }
+
+  // Energy of the contacts between particles and of the springs that end at a particle for which among(i).
+  template <class Among>
+  void add_elastic(const Among& among, ExactSum& sum) const {
+    for (std::size_t i = 0; i < p_.size(); ++i) {
+      if (!among(i)) continue;
+      for_each_contact(i, [&](std::size_t p, const Vec3d&, double overlap) {
+        sum.add((among(p) ? 0.5 : 1) * contact_energy(overlap, pair(i, p)));
+      });
+    }
+    springs_.add_energy(p_, [&](std::size_t i, std::size_t p) { return among(i) || among(p); }, sum);
   }
 
   double total_mass() const {

@@ -76,11 +76,20 @@ class ReferenceSprings {
 
   void measure(const ParticleSet& p, Measurements& m) const {
     ExactSum energy;
-    for_each(p, [&](std::size_t s, std::size_t, std::size_t, const Vec3d&, double extension) {
-      ++m.springs;
+    m.springs = add_energy(p, [](std::size_t, std::size_t) { return true; }, energy);
+    m.spring_energy = energy.value();
+  }
+
+  /// Adds the energy of the springs between i and j, indices, for which among(i, j). Returns how many there are.
+  template <class Among>
+  std::uint64_t add_energy(const ParticleSet& p, const Among& among, ExactSum& energy) const {
+    std::uint64_t count = 0;
+    for_each(p, [&](std::size_t s, std::size_t i, std::size_t j, const Vec3d&, double extension) {
+      if (!among(i, j)) return;
+      ++count;
       if (spring_acts(extension, side(s))) energy.add(spring_energy(extension, springs().stiffness[s]));
     });
-    m.spring_energy = energy.value();
+    return count;
   }
 
   /// Whether a spring keeps these two from touching.
