@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "hooke/base/vec3.h"
+#include "hooke/neighbours/group_search.h"
 
 namespace hooke {
 
@@ -44,6 +45,25 @@ class CellGrid {
   /// Number of the cell of a finite point; points outside the box count to its edge cells.
   std::uint64_t key_of(const Vec3d& x) const {
     return static_cast<std::uint64_t>(index_of(x.x, 0) + stride_y_ * index_of(x.y, 1) + stride_z_ * index_of(x.z, 2));
+  }
+
+  /// key_of() of the points first to last - 1, in a grid of less than 2^32 cells. Plain loops, for compilers to
+  /// vectorise.
+  template <class Real>
+  void keys_of(const Columns<Real>& points, std::size_t first, std::size_t last, std::uint32_t* keys) const {
+    std::fill(keys, keys + (last - first), 0U);
+    const Real* const columns[] = {points.x + first, points.y + first, points.z + first};
+    const std::int64_t strides[] = {1, stride_y_, stride_z_};
+    for (int axis = 0; axis < 3; ++axis) {
+      const Real* const column = columns[axis];
+      const auto stride = static_cast<std::uint32_t>(strides[axis]);
+      const double origin = axes_[axis].origin, inverse = inverse_cell_[axis], end = last_cell_[axis];
+      for (std::size_t i = 0; i < last - first; ++i) {
+        const double cell = (static_cast<double>(column[i]) - origin) * inverse;
+        const double inside = cell > 0 ? cell : 0;
+        keys[i] += stride * static_cast<std::uint32_t>(static_cast<std::int32_t>(inside < end ? inside : end) + 1);
+      }
+    }
   }
 
   /// The same, numbered along a path: rows along one axis, side by side in layers, every other row and every other

@@ -203,15 +203,19 @@ class MotionBounds {
     std::vector<std::vector<std::uint32_t>> chunks((groups + kGrain - 1) / kGrain);
     first_block_.assign(groups + 1, 0);
     parallel_ranges(groups, kGrain, [&](std::size_t first, std::size_t last) {
-      for (std::size_t g = first; g < last; ++g) {
-        std::vector<std::uint32_t>& blocks = chunks[g / kGrain];
-        const auto start = static_cast<std::ptrdiff_t>(blocks.size());
-        for (std::size_t i = g * group; i < std::min((g + 1) * group, count); ++i) {
-          const Vec3d at = vec_cast<double>(Vec3<Real>{listed_at.x[i], listed_at.y[i], listed_at.z[i]});
-          const auto block = static_cast<std::uint32_t>(levels_[0].grid.key_of(at));
-          if (std::find(blocks.begin() + start, blocks.end(), block) == blocks.end()) blocks.push_back(block);
+      std::vector<std::uint32_t> keys(kGrain * group);
+      for (std::size_t start = first; start < last; start += kGrain) {
+        std::vector<std::uint32_t>& blocks = chunks[start / kGrain];
+        const std::size_t end = std::min(start + kGrain, last);
+        levels_[0].grid.keys_of(listed_at, start * group, std::min(end * group, count), keys.data());
+        for (std::size_t g = start; g < end; ++g) {
+          const auto before = static_cast<std::ptrdiff_t>(blocks.size());
+          for (std::size_t i = g * group; i < std::min((g + 1) * group, count); ++i) {
+            const std::uint32_t block = keys[i - start * group];
+            if (std::find(blocks.begin() + before, blocks.end(), block) == blocks.end()) blocks.push_back(block);
+          }
+          first_block_[g + 1] = static_cast<std::uint32_t>(static_cast<std::ptrdiff_t>(blocks.size()) - before);
         }
-        first_block_[g + 1] = static_cast<std::uint32_t>(static_cast<std::ptrdiff_t>(blocks.size()) - start);
       }
     });
     for (std::size_t g = 0; g < groups; ++g) first_block_[g + 1] += first_block_[g];

@@ -185,7 +185,7 @@ class VerletList {
     const std::size_t cost = kStrayCost * (strays_.size() + released_.size());
     spent_ += cost;
     // What a step costs falls with the age of a list and rises with its strays: where both meet it has served best.
-    if (cost * age_ > count_ + spent_) return forget();
+    if (cost * age_ > count_ + spent_ || is_too_thick()) return forget();
     mend(records);
   }
 
@@ -240,23 +240,28 @@ class VerletList {
   static constexpr std::uint64_t kFollowTrial = 16;  // builds after which anchors may follow in vain once more
 
   // Skins as a part of the smallest diameter.
-  static constexpr double kFirstSkin = 0.25, kThinnestSkin = 0.12, kThickestSkin = 0.4;
+  static constexpr double kFirstSkin = 0.25, kThinnestSkin = 0.06, kThickestSkin = 0.4;
+  static constexpr double kBuildOverSkin = 7.4;  // what a build costs over what a skin of one diameter adds to a pass
 
   double reach_of(const Record& p) const { return rules_->reach_of(static_cast<std::size_t>(p.material)); }
 
-  // The wider the skin, the longer a list lasts, and the longer are its rows. With rows as (1 + s)^3 and a force pass
-  // over rows without a skin at about a ninth of a build, the cost of a step is least where 1/3 s^2 (1 + s)^2 is the
-  // part of a diameter that neighbours move away from each other in a step: what the last list's skin allowed for as
-  // long as it lasted.
+  // The wider the skin, the longer a list lasts, and the longer are its rows: a step costs a s + b r / s, with a what a
+  // skin of one diameter adds to a pass, b the cost of a build, s the skin in diameters and r the part of a diameter
+  // that neighbours move away from each other in a step. That is least here, with r from what the last list's skin
+  // allowed for as long as it lasted.
+  double best_skin() const {
+    return std::clamp(std::sqrt(kBuildOverSkin * skin_ratio_ / static_cast<double>(age_)), kThinnestSkin,
+                      kThickestSkin);
+  }
   void choose_skin() {
     if (age_ > 0) {
-      const double rate = skin_ratio_ / static_cast<double>(age_);
-      const double best = 0.5 * (std::sqrt(1 + 4 * std::sqrt(3 * rate)) - 1);
-      skin_ratio_ = std::clamp(0.5 * (skin_ratio_ + best), kThinnestSkin, kThickestSkin);
+      skin_ratio_ = 0.5 * (skin_ratio_ + best_skin());
       age_ = 0;
     }
     skin_ = skin_ratio_ * 2 * rules_->smallest_radius;
   }
+  // Whether the list has lasted for so long that one with a thinner skin would have been better.
+  bool is_too_thick() const { return best_skin() < 0.5 * skin_ratio_; }
 
   void lay_out_cells(CellList& cells, double skin, std::size_t count) const {
     std::vector<CellList::Level> levels;
