@@ -49,6 +49,18 @@ class SphereBuffer {
 };
 static_assert(offsetof(Sphere, foam) == offsetof(Sphere, color) + 3);
 
+/// One triangle that covers the picture (whole_picture.vert).
+class WholePicture {
+ public:
+  void draw() const {
+    glBindVertexArray(array_.get());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+
+ private:
+  gl::VertexArray array_ = gl::make_vertex_array();
+};
+
 /// Surfaces on the device, all of a frame in one buffer.
 class MeshBuffer {
  public:

@@ -89,6 +89,15 @@ Program::Program(const char* vertex, const char* fragment) : program_(glCreatePr
     glGetProgramInfoLog(program_.get(), sizeof log, nullptr, log);
     throw std::runtime_error(std::string("shaders do not link: ") + log);
   }
+  GLint count = 0;
+  glGetProgramiv(program_.get(), GL_ACTIVE_UNIFORMS, &count);
+  for (GLint k = 0; k < count; ++k) {
+    char name[64] = "";
+    GLint components = 0;
+    GLenum type = GL_NONE;
+    glGetActiveUniform(program_.get(), static_cast<GLuint>(k), sizeof name, nullptr, &components, &type, name);
+    locations_.emplace(name, glGetUniformLocation(program_.get(), name));
+  }
 }
 
 void Program::set_rows(const char* name, const Vec3f& x, const Vec3f& y, const Vec3f& z) const {

@@ -4,8 +4,11 @@
 
 #include <epoxy/gl.h>
 
+#include <functional>
 #include <initializer_list>
+#include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "hooke/base/vec3.h"
@@ -56,8 +59,8 @@ Framebuffer make_framebuffer(std::initializer_list<const Texture*> colors, const
 Buffer make_buffer();
 VertexArray make_vertex_array();
 
-/// A vertex and a fragment shader, and their uniforms by name. Shaders are the project's own files: one that does not
-/// compile throws std::runtime_error with the driver's words.
+/// A vertex and a fragment shader, and their uniforms by name; one that the shaders don't use is passed over. Shaders
+/// are the project's own files: one that does not compile throws std::runtime_error with the driver's words.
 class Program {
  public:
   Program() = default;
@@ -76,9 +79,13 @@ class Program {
   void read(const char* name, int unit, const Texture& texture) const;
 
  private:
-  GLint at(const char* name) const { return glGetUniformLocation(program_.get(), name); }
+  GLint at(std::string_view name) const {
+    const auto found = locations_.find(name);
+    return found == locations_.end() ? -1 : found->second;
+  }
 
   Object<delete_program> program_;
+  std::map<std::string, GLint, std::less<>> locations_;  // of the uniforms in use
 };
 
 }  // namespace hooke::gl

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#include "hooke/render/gl/render_targets.h"
+
+#include "hooke/render/gl/sun.h"
+
+namespace hooke {
+
+RenderTargets::RenderTargets(const RenderSettings& settings)
+    : width(settings.width),
+      height(settings.height),
+      samples_across(settings.width * settings.samples),
+      samples_down(settings.height * settings.samples) {
+  const auto per_sample = [this](GLenum format) {
+    return gl::make_texture(samples_across, samples_down, format, GL_NEAREST);
+  };
+  color = per_sample(GL_RGBA8);
+  normal = per_sample(GL_RGBA8);
+  depth = per_sample(GL_R32F);
+  depth_stencil = per_sample(GL_DEPTH32F_STENCIL8);
+  shaded = per_sample(GL_RGBA8);
+  for (gl::Texture& s : surface) s = gl::make_texture(width, height, GL_RG32F, GL_NEAREST);
+  for (gl::Texture& a : ambient) a = gl::make_texture(half(width), half(height), GL_R8, GL_LINEAR);
+  water_normal = gl::make_texture(width, height, GL_RGBA8, GL_LINEAR);
+  thickness = gl::make_texture(1, 1, GL_R32F, GL_LINEAR);
+  backdrop = gl::make_texture(width, height, GL_RGBA8, GL_NEAREST);
+  result = gl::make_texture(width, height, GL_RGBA8, GL_NEAREST);
+  sun_map = gl::make_texture(kSunMap, kSunMap, GL_DEPTH_COMPONENT32F, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+
+  to_sun_map = gl::make_framebuffer({}, &sun_map);
+  to_spheres = gl::make_framebuffer({&color, &normal, &depth}, &depth_stencil);
+  to_surface[0] = gl::make_framebuffer({&surface[0]}, nullptr);
+  to_surface[1] = gl::make_framebuffer({&surface[1]}, nullptr);
+  to_water_normal = gl::make_framebuffer({&water_normal}, nullptr);
+  to_ambient = gl::make_framebuffer({&ambient[0]}, nullptr);
+  to_blurred = gl::make_framebuffer({&ambient[1]}, nullptr);
+  to_backdrop = gl::make_framebuffer({&backdrop}, nullptr);
+  to_shaded = gl::make_framebuffer({&shaded}, &depth_stencil);
+  to_result = gl::make_framebuffer({&result}, nullptr);
+}
+
+void RenderTargets::begin_sun_map() const { begin(to_sun_map, kSunMap, kSunMap); }
+
+void RenderTargets::begin(const gl::Framebuffer& target, int across, int down) {
+  glBindFramebuffer(GL_FRAMEBUFFER, target.get());
+  glViewport(0, 0, across, down);
+}
+
+}  // namespace hooke

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "hooke/render/frame.h"
+#include "hooke/render/visible_spheres.h"
+
+namespace hooke {
+
+inline constexpr int kSunMap = 1280;  ///< pixels along each side of the map of what the sun lights
+
+/// A parallel projection along the sun's rays that holds the whole action and, as far as it may splash, what is above.
+struct Sun {
+  Projection projection;
+  float range = 1;  ///< m, from its eye to the farthest that it lights
+  Vec3f to;         ///< unit vector
+
+  /// From metres to the map, [-1, 1].
+  float scale() const { return 2 * projection.scale / kSunMap; }
+};
+
+Sun make_sun(const Frame& frame);
+
+/// The diagonal of the action, m.
+float action_size(const Frame& frame);
+
+}  // namespace hooke

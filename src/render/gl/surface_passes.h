@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "hooke/render/frame.h"
+#include "hooke/render/gl/gl_buffers.h"
+#include "hooke/render/gl/render_programs.h"
+#include "hooke/render/gl/render_targets.h"
+#include "hooke/render/visible_spheres.h"
+
+namespace hooke {
+
+/// What is found of the surfaces once a pixel, from what was drawn with several samples: the nearest surface, water's
+/// smoothed, its normals, and how much ambient light comes in. Runs only where there are surfaces: in `box`, and as far
+/// as the passes look around.
+class SurfacePasses {
+ public:
+  SurfacePasses(const RenderTargets& targets, const RenderPrograms& programs, int samples)
+      : targets_(targets),
+        programs_(programs),
+        samples_(samples) {}
+
+  /// `sphere_size` is the radius of a typical sphere, m.
+  void run(const Frame& frame, const Projection& pixels, const PixelRectangle& box, float sphere_size,
+           bool water) const;
+
+ private:
+  void clear() const;
+  void reduce() const;
+  void smooth_water(const Projection& pixels, float sphere_size) const;
+  void find_water_normals(const Projection& pixels, float sphere_size) const;
+  void draw_ambient(const Frame& frame, const Projection& pixels, float sphere_size) const;
+
+  const RenderTargets& targets_;
+  const RenderPrograms& programs_;
+  int samples_;
+  WholePicture whole_;
+};
+
+}  // namespace hooke

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#include "hooke/render/gl/tank_edges.h"
+
+#include <vector>
+
+namespace hooke {
+
+TankEdges::TankEdges() : array_(gl::make_vertex_array()), buffer_(gl::make_buffer()) {
+  glBindVertexArray(array_.get());
+  glBindBuffer(GL_ARRAY_BUFFER, buffer_.get());
+  for (GLuint end = 0; end < 2; ++end) {
+    glEnableVertexAttribArray(end);
+    glVertexAttribPointer(end, 3, GL_FLOAT, GL_FALSE, 2 * sizeof(Vec3f),
+                          reinterpret_cast<const void*>(end * sizeof(Vec3f)));
+    glVertexAttribDivisor(end, 1);
+  }
+}
+
+void TankEdges::upload(const Tank& tank) {
+  std::vector<Vec3f> ends;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    if (!tank.walls[static_cast<std::size_t>(u)] && !tank.walls[static_cast<std::size_t>(v)]) continue;
+    for (int corner = 0; corner < 4; ++corner) {
+      Vec3d from = tank.min;
+      component(from, u) = component(corner & 1 ? tank.max : tank.min, u);
+      component(from, v) = component(corner & 2 ? tank.max : tank.min, v);
+      Vec3d to = from;
+      component(to, axis) = component(tank.max, axis);
+      ends.push_back(vec_cast<float>(from));
+      ends.push_back(vec_cast<float>(to));
+    }
+  }
+  count_ = static_cast<GLsizei>(ends.size() / 2);
+  glBindBuffer(GL_ARRAY_BUFFER, buffer_.get());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(ends.size() * sizeof(Vec3f)), ends.data(), GL_STREAM_DRAW);
+}
+
+void TankEdges::draw() const {
+  glBindVertexArray(array_.get());
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count_);
+}
+
+}  // namespace hooke

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "hooke/render/frame.h"
+#include "hooke/render/gl/gl_objects.h"
+
+namespace hooke {
+
+/// Edges of the domain that belong to a wall, on the device, one instance of a strip each.
+class TankEdges {
+ public:
+  TankEdges();
+  void upload(const Tank& tank);
+  void draw() const;
+
+ private:
+  gl::VertexArray array_;
+  gl::Buffer buffer_;
+  GLsizei count_ = 0;
+};
+
+}  // namespace hooke
