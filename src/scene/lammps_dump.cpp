@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 
+#include "hooke/physics/periodic.h"
 #include "hooke/scene/json_reader.h"
 #include "hooke/scene/particle_format.h"
 #include "hooke/scene/words.h"
@@ -22,6 +23,7 @@ constexpr std::uint64_t kSmallestRow = 6;  // "0 0 0\n", bytes
 struct Head {
   std::optional<std::uint64_t> count;
   std::array<std::array<double, 2>, 3> box{};  // bounds of each axis
+  std::array<bool, 3> periodic{};                  // of a box that is not tilted
   bool has_box = false;
   bool tilted = false;
   std::vector<std::string> titles;
@@ -92,6 +94,8 @@ std::optional<Head> read_head(FileScanner& in) {
       head.count = count;
     } else if (word == "BOX") {
       head.tilted = item.find("xy") != std::string_view::npos || item.find("abc") != std::string_view::npos;
+      take_word(item);  // "BOUNDS", and a word an axis: "pp" where it is periodic
+      for (bool& periodic : head.periodic) periodic = take_word(item) == "pp" && !head.tilted;
       for (auto& bounds : head.box) {
         std::string_view text = need_line(in);
         const std::string_view written = text;
@@ -126,7 +130,8 @@ std::vector<Column> columns_of(const std::vector<std::string>& titles) {
   return columns;
 }
 
-// How values that are written by other measures become positions and radii.
+// How values that are written by other measures become positions and radii. Between two neighbour lists LAMMPS lets
+// particles pass a periodic face, and writes them where they are then: they are brought back into its box.
 struct Conversion {
   std::array<bool, 3> scaled{};
   bool diameter = false;
@@ -148,10 +153,12 @@ struct Conversion {
   bool apply(const Head& head, ParticleRows& rows, Row& row, std::uint64_t line) const {
     bool good = true;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (!scaled[axis]) continue;
       const auto& [low, high] = head.box[axis];
       const auto field = static_cast<Field>(axis);
-      good = rows.read(field, kTitles[axis].name, low + row[field] * (high - low), row, line) && good;
+      if (scaled[axis]) {
+        good = rows.read(field, kTitles[axis].name, low + row[field] * (high - low), row, line) && good;
+      }
+      if (head.periodic[axis] && low < high) row[field] = wrap_coordinate(row[field], low, high);
     }
     if (diameter) row[Field::radius] /= 2;
     return good;
