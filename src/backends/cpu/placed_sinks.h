@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "hooke/core/scene.h"
+#include "hooke/core/shapes.h"
+#include "hooke/physics/enclosure.h"
+
+namespace hooke {
+
+/// The sinks of a scene, each with a box around it that spares most particles a closer look.
+class PlacedSinks {
+ public:
+  PlacedSinks() = default;
+  explicit PlacedSinks(const std::vector<Sink>& sinks) {
+    for (const Sink& sink : sinks) sinks_.push_back({bounds_of(sink.shape), geometry_of(sink.shape, false, {0, 0, 0})});
+  }
+
+  /// Whether a particle with its centre at x (m) is taken away.
+  bool take(const Vec3d& x) const {
+    return std::any_of(sinks_.begin(), sinks_.end(),
+                       [&](const Placed& sink) { return is_inside(sink.box, x) && encloses(sink.shape, x); });
+  }
+
+ private:
+  struct Placed {
+    ShapeBounds box;
+    ShapeGeometry<double> shape;
+  };
+  std::vector<Placed> sinks_;
+};
+
+}  // namespace hooke
