@@ -49,6 +49,18 @@ TEST(CpuBackend, KeepsItsListWhileNothingMoves) {
   EXPECT_GE(simulation.neighbour_statistics().slots_per_particle, 5);
 }
 
+// Balls 1.2 diameters apart are within the first skin of each other. Once that has lasted for long, a thinner one does.
+TEST(CpuBackend, ThinsOutAListThatLasts) {
+  Scene scene = open_scene();
+  const ParticleSet particles = lattice(scene, {10, 10, 10}, {0, 0, 0}, 1.2, 0, 1);
+  Simulation simulation = simulate(scene, particles, kCpuSingle);
+  ASSERT_TRUE(advance(simulation, 100));
+  EXPECT_GE(simulation.neighbour_statistics().slots_per_particle, 5);
+  ASSERT_TRUE(advance(simulation, 100));
+  EXPECT_EQ(simulation.neighbour_statistics().rebuilds, 2U);
+  EXPECT_EQ(simulation.neighbour_statistics().slots_per_particle, 0);
+}
+
 TEST(CpuBackend, ForgetsDepartedParticles) {
   Scene scene = open_scene();
   scene.domain.min = {-1, -1, -1};
