@@ -14,10 +14,9 @@
 #include <vector>
 
 #include "block_of_balls.h"
-#include "hooke/backends/cpu/cpu_backend.h"
-#include "hooke/core/simulation.h"
 #include "hooke/scene/mesh_field.h"
 #include "hooke/scene/mesh_file.h"
+#include "measured_steps.h"
 
 namespace hooke::bench {
 namespace {
@@ -81,7 +80,7 @@ Expected<Surroundings> surroundings(std::int64_t choice) {
 void collider_steps(benchmark::State& state) {
   auto around = surroundings(state.range(0));
   if (!around) return state.SkipWithError(around.error().text().c_str());
-  Scene scene = block_of_balls_scene(state.range(1) != 0 ? Precision::double_precision : Precision::single_precision);
+  Scene scene = block_of_balls_scene(precision_of(state));
   scene.colliders = around->colliders;
   std::vector<ShapeGeometry<double>> shapes;
   for (const Shape& shape : around->shapes) {
@@ -96,20 +95,10 @@ void collider_steps(benchmark::State& state) {
     return false;
   };
   const ParticleSet balls = block_of_balls([&](const Vec3d& x) { return nearer_than(x, 0.9 * kBallRadius); });
-  auto backend = make_cpu_backend({scene.precision, static_cast<int>(state.range(2)), ""});
-  if (!backend) return state.SkipWithError(backend.error().text().c_str());
-  auto simulation = Simulation::create(std::move(scene), balls, std::move(*backend));
+  auto simulation = simulate(state, std::move(scene), balls);
   if (!simulation) return state.SkipWithError(simulation.error().text().c_str());
-  if (auto stepped = simulation->step(100); !stepped) return state.SkipWithError(stepped.error().text().c_str());
-  for (auto iteration : state) {
-    if (auto stepped = simulation->step(); !stepped) return state.SkipWithError(stepped.error().text().c_str());
-  }
-  const auto now = simulation->measure();
+  const auto now = run_steps(state, *simulation, 100);
   if (!now) return state.SkipWithError(now.error().text().c_str());
-  const bool single = state.range(1) == 0;
-  if (!(momentum_drift(*now, simulation->ledger(), simulation->initial_momentum()) < (single ? 1e-5 : 1e-12))) {
-    return state.SkipWithError("momentum is not accounted for");
-  }
   for (const ColliderLoad& load : now->colliders) {
     if (load.contacts < 300 || !(load.force.y < 0)) return state.SkipWithError("the shape bears nobody");
     state.counters["touching"] = static_cast<double>(load.contacts);

@@ -14,8 +14,7 @@
 #include <vector>
 
 #include "block_of_balls.h"
-#include "hooke/backends/cpu/cpu_backend.h"
-#include "hooke/core/simulation.h"
+#include "measured_steps.h"
 
 namespace hooke::bench {
 namespace {
@@ -60,25 +59,14 @@ Surroundings surroundings(std::int64_t choice) {
 
 void field_steps(benchmark::State& state) {
   const Surroundings around = surroundings(state.range(0));
-  Scene scene = block_of_balls_scene(state.range(1) != 0 ? Precision::double_precision : Precision::single_precision);
+  Scene scene = block_of_balls_scene(precision_of(state));
   scene.fields = around.fields;
-  auto backend = make_cpu_backend({scene.precision, static_cast<int>(state.range(2)), ""});
-  if (!backend) return state.SkipWithError(backend.error().text().c_str());
   const ParticleSet balls = block_of_balls([](const Vec3d&) { return false; });
-  auto simulation = Simulation::create(std::move(scene), balls, std::move(*backend));
+  auto simulation = simulate(state, std::move(scene), balls);
   if (!simulation) return state.SkipWithError(simulation.error().text().c_str());
-  if (auto stepped = simulation->step(20); !stepped) return state.SkipWithError(stepped.error().text().c_str());
-  for (auto iteration : state) {
-    if (auto stepped = simulation->step(); !stepped) return state.SkipWithError(stepped.error().text().c_str());
-  }
-  const auto now = simulation->measure();
+  const auto now = run_steps(state, *simulation, 20);
   if (!now) return state.SkipWithError(now.error().text().c_str());
-  const Ledger& ledger = simulation->ledger();
-  const bool single = state.range(1) == 0;
-  if (!(momentum_drift(*now, ledger, simulation->initial_momentum()) < (single ? 1e-5 : 1e-12))) {
-    return state.SkipWithError("momentum is not accounted for");
-  }
-  const Vec3d given = ledger.impulse[Cause::field];
+  const Vec3d given = simulation->ledger().impulse[Cause::field];
   if (state.range(0) == 1) {
     const double pushed = kPush * kBallMass * static_cast<double>(kBallsInBlock) * simulation->time();
     if (!(std::abs(given.x - pushed) < 1e-9 * pushed)) return state.SkipWithError("the push is another one");

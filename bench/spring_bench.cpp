@@ -11,10 +11,9 @@
 #include <memory>
 #include <utility>
 
-#include "hooke/backends/cpu/cpu_backend.h"
-#include "hooke/core/simulation.h"
+#include "measured_steps.h"
 
-namespace hooke {
+namespace hooke::bench {
 namespace {
 
 constexpr double kSpacing = 0.1;  // m
@@ -59,31 +58,22 @@ Expected<Simulation> cloth(const benchmark::State& state) {
   Scene scene;
   scene.time_step = 1e-3;
   scene.gravity = {0, 0, 0};
-  scene.precision = state.range(1) != 0 ? Precision::double_precision : Precision::single_precision;
+  scene.precision = precision_of(state);
   const double side = kSpacing * static_cast<double>(wide);
   scene.domain.min = {-side, -side, -side};
   scene.domain.max = {2 * side, side, 2 * side};
   scene.domain.boundary = {Boundary::open, Boundary::open, Boundary::open};
   scene.materials = {{.name = "linen", .radius = 0.04, .mass = 0.1, .contact = {2000, 0, 0}, .drag = 0, .color = ""}};
   scene.structure = tied(wide);
-  auto backend = make_cpu_backend({scene.precision, static_cast<int>(state.range(2)), ""});
-  if (!backend) return fail(backend.error());
-  return Simulation::create(scene, waving(wide), std::move(*backend));
+  return simulate(state, std::move(scene), waving(wide));
 }
 
 void spring_steps(benchmark::State& state) {
   auto simulation = cloth(state);
   if (!simulation) return state.SkipWithError(simulation.error().text().c_str());
   const std::uint64_t springs = simulation->scene().structure->springs.size();
-  for (auto iteration : state) {
-    if (auto stepped = simulation->step(); !stepped) return state.SkipWithError(stepped.error().text().c_str());
-  }
-  const auto now = simulation->measure();
+  const auto now = run_steps(state, *simulation, 0);
   if (!now) return state.SkipWithError(now.error().text().c_str());
-  const bool single = state.range(1) == 0;
-  if (!(momentum_drift(*now, simulation->ledger(), simulation->initial_momentum()) < (single ? 1e-5 : 1e-12))) {
-    return state.SkipWithError("momentum is not kept");
-  }
   const double energy = now->kinetic_energy + now->spring_energy + now->elastic_energy;
   // Symplectic Euler's energy swings by omega dt/2 of what goes to and fro, here a few per cent.
   if (now->springs != springs || !(std::abs(energy / simulation->initial_energy() - 1) < 0.05)) {
@@ -105,4 +95,4 @@ BENCHMARK(spring_steps)
     ->Args({1292, 1, 2});
 
 }  // namespace
-}  // namespace hooke
+}  // namespace hooke::bench
