@@ -10,7 +10,7 @@ using BigScene = BundledScene;
 
 TEST_P(BigScene, Runs) { hooke_ok({"run", file(), "-o", "out", "--steps", "10", "--quiet"}); }
 
-INSTANTIATE_TEST_SUITE_P(Siblings, BigScene, testing::ValuesIn(BundledScene::names(true)), BundledScene::test_name);
+INSTANTIATE_TEST_SUITE_P(Siblings, BigScene, testing::ValuesIn(bundled_names(true)), bundled_test_name);
 
 }  // namespace
 }  // namespace hooke::test

@@ -15,11 +15,11 @@ TEST_P(BundledScene, EndsOnTheSameBitsAfterARestart) {
   EXPECT_EQ(state_hash("parts"), state_hash("whole"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Gallery, BundledScene, testing::ValuesIn(BundledScene::names(false)), BundledScene::test_name);
+INSTANTIATE_TEST_SUITE_P(Gallery, BundledScene, testing::ValuesIn(bundled_names(false)), bundled_test_name);
 
 TEST(Gallery, HasABigSiblingOfEveryScene) {
-  const std::vector<std::string> big = BundledScene::names(true);
-  for (const std::string& name : BundledScene::names(false)) {
+  const std::vector<std::string> big = bundled_names(true);
+  for (const std::string& name : bundled_names(false)) {
     if (name == "table-6.1") continue;  // its numbers are the thesis's
     EXPECT_TRUE(std::binary_search(big.begin(), big.end(), name + "-big")) << name;
   }

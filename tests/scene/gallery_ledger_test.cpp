@@ -6,39 +6,22 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
 
 #include "hooke/scene/load_scene.h"
+#include "support/bundled_scenes.h"
 #include "support/engines.h"
 
 namespace hooke::test {
 namespace {
 
-class GalleryLedger : public testing::TestWithParam<std::string> {
- public:
-  static std::vector<std::string> names() {
-    std::vector<std::string> found;
-    for (const auto& entry : std::filesystem::directory_iterator(HOOKE_SOURCE_DIR "/scenes")) {
-      const std::string name = entry.path().stem().string();
-      if (entry.path().extension() == ".json" && !name.ends_with("-big")) found.push_back(name);
-    }
-    std::sort(found.begin(), found.end());
-    return found;
-  }
-  static std::string test_name(const testing::TestParamInfo<std::string>& test) {
-    std::string name = test.param;
-    std::replace_if(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
-    return name;
-  }
-};
+class GalleryLedger : public testing::TestWithParam<std::string> {};
 
 // What the kinetic energy gains is the work of all causes, and what comes and goes with particles: in double but for
 // rounding, by a billionth of what goes through the ledger. Without gravity, where particles come and go, whose
 // potential energy the ledger does not tell from the kinetic.
 TEST_P(GalleryLedger, KineticEnergyBalances) {
-  const auto loaded = load_scene(HOOKE_SOURCE_DIR "/scenes/" + GetParam() + ".json");
+  const auto loaded = load_scene(bundled_folder() / (GetParam() + ".json"));
   ASSERT_TRUE(loaded) << loaded.error().text();
   Scene scene = loaded->scene;
   if (!scene.emitters.empty()) scene.gravity = {0, 0, 0};
@@ -60,7 +43,7 @@ TEST_P(GalleryLedger, KineticEnergyBalances) {
   EXPECT_NEAR(after - before, given, 1e-9 * throughput);
 }
 
-INSTANTIATE_TEST_SUITE_P(Gallery, GalleryLedger, testing::ValuesIn(GalleryLedger::names()), GalleryLedger::test_name);
+INSTANTIATE_TEST_SUITE_P(Gallery, GalleryLedger, testing::ValuesIn(bundled_names(false)), bundled_test_name);
 
 }  // namespace
 }  // namespace hooke::test
