@@ -23,7 +23,7 @@ constexpr std::uint64_t kSmallestRow = 6;  // "0 0 0\n", bytes
 struct Head {
   std::optional<std::uint64_t> count;
   std::array<std::array<double, 2>, 3> box{};  // bounds of each axis
-  std::array<bool, 3> periodic{};                  // of a box that is not tilted
+  std::array<bool, 3> periodic{};  // of a box that is not tilted
   bool has_box = false;
   bool tilted = false;
   std::vector<std::string> titles;
