@@ -135,8 +135,8 @@ double integration_error(const Measurements& now, const Ledger& ledger, double i
 /// around each of `particles`, and of drag; and which coefficient limits it.
 struct StableStep {
   double seconds = 0;  ///< infinite where nothing can oscillate
-  std::string
-      limit;  ///< e.g. "stiffness and damping of water - water", "stiffness of the springs around particle 7 (silk)"
+  /// e.g. "stiffness and damping of water - water", "stiffness of the springs around particle 7 (cloths[0], silk)"
+  std::string limit;
 };
 StableStep stable_step(const Scene& scene, const ParticleSet& particles = {});
 /// The same of a simulation as it is. Looks at its particles only where something ties them.

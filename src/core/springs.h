@@ -60,10 +60,19 @@ struct Surface {
   friend bool operator==(const Surface&, const Surface&) = default;
 };
 
+/// Springs that one entry of a scene made: those from where the group before ends, the first from 0, up to `end`.
+struct SpringGroup {
+  std::string name;  ///< where the entry is, e.g. bodies[0]
+  std::size_t end = 0;
+
+  friend bool operator==(const SpringGroup&, const SpringGroup&) = default;
+};
+
 /// What ties particles together, and what holds them. It does not change during a run; which springs are broken is
 /// part of the state.
 struct Structure {
   SpringSet springs;
+  std::vector<SpringGroup> groups;  ///< what messages call springs; those of no group go by their particles
   std::vector<std::uint64_t> held;  ///< ids of particles that no force moves, ascending
   std::vector<Surface> surfaces;
 

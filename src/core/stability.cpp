@@ -44,13 +44,13 @@ class Smallest {
   }
   // The springs that tie one particle, K and C in all. No mode of particles and springs is faster than
   // omega^2 = 2 K/m, gamma = 2 C/m of the one for which that is most: (u_i - u_p)^2 <= 2 (u_i^2 + u_p^2) for each.
-  // `whose` says of what the particle is a part.
-  template <class Whose>
-  void consider_springs(double stiffness, double damping, const Material& m, std::uint64_t id, const Whose& whose) {
-    const double omega2 = 2 * stiffness / m.mass, gamma = 2 * damping / m.mass;
-    if (!is_smaller(omega2, gamma)) return;
-    step.limit = fmt::format("{} of the springs around particle {} ({})",
-                             limiting(omega2, gamma, "stiffness", "damping", "stiffness and damping"), id, whose());
+  // Returns whether they are what limits it so far.
+  bool consider_springs(double stiffness, double damping, double mass, std::uint64_t id) {
+    const double omega2 = 2 * stiffness / mass, gamma = 2 * damping / mass;
+    if (!is_smaller(omega2, gamma)) return false;
+    step.limit = fmt::format("{} of the springs around particle {}",
+                             limiting(omega2, gamma, "stiffness", "damping", "stiffness and damping"), id);
+    return true;
   }
 
   StableStep step{INFINITY, "nothing"};
@@ -114,26 +114,18 @@ void consider_braking(const Scene& scene, Smallest& smallest) {
   }
 }
 
-// Which of the scene's cloths a particle is a part of, by its id.
-class ClothNames {
- public:
-  explicit ClothNames(const Structure& structure) {
-    for (std::size_t k = 0; k < structure.surfaces.size(); ++k) {
-      ids_.push_back(structure.surfaces[k].particles);
-      std::sort(ids_.back().begin(), ids_.back().end());
-    }
+// The groups of springs that end at a particle, and its material: "bodies[0] and springs[1], jelly".
+std::string springs_around(const Structure& structure, std::uint64_t id, const Material& m) {
+  const SpringSet& springs = structure.springs;
+  std::string names;
+  std::size_t s = 0;
+  for (const SpringGroup& group : structure.groups) {
+    bool ends_here = false;
+    for (; s < group.end; ++s) ends_here = ends_here || springs.a[s] == id || springs.b[s] == id;
+    if (ends_here) names += (names.empty() ? "" : " and ") + group.name;
   }
-  // "cloths[0], linen", or just the material.
-  std::string operator()(std::uint64_t id, const Material& m) const {
-    for (std::size_t k = 0; k < ids_.size(); ++k) {
-      if (std::binary_search(ids_[k].begin(), ids_[k].end(), id)) return fmt::format("cloths[{}], {}", k, m.name);
-    }
-    return m.name;
-  }
-
- private:
-  std::vector<std::vector<std::uint64_t>> ids_;
-};
+  return names + (names.empty() ? "" : ", ") + m.name;
+}
 
 // Wind on a triangle brakes each corner along the normal, by a third of k_A A (docs/theory.md eq. 15): no mode of a
 // sheet is braked faster than the corner that has the most of it.
@@ -176,13 +168,16 @@ void consider_springs(const Structure& structure, const Scene& scene, const Part
       damping[i] += springs.damping[s];
     }
   }
-  const ClothNames names(structure);
+  std::size_t worst = particles.size();
   for (std::size_t i = 0; i < particles.size(); ++i) {
-    if (std::binary_search(structure.held.begin(), structure.held.end(), particles.id[i])) continue;
-    const Material& m = scene.materials[particles.material[i]];
     const std::uint64_t id = particles.id[i];
-    smallest.consider_springs(stiffness[i], damping[i], m, id, [&] { return names(id, m); });
+    if (std::binary_search(structure.held.begin(), structure.held.end(), id)) continue;
+    const double mass = scene.materials[particles.material[i]].mass;
+    if (smallest.consider_springs(stiffness[i], damping[i], mass, id)) worst = i;
   }
+  if (worst == particles.size()) return;
+  const Material& m = scene.materials[particles.material[worst]];
+  smallest.step.limit += fmt::format(" ({})", springs_around(structure, particles.id[worst], m));
 }
 
 }  // namespace

@@ -182,7 +182,9 @@ void StructureMaker::add_bodies(const Json& bodies) {
     if (findings.touches(path) || !material) continue;
     const double spacing = bodies[i].at("spacing").get<double>();
     const auto filling = filling_of(*this, bodies[i].at("shape"), spacing, join_path(path, "shape"));
-    if (filling && options.with_particles) fill(*this, bodies[i], *filling, *material, path);
+    if (!filling || !options.with_particles) continue;
+    fill(*this, bodies[i], *filling, *material, path);
+    end_group(path);
   }
 }
 

@@ -222,6 +222,7 @@ void StructureMaker::add_cloths(const Json& cloths) {
     } else if (is_whole_grid(cloths[i], path, findings) && options.with_particles) {
       Cloth(*this, cloths[i], path).make_grid(*material);
     }
+    end_group(path);
   }
 }
 

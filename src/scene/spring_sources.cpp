@@ -194,6 +194,7 @@ void StructureMaker::add_springs(const Json& springs) {
     const std::string path = join_path("springs", i);
     if (!springs[i].is_object() || findings.touches(path) || !options.with_particles) continue;
     reader.read(springs[i], path);
+    end_group(path);
     any = true;
   }
   if (any) reader.refuse_twins();

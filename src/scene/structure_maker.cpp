@@ -66,6 +66,12 @@ std::uint64_t StructureMaker::add_particles(const std::vector<Vec3d>& positions,
   return first;
 }
 
+void StructureMaker::end_group(const std::string& path) {
+  std::vector<SpringGroup>& groups = structure.groups;
+  const std::size_t end = structure.springs.size();
+  if (end > (groups.empty() ? 0 : groups.back().end)) groups.push_back({path, end});
+}
+
 double StructureMaker::distance(std::uint64_t a, std::uint64_t b) const {
   const Vec3d d = nearest_displacement(particles.position[particles.find(a)], particles.position[particles.find(b)],
                                        scene.domain.period());

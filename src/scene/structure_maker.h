@@ -36,6 +36,9 @@ struct StructureMaker {
   std::uint64_t add_particles(const std::vector<Vec3d>& positions, std::uint16_t material, const Vec3d& velocity,
                               const std::string& path);
 
+  /// The springs that were added since the last call are those of the entry at `path`.
+  void end_group(const std::string& path);
+
   /// Distance of two particles, by the nearest image, m.
   double distance(std::uint64_t a, std::uint64_t b) const;
 

@@ -176,6 +176,48 @@ INSTANTIATE_TEST_SUITE_P(All, Spray,
                                           testing::Values("portable", "avx2", "avx512")),
                          spray_name);
 
+// A stream passes some grains that are held. They stay where they are while what is around them moves on: it is they
+// that stray.
+class Stream : public testing::TestWithParam<std::tuple<Integrator, Precision, Boundary>> {};
+
+TEST_P(Stream, MissesNoContactWithGrainsThatAreHeld) {
+  const auto& [integrator, precision, boundary] = GetParam();
+  Scene scene = open_scene();
+  mix_materials(scene, 0.125);
+  for (Material& material : scene.materials) material.radius = 0.125;
+  scene.materials[1].fixed = true;
+  scene.integrator = integrator;
+  scene.gravity = {0, 0, 0};
+  scene.domain.min = {-5.6, -4, -5.6};
+  scene.domain.max = {5.6, 4, 5.6};
+  scene.domain.boundary = {boundary, Boundary::spring, boundary};
+  ParticleSet particles = lattice(scene, {28, 12, 28}, {-5.3, -2.2, -5.3}, 0.39, 0.02, 25);
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const bool held = particles.id[i] % 300 == 7;
+    particles.material[i] = held ? 1 : 0;
+    particles.velocity[i] = held ? Vec3d{0, 0, 0} : Vec3d{5, 0, 2} + noise(particles.id[i], 0.1);
+  }
+  Simulation simulation = simulate(scene, particles, {"cpu", precision, 2, "", true});
+  for (int step = 1; step <= 40; ++step) {
+    ASSERT_TRUE(advance(simulation, 1));
+    ASSERT_EQ(simulation.neighbour_statistics().missed_contacts, 0U) << "in step " << step;
+    ASSERT_EQ(measured(simulation).contacts, true_contacts(simulation)) << "after step " << step;
+  }
+  EXPECT_GT(measured(simulation).contacts, 10U);
+  EXPECT_LE(simulation.neighbour_statistics().rebuilds, 10U);
+}
+
+std::string stream_name(const testing::TestParamInfo<Stream::ParamType>& instance) {
+  const auto& [integrator, precision, boundary] = instance.param;
+  return BusyKind{boundary, integrator, precision}.name();
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Stream,
+                         testing::Combine(testing::Values(Integrator::symplectic_euler, Integrator::velocity_verlet),
+                                          testing::Values(Precision::single_precision, Precision::double_precision),
+                                          testing::Values(Boundary::spring, Boundary::periodic)),
+                         stream_name);
+
 // Large balls shot through a cloud of small ones, the radii one to ten: each size has a grid of its own.
 class Mixture : public testing::TestWithParam<std::tuple<Precision, Boundary, std::string>> {};
 

@@ -149,6 +149,28 @@ TEST(StableStep, IsThatOfAChainOfSprings) {
   }
 }
 
+TEST(StableStep, NamesTheGroupsOfSprings) {
+  Scene scene = open_scene();
+  scene.materials[0].contact = {0, 0, 0};
+  ParticleSet particles;
+  for (int i = 0; i < 4; ++i) add(particles, {1.5 * i, 0, 0}, {0, 0, 0});
+  auto structure = std::make_shared<Structure>();
+  structure->springs.push_back({1, 2, 1.5, 100, 0});
+  structure->springs.push_back({2, 3, 1.5, 1000, 0});
+  structure->springs.push_back({3, 4, 1.5, 100, 0});
+  structure->groups = {{"bodies[0]", 1}, {"springs[0]", 2}, {"springs[1]", 3}};
+  scene.structure = structure;
+  const std::string whose = ", " + scene.materials[0].name + ")";
+  EXPECT_EQ(stable_step(scene, particles).limit,
+            "stiffness of the springs around particle 2 (bodies[0] and springs[0]" + whose);
+  structure->springs.stiffness[2] = 5000;
+  EXPECT_EQ(stable_step(scene, particles).limit,
+            "stiffness of the springs around particle 3 (springs[0] and springs[1]" + whose);
+  structure->springs.stiffness[1] = 0;
+  structure->held = {3};
+  EXPECT_EQ(stable_step(scene, particles).limit, "stiffness of the springs around particle 4 (springs[1]" + whose);
+}
+
 TEST(StableStep, IsThatOfDrag) {
   Scene scene = open_scene();
   scene.materials[0].contact = {0, 0, 0};
@@ -196,6 +218,7 @@ TEST(StableStep, NamesTheClothAndTheWindOnIt) {
   auto structure = std::make_shared<Structure>();
   structure->surfaces = {{"linen", {1, 2, 3}, {0, 1, 2}}};
   structure->springs.push_back({1, 2, 2, 100, 0});
+  structure->groups = {{"cloths[0]", 1}};
   scene.structure = structure;
   const std::string name = scene.materials[0].name;
   EXPECT_EQ(stable_step(scene, corners).limit, "stiffness of the springs around particle 1 (cloths[0], " + name + ")");

@@ -187,6 +187,29 @@ TEST(SceneStructure, FillsMeshesWithBodies) {
 }
 
 // A checkpoint brings the structure along with the particles.
+TEST(SceneStructure, NamesSpringsByTheEntriesThatMadeThem) {
+  const LoadedScene loaded =
+      load({R"(cloths=[{"material":"water","corner":[1,1,1],"edges":[[1,0,0],[0,0,1]],"cells":[1,1],"stretch":7}])",
+            R"(bodies=[{"material":"water","shape":{"box":{"min":[4,4,4],"max":[6,6,6]}},"spacing":1,"stiffness":9}])",
+            R"(springs=[{"pairs":[[1,5]],"stiffness":3},{"pairs":[[2,5],[2,6]],"stiffness":5}])"});
+  const Structure& structure = *loaded.scene.structure;
+  ASSERT_EQ(structure.groups.size(), 4U);
+  const char* const names[] = {"cloths[0]", "bodies[0]", "springs[0]", "springs[1]"};
+  std::size_t s = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const SpringGroup& group = structure.groups[k];
+    EXPECT_EQ(group.name, names[k]);
+    EXPECT_GT(group.end, s);
+    for (; s < group.end; ++s) {
+      const double stiffness = structure.springs.stiffness[s];
+      if (k > 0) {
+        EXPECT_EQ(stiffness, k == 1 ? 9 : k == 2 ? 3 : 5);
+      }
+    }
+  }
+  EXPECT_EQ(s, structure.springs.size());
+}
+
 TEST(SceneStructure, IsNotMadeWithoutParticles) {
   LoadOptions options;
   options.with_particles = false;

@@ -96,12 +96,15 @@ class CpuBackend final : public Backend {
         unsigned far = 0;
         for (std::size_t i = start; i < std::min(start + kLanes, last); ++i) {
           Record& p = particles_.records[i];
-          if (is_nowhere(p) || applied_.held().holds(i)) continue;
-          p.v = kick(p.v, particles_.acceleration[i], Real(0.5) * pass_.dt);
-          p.x = drift(p.x, p.v, pass_.dt);
+          if (is_nowhere(p)) continue;
+          const bool held = applied_.held().holds(i);
+          if (!held) {
+            p.v = kick(p.v, particles_.acceleration[i], Real(0.5) * pass_.dt);
+            p.x = drift(p.x, p.v, pass_.dt);
+          }
           if (list_.good() && !particles_.slots.is_loose(i) && list_.is_far(p, i))
             far |= 1U << i % kLanes;  // asked of all: a removal must not hide a NaN
-          apply_boundaries(p, i, left);
+          if (!held) apply_boundaries(p, i, left);
         }
         if (far != 0) list_.note_far(start / kLanes, far);
       }

@@ -337,6 +337,7 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
   forces.weight = body.c * gravity;
   const Vec3<P> a = body.a * force + gravity;
   const P dt(pass.dt);
+  const unsigned held = pass.held != nullptr ? static_cast<unsigned>(pass.held[first / kGroupLanes]) >> half : 0;
   Vec3<P> v, x = own.x;
   if (pass.acceleration != nullptr) {  // velocity Verlet
     v = kick(own.v, a, P(Real(0.5)) * dt);
@@ -347,7 +348,10 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
     v = kick(own.v, a, dt);
     x = drift(own.x, v, dt);
     if (any(present & left_domain(pass, x))) notes |= kLeftDomain;
-    if (!work.alone) far |= bits(present & is_far<Real, kPeriodic>(pass, x, first)) << half;
+    if (!work.alone) {
+      const Vec3<P> to = held != 0 ? select_vector(lanes_of<Real>(held), own.x, x) : x;
+      far |= bits(present & is_far<Real, kPeriodic>(pass, to, first)) << half;
+    }
   }
   if (any(acting.too_fast)) notes |= kApproachTooFast;
 
@@ -358,10 +362,9 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
   // What is held keeps its velocity after all.
   Vec3<P> after = v, next = v;
   if (pass.acceleration != nullptr) next = select_vector(present, kick(v, a, P(Real(0.5)) * dt), zero);
-  if (pass.held != nullptr && pass.held[first / kGroupLanes] != 0) {
-    const Mask<Real> held = lanes_of<Real>(static_cast<unsigned>(pass.held[first / kGroupLanes]) >> half);
-    after = select_vector(held, own.v, v);
-    next = select_vector(held, own.v, next);
+  if (held != 0) {
+    after = select_vector(lanes_of<Real>(held), own.v, v);
+    next = select_vector(lanes_of<Real>(held), own.v, next);
   }
   forces.put_powers(0, own.v + after, pass.has_drag, touching, columns);
   if (pass.acceleration != nullptr) {
