@@ -9,6 +9,7 @@
 #include <string>
 
 #include "cli/program.h"
+#include "source_dir.h"
 
 namespace hooke::test {
 namespace {

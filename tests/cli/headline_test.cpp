@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "program.h"
+#include "source_dir.h"
 
 namespace hooke::test {
 namespace {

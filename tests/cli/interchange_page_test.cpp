@@ -12,6 +12,7 @@
 #include "hooke/io/run_folder.h"
 #include "hooke/scene/load_scene.h"
 #include "program.h"
+#include "source_dir.h"
 
 namespace hooke::test {
 namespace {

@@ -11,6 +11,7 @@
 #include "hooke/core/contacts.h"
 #include "hooke/io/export.h"
 #include "samples.h"
+#include "source_dir.h"
 
 namespace hooke {
 namespace {

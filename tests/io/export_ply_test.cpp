@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "samples.h"
+#include "source_dir.h"
 
 namespace hooke {
 namespace {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "lammps_case.h"
+#include "source_dir.h"
 
 #include <gtest/gtest.h>
 

@@ -20,6 +20,7 @@
 #include "hooke/render/legend.h"
 #include "hooke/render/visible_spheres.h"
 #include "picture_scenes.h"
+#include "source_dir.h"
 #include "support/environment.h"
 #include "support/similarity.h"
 

@@ -11,6 +11,7 @@
 
 #include "hooke/scene/load_scene.h"
 #include "hooke/scene/text_file.h"
+#include "source_dir.h"
 
 namespace hooke {
 namespace {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "scratch_folder.h"
+#include "source_dir.h"
 
 namespace hooke {
 namespace {

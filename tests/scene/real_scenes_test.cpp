@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "hooke/scene/load_scene.h"
+#include "source_dir.h"
 
 namespace hooke {
 namespace {

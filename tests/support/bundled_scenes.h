@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "source_dir.h"
+
 namespace hooke::test {
 
 /// The folder of the scenes that come with Hooke, for tests that are told where the sources are.
