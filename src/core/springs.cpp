@@ -88,6 +88,15 @@ std::vector<Finding> validate(const Structure& structure, bool single) {
   if (std::adjacent_find(held.begin(), held.end(), std::greater_equal<>()) != held.end()) {
     findings.push_back({"held", "ids must be unique and ascending"});
   }
+  std::size_t end = 0;
+  for (const SpringGroup& group : structure.groups) {
+    if (group.end < end || group.end > structure.springs.size()) {
+      findings.push_back({"groups", fmt::format("{} ends at spring {}; must be {} to {}, the number of springs",
+                                                group.name, group.end, end, structure.springs.size())});
+      break;
+    }
+    end = group.end;
+  }
   for (std::size_t k = 0; k < structure.surfaces.size(); ++k) check_surface(structure.surfaces[k], k, findings);
   return findings;
 }

@@ -63,7 +63,7 @@ struct Surface {
 /// Springs that one entry of a scene made: those from where the group before ends, the first from 0, up to `end`.
 struct SpringGroup {
   std::string name;  ///< where the entry is, e.g. bodies[0]
-  std::size_t end = 0;
+  std::size_t end = 0;  ///< no less than that of the group before, and no more than there are springs
 
   friend bool operator==(const SpringGroup&, const SpringGroup&) = default;
 };

@@ -204,7 +204,7 @@ TEST_P(Stream, MissesNoContactWithGrainsThatAreHeld) {
     ASSERT_EQ(measured(simulation).contacts, true_contacts(simulation)) << "after step " << step;
   }
   EXPECT_GT(measured(simulation).contacts, 10U);
-  EXPECT_LE(simulation.neighbour_statistics().rebuilds, 10U);
+  EXPECT_LE(simulation.neighbour_statistics().rebuilds, 10U) << "a list is kept for several steps: strays are at stake";
 }
 
 std::string stream_name(const testing::TestParamInfo<Stream::ParamType>& instance) {

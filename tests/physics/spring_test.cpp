@@ -252,6 +252,14 @@ TEST(Springs, ThatMakeNoSenseAreRefused) {
   EXPECT_EQ(refused({1, 2, 1, 1, 0, 0}), "break_strain 0 must be greater than 0");
   EXPECT_EQ(refused({1, 2, 1, 1, 0}, {9}), "names particle 9; there is none of this id");
   EXPECT_EQ(refused({1, 2, 1, 1, 0}, {2, 1}), "ids must be unique and ascending");
+
+  Structure grouped = *structure_of({{1, 2, 1, 1, 0}});
+  grouped.groups = {{"springs[0]", 1}, {"springs[1]", 2}};
+  scene.structure = std::make_shared<Structure>(grouped);
+  const auto made = Simulation::create(scene, particles, make_backend(kCpuDouble));
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().findings.front().message,
+            "springs[1] ends at spring 2; must be 1 to 1, the number of springs");
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 
 #include "lammps_case.h"
-#include "source_dir.h"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +11,8 @@
 #include <regex>
 #include <sstream>
 #include <stdexcept>
+
+#include "source_dir.h"
 
 namespace hooke::test {
 namespace {

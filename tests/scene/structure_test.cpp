@@ -186,7 +186,6 @@ TEST(SceneStructure, FillsMeshesWithBodies) {
   EXPECT_NEAR(static_cast<double>(turned.particles.size() - 2), 64 * std::sqrt(2.0) / std::pow(0.25, 3), 300);
 }
 
-// A checkpoint brings the structure along with the particles.
 TEST(SceneStructure, NamesSpringsByTheEntriesThatMadeThem) {
   const LoadedScene loaded =
       load({R"(cloths=[{"material":"water","corner":[1,1,1],"edges":[[1,0,0],[0,0,1]],"cells":[1,1],"stretch":7}])",
@@ -210,6 +209,7 @@ TEST(SceneStructure, NamesSpringsByTheEntriesThatMadeThem) {
   EXPECT_EQ(s, structure.springs.size());
 }
 
+// A checkpoint brings the structure along with the particles.
 TEST(SceneStructure, IsNotMadeWithoutParticles) {
   LoadOptions options;
   options.with_particles = false;

@@ -349,6 +349,7 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
     x = drift(own.x, v, dt);
     if (any(present & left_domain(pass, x))) notes |= kLeftDomain;
     if (!work.alone) {
+      // What is held is put back after the pass.
       const Vec3<P> to = held != 0 ? select_vector(lanes_of<Real>(held), own.x, x) : x;
       far |= bits(present & is_far<Real, kPeriodic>(pass, to, first)) << half;
     }
