@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "hooke/base/vec3.h"
-#include "hooke/neighbours/group_search.h"
+#include "hooke/neighbours/window_search.h"
 
 namespace hooke {
 

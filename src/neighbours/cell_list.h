@@ -10,7 +10,7 @@
 #include "hooke/base/parallel.h"
 #include "hooke/base/vec3.h"
 #include "hooke/neighbours/cell_grid.h"
-#include "hooke/neighbours/group_search.h"
+#include "hooke/neighbours/window_search.h"
 
 namespace hooke {
 

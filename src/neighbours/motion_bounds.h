@@ -17,7 +17,7 @@
 #include "hooke/base/vec3.h"
 #include "hooke/neighbours/cell_grid.h"
 #include "hooke/neighbours/group_anchor.h"
-#include "hooke/neighbours/group_search.h"
+#include "hooke/neighbours/window_search.h"
 
 namespace hooke {
 
@@ -212,7 +212,9 @@ class MotionBounds {
           const auto before = static_cast<std::ptrdiff_t>(blocks.size());
           for (std::size_t i = g * group; i < std::min((g + 1) * group, count); ++i) {
             const std::uint32_t block = keys[i - start * group];
-            if (std::find(blocks.begin() + before, blocks.end(), block) == blocks.end()) blocks.push_back(block);
+            const bool same = static_cast<std::ptrdiff_t>(blocks.size()) > before && blocks.back() == block;
+            if (!same && std::find(blocks.begin() + before, blocks.end(), block) == blocks.end())
+              blocks.push_back(block);
           }
           first_block_[g + 1] = static_cast<std::uint32_t>(static_cast<std::ptrdiff_t>(blocks.size()) - before);
         }

@@ -8,31 +8,33 @@
 #include <cstdint>
 #include <mutex>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "hooke/base/huge_pages.h"
 #include "hooke/base/parallel.h"
 #include "hooke/base/vec3.h"
 #include "hooke/neighbours/cell_list.h"
-#include "hooke/neighbours/group_search.h"
+#include "hooke/neighbours/window_search.h"
 
 namespace hooke {
 
-/// A full neighbour list in lanes: 16 consecutive particles form a group, and row k of a group holds the k-th neighbour
-/// of each of them, one a lane (the sliced-ELLPACK layout: Kreutzer et al., "A unified sparse matrix data format", SIAM
-/// J. Sci. Comput. 2014). Each lane's neighbours are in ascending order of rank, so a force pass that adds row after
-/// row sums in canonical order. Short lanes are filled up with a dummy. An entry is whatever the caller's `entry` makes
-/// of a particle's index, e.g. an address offset.
+/// A full neighbour list in lanes: 16 particles that follow each other in memory form a group, and row k of a group
+/// holds the k-th neighbour of each of them, one a lane (the sliced-ELLPACK layout: Kreutzer et al., "A unified sparse
+/// matrix data format", SIAM J. Sci. Comput. 2014). Each lane's neighbours are in ascending order of rank, so a force
+/// pass that adds row after row sums in canonical order. Short lanes are filled up with a dummy. An entry is a slot in
+/// memory times the rule's stride, e.g. an address offset.
 class NeighbourList {
  public:
   static constexpr std::size_t kLanes = 16;
   static constexpr std::size_t kGroups = 64;  // groups a segment
   static constexpr std::size_t kSegment = kLanes * kGroups;
+  static_assert(kSegment % kWindow == 0 && kWindow % kLanes == 0);
 
-  /// The rows of 1024 consecutive particles: what one thread builds and later walks over.
+  static constexpr std::array<std::uint32_t, kLanes> kNoRow{};
+
+  /// The rows of 1024 particles: what one thread builds and later walks over.
   struct Segment {
-    const std::uint32_t* entries = nullptr;  // rows of kLanes
+    const std::uint32_t* entries = kNoRow.data();  // rows of kLanes
     std::array<std::uint32_t, kGroups + 1> first_row{};  // group g: rows first_row[g] to first_row[g + 1]
   };
   std::vector<Segment> segments;
@@ -65,14 +67,10 @@ class NeighbourList {
   }
 
   /// Adds segments without rows until there are `segment_count`.
-  void add_empty_segments(std::size_t segment_count) {
-    static constexpr std::array<std::uint32_t, kLanes> kNoRow{};
-    Segment empty;
-    empty.entries = kNoRow.data();
-    segments.resize(std::max(segments.size(), segment_count), empty);
-  }
+  void add_empty_segments(std::size_t segment_count) { segments.resize(std::max(segments.size(), segment_count)); }
 
-  /// Writes the rows of one segment after the other, straight to where they stay until clear(). One thread each.
+  /// Takes the rows of one segment after the other, group by group, straight to where they stay until clear(). One
+  /// thread each.
   class Writer {
    public:
     explicit Writer(NeighbourList& list) : list_(list), to_(list.begun_block()) {}
@@ -80,8 +78,10 @@ class NeighbourList {
     Writer(const Writer&) = delete;
     Writer& operator=(const Writer&) = delete;
 
-    /// Room for so many more entries of the segment; what was written of it before may move.
-    std::uint32_t* room(std::size_t entries) {
+    /// Where the so many rows of the segment's next group are to be written before the next call; those of groups
+    /// before may move then.
+    std::uint32_t* next_group(std::size_t rows) {
+      const std::size_t entries = rows * kLanes;
       if (to_.size() < entries) {
         const std::size_t written = static_cast<std::size_t>(to_.data() - segment_);
         const std::span<std::uint32_t> block = list_.new_block(written + entries);
@@ -89,17 +89,29 @@ class NeighbourList {
         to_ = block.subspan(written);
         segment_ = block.data();
       }
-      return to_.data();
+      std::uint32_t* const room = to_.data();
+      to_ = to_.subspan(entries);
+      first_row_[group_ + 1] = first_row_[group_] + static_cast<std::uint32_t>(rows);
+      ++group_;
+      return room;
     }
-    /// So many of them are filled.
-    void add(std::size_t entries) { to_ = to_.subspan(entries); }
-    /// Ends the segment; returns where it starts.
-    const std::uint32_t* finish_segment() { return std::exchange(segment_, to_.data()); }
+    /// The segment is at its end; groups that were not asked for have no rows.
+    Segment finish_segment() {
+      std::fill(first_row_.begin() + static_cast<std::ptrdiff_t>(group_), first_row_.end(), first_row_[group_]);
+      group_ = 0;
+      Segment segment;
+      if (first_row_.back() > 0) segment.entries = segment_;
+      segment.first_row = first_row_;
+      segment_ = to_.data();
+      return segment;
+    }
 
    private:
     NeighbourList& list_;
     std::span<std::uint32_t> to_;  // room that is left
     std::uint32_t* segment_ = to_.data();
+    std::size_t group_ = 0;
+    std::array<std::uint32_t, kGroups + 1> first_row_{};
   };
 
  private:
@@ -135,10 +147,10 @@ class NeighbourList {
 
 /// What one thread searches with.
 template <class Real>
-class GroupSearcher {
+class WindowSearcher {
  public:
   /// Finds the neighbours that `rule` asks for, of points in the order of `cells`.
-  GroupSearcher(const CellList& cells, const NeighbourRule<Real>& rule, GroupSearchFunction<Real> search)
+  WindowSearcher(const CellList& cells, const NeighbourRule<Real>& rule, WindowSearchFunction<Real> search)
       : cells_(cells),
         rule_(rule),
         search_(search) {
@@ -150,31 +162,34 @@ class GroupSearcher {
     }
   }
 
-  /// Writes the rows of the points first to end - 1, at most 16, to room(n), where there has to be room for n entries;
-  /// returns their number.
-  template <class Room>
-  std::size_t write_rows(std::size_t first, std::size_t end, const Room& room) {
+  /// Writes the rows of a window, the points first to end - 1.
+  void write_rows(std::size_t first, std::size_t end, NeighbourList::Writer& writer) {
     ranges_.clear();
     std::size_t most = 0, block_count = 0;
     for (std::size_t i = first; i < end; i = blocks_[block_count++].last) {
       most = std::max(most, find_block(i, end, blocks_[block_count]));
     }
     make_room(most);
-    const GroupSearch<Real> group{static_cast<std::uint32_t>(first),
-                                  blocks_.data(),
-                                  block_count,
-                                  ranges_.data(),
-                                  room((most + 1) * NeighbourList::kLanes),
-                                  rows_.data(),
-                                  x_.data(),
-                                  y_.data(),
-                                  z_.data(),
-                                  square_.data(),
-                                  radius_.data(),
-                                  keys_.data(),
-                                  near_.data(),
-                                  near_.size() / 4};
-    return search_(rule_, group);
+    WindowSearch<Real> window;
+    window.first = static_cast<std::uint32_t>(first);
+    window.end = static_cast<std::uint32_t>(end);
+    window.blocks = blocks_.data();
+    window.ranges = ranges_.data();
+    window.list = &writer;
+    window.room_for_rows = [](void* to, std::size_t rows) {
+      return static_cast<NeighbourList::Writer*>(to)->next_group(rows);
+    };
+    window.rows = rows_.data();
+    window.row_room = most + 1;
+    window.x = x_.data();
+    window.y = y_.data();
+    window.z = z_.data();
+    window.square = square_.data();
+    window.radius = radius_.data();
+    window.keys = keys_.data();
+    window.near = near_.data();
+    window.near_room = near_.size() / 4;
+    search_(rule_, window);
   }
 
  private:
@@ -223,7 +238,7 @@ class GroupSearcher {
   // How large a block of a level may be, m: long enough that many points share a search; across a periodic axis so
   // small that whoever is near has one image only that is.
   Vec3<Real> largest_block(std::size_t level) const {
-    constexpr double kLong = 5;  // cells
+    constexpr double kLong = 3;  // cells
     const CellGrid& grid = cells_.grid(level);
     Vec3d most{grid.axis(0).cell, grid.axis(1).cell, grid.axis(2).cell};
     component(most, grid.path()[0]) = kLong * component(most, grid.path()[1]);
@@ -237,11 +252,11 @@ class GroupSearcher {
 
   Vec3<Real> position(std::size_t i) const { return {rule_.at.x[i], rule_.at.y[i], rule_.at.z[i]}; }
 
-  // For a group whose blocks' ranges hold `most` points.
+  // For a window whose blocks' ranges hold `most` points.
   void make_room(std::size_t most) {
     if (most + 32 <= x_.size()) return;
     const std::size_t room = 2 * (most + 32);
-    rows_.resize(room * NeighbourList::kLanes);
+    rows_.resize(room * kWindow);
     keys_.resize(room);
     near_.resize(4 * room);
     for (auto* column : {&x_, &y_, &z_, &square_, &radius_}) column->resize(room);
@@ -249,9 +264,9 @@ class GroupSearcher {
 
   const CellList& cells_;
   const NeighbourRule<Real>& rule_;
-  const GroupSearchFunction<Real> search_;
+  const WindowSearchFunction<Real> search_;
   std::vector<Level> levels_;
-  std::array<SearchBlock<Real>, NeighbourList::kLanes> blocks_;
+  std::array<SearchBlock<Real>, kWindow> blocks_;
   std::vector<SearchRange> ranges_;
   std::vector<std::uint64_t> rows_, keys_;
   std::vector<std::int32_t> near_;
@@ -261,24 +276,19 @@ class GroupSearcher {
 /// Builds `list` anew, over the sorted points, of which `rule` has columns.
 template <class Real>
 void build_neighbour_list(const CellList& cells, const NeighbourRule<Real>& rule,
-                          GroupSearchFunction<Real> search_group, NeighbourList& list) {
-  constexpr std::size_t kLanes = NeighbourList::kLanes;
+                          WindowSearchFunction<Real> search_window, NeighbourList& list) {
   const std::size_t count = cells.point_count();
   list.clear((count + NeighbourList::kSegment - 1) / NeighbourList::kSegment);
 
   parallel_ranges(list.segments.size(), 1, [&](std::size_t first_segment, std::size_t last_segment) {
-    GroupSearcher<Real> searcher(cells, rule, search_group);
+    WindowSearcher<Real> searcher(cells, rule, search_window);
     NeighbourList::Writer writer(list);
     for (std::size_t s = first_segment; s < last_segment; ++s) {
-      NeighbourList::Segment& segment = list.segments[s];
-      for (std::size_t g = 0; g < NeighbourList::kGroups; ++g) {
-        const std::size_t first = std::min(s * NeighbourList::kSegment + g * kLanes, count);
-        const std::size_t rows = searcher.write_rows(first, std::min(first + kLanes, count),
-                                                     [&](std::size_t most) { return writer.room(most); });
-        writer.add(rows * kLanes);
-        segment.first_row[g + 1] = segment.first_row[g] + static_cast<std::uint32_t>(rows);
+      const std::size_t end = std::min((s + 1) * NeighbourList::kSegment, count);
+      for (std::size_t first = s * NeighbourList::kSegment; first < end; first += kWindow) {
+        searcher.write_rows(first, std::min(first + kWindow, end), writer);
       }
-      segment.entries = writer.finish_segment();
+      list.segments[s] = writer.finish_segment();
     }
   });
 }

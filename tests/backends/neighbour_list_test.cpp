@@ -54,8 +54,8 @@ const Setting kSettings[] = {
 
 constexpr double kSkin = 0.5;  // of the smallest radius
 
-GroupSearchFunction<float> search_of(const Isa& isa, float) { return isa.single_loops.search_group; }
-GroupSearchFunction<double> search_of(const Isa& isa, double) { return isa.double_loops.search_group; }
+WindowSearchFunction<float> search_of(const Isa& isa, float) { return isa.single_loops.search_window; }
+WindowSearchFunction<double> search_of(const Isa& isa, double) { return isa.double_loops.search_window; }
 
 template <class Real>
 class Lists {
@@ -87,16 +87,21 @@ class Lists {
     constexpr std::size_t kReadable = 16;
     for (auto* column : {&x_, &y_, &z_, &radii_}) column->resize(setting.count + kReadable);
     ranks_.resize(setting.count + kReadable);
+    places_.resize(setting.count + kReadable);
+    neighbour_counts_.resize(setting.count, 77);
     for (std::size_t i = 0; i < setting.count; ++i) {
       x_[i] = x[order[i]].x;
       y_[i] = x[order[i]].y;
       z_[i] = x[order[i]].z;
       ranks_[i] = order[i];
+      places_[i] = place_of(i);
       radii_[i] = static_cast<Real>(radius_of(order[i]));
     }
     rule_.at = {x_.data(), y_.data(), z_.data()};
     rule_.radius = setting.ratio == 1 ? nullptr : radii_.data();
     rule_.rank = ranks_.data();
+    rule_.place = places_.data();
+    rule_.neighbour_count = neighbour_counts_.data();
     rule_.reach = static_cast<Real>((kSkin + (setting.ratio == 1 ? 2 : 0)) * setting.radius);
     std::copy(std::begin(setting.periodic), std::end(setting.periodic), rule_.periodic);
     rule_.length = vec_cast<Real>(size);
@@ -128,7 +133,7 @@ class Lists {
       if (sum < reach * reach) near.push_back(static_cast<std::uint32_t>(p));
     }
     std::sort(near.begin(), near.end(), [&](auto a, auto b) { return ranks_[a] < ranks_[b]; });
-    for (std::uint32_t& p : near) p *= kStride;
+    for (std::uint32_t& p : near) p = static_cast<std::uint32_t>(slot_of(p)) * kStride;
     return near;
   }
 
@@ -137,24 +142,35 @@ class Lists {
     build(isa, list_self, list);
     ASSERT_EQ(list.segments.size(), (setting_.count + NeighbourList::kSegment - 1) / NeighbourList::kSegment);
     for (std::size_t i = 0; i < setting_.count; ++i) {
-      const NeighbourList::Segment& segment = list.segments[i / NeighbourList::kSegment];
-      const std::size_t group = i % NeighbourList::kSegment / NeighbourList::kLanes;
+      const std::size_t slot = slot_of(i);
+      const NeighbourList::Segment& segment = list.segments[slot / NeighbourList::kSegment];
+      ASSERT_NE(segment.entries, nullptr) << "as if particles were not listed";
+      const std::size_t group = slot % NeighbourList::kSegment / NeighbourList::kLanes;
       std::vector<std::uint32_t> lane;
       for (std::size_t row = segment.first_row[group]; row < segment.first_row[group + 1]; ++row) {
-        lane.push_back(segment.entries[row * NeighbourList::kLanes + i % NeighbourList::kLanes]);
+        lane.push_back(segment.entries[row * NeighbourList::kLanes + slot % NeighbourList::kLanes]);
       }
       while (!lane.empty() && lane.back() == kDummy) lane.pop_back();
       ASSERT_EQ(lane, expected(i, list_self)) << isa.name << ", point " << i;
+      ASSERT_EQ(neighbour_counts_[slot], std::min<std::size_t>(expected(i, true).size(), 255)) << isa.name;
     }
   }
 
  private:
   static constexpr std::uint32_t kStride = 4;
 
+  // In every other window the last come first.
+  std::uint8_t place_of(std::size_t i) const {
+    const std::size_t first = i / kWindow * kWindow, last = std::min(first + kWindow, setting_.count) - 1;
+    return static_cast<std::uint8_t>(i / kWindow % 2 == 0 ? last - i : i - first);
+  }
+  std::size_t slot_of(std::size_t i) const { return i / kWindow * kWindow + places_[i]; }
+
   Setting setting_;
   CellList cells_;
   std::vector<Real> x_, y_, z_, radii_;
   std::vector<std::uint32_t> ranks_;
+  std::vector<std::uint8_t> places_, neighbour_counts_;
   NeighbourRule<Real> rule_;
 };
 

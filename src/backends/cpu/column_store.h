@@ -6,7 +6,7 @@
 
 #include "hooke/base/huge_pages.h"
 #include "hooke/base/vec3.h"
-#include "hooke/neighbours/group_search.h"
+#include "hooke/neighbours/window_search.h"
 
 namespace hooke {
 

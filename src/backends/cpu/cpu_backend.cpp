@@ -64,7 +64,7 @@ class CpuBackend final : public Backend {
     pass_ = rules_.pass;
     particles_.configure(scene_, rules_);
     colliders_.configure(scene, pass_.material_count);
-    list_.configure(rules_, loops_.search_group, applied_.springs().apart());
+    list_.configure(rules_, loops_.search_window, applied_.springs().apart());
     applied_.configure(scene, rules_.pass, loops_);
     sinks_ = PlacedSinks(scene.sinks);
   }
@@ -320,9 +320,8 @@ class CpuBackend final : public Backend {
       component(min, axis) = component(pass_.min, axis);
       component(max, axis) = component(pass_.max, axis);
     }
-    // The buffer for the next state is free until the records are permuted into it.
-    particles_.reorder(list_.sort(particles_.records.data(), particles_.slots.listed_end(), min, max,
-                                  std::as_writable_bytes(std::span(particles_.next))));
+    particles_.reorder(
+        list_.sort(particles_.records.data(), particles_.slots.listed_end(), min, max, particles_.scratch()));
     return {};
   }
 
@@ -331,7 +330,9 @@ class CpuBackend final : public Backend {
     const std::size_t count = particles_.slots.listed_end();
     const bool births = particles_.room_for_births(true) > 0;
     const std::size_t end = births ? std::min(particles_.slots.first_loose(), count + count / 16 + 256) : count;
-    list_.build(particles_.records.data(), count, end / kLanes * kLanes, particles_.records.size());
+    list_.build(particles_.records.data(), count, end / kLanes * kLanes, particles_.records.size(),
+                particles_.scratch());
+    particles_.end_scratch();
   }
 
   void follow_motion() {

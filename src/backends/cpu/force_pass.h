@@ -8,7 +8,7 @@
 #include "hooke/backends/cpu/particle_record.h"
 #include "hooke/base/vec3.h"
 #include "hooke/neighbours/group_anchor.h"
-#include "hooke/neighbours/group_search.h"
+#include "hooke/neighbours/window_search.h"
 #include "hooke/physics/collider.h"
 
 namespace hooke {
@@ -77,7 +77,7 @@ struct ForcePass {
   int images[3]{};                            // PeriodicKind::images: -n to n are looked at
   PeriodicKind periodic_kind = PeriodicKind::none;
   Real speed_limit{};                         // m/s: contacts that approach faster are looked at closely
-  const GroupAnchor<Real>* anchors = nullptr; // a group each: where its particles are expected
+  const GroupAnchor<Real>* anchors = nullptr; // a window each: where its particles are expected
   const std::uint16_t* held = nullptr;        // a bit a particle, one entry a group: held still; null where none is
   Real next_step{};                           // steps of the anchors, this pass's drift included
 };

@@ -211,11 +211,11 @@ HOOKE_HD Mask<Real> left_domain(const ForcePass<Real>& pass, const Vec3<Pack<Rea
   return out;
 }
 
-// Mask of lanes further from where they are expected than their group allows; NaN counts as far.
+// Mask of lanes further from where they are expected than their anchor allows; NaN counts as far.
 template <class Real, PeriodicKind kPeriodic>
 HOOKE_HD Mask<Real> is_far(const ForcePass<Real>& pass, const Vec3<Pack<Real>>& x, std::size_t first) {
   using P = Pack<Real>;
-  const GroupAnchor<Real>& anchor = pass.anchors[first / kGroupLanes];
+  const GroupAnchor<Real>& anchor = pass.anchors[first / kWindow];
   const Vec3<Real> moved = anchor.at(pass.next_step);
   const Vec3<P> expected{load(pass.listed_at.x + first) + P(moved.x), load(pass.listed_at.y + first) + P(moved.y),
                          load(pass.listed_at.z + first) + P(moved.z)};

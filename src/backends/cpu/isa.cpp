@@ -7,23 +7,23 @@
 
 namespace hooke {
 
-#define HOOKE_DECLARE_LOOPS(isa)                                                                 \
-  namespace isa {                                                                                \
-  std::size_t search_group(const NeighbourRule<float>& rule, const GroupSearch<float>& group);   \
-  std::size_t search_group(const NeighbourRule<double>& rule, const GroupSearch<double>& group); \
-  void spring_pass(const SpringPass<float>& pass, const SpringWork<float>& work);                \
-  void spring_pass(const SpringPass<double>& pass, const SpringWork<double>& work);              \
-  void work_pass(const ForceWork<float>& work, ExactParts* sums);                                \
-  void work_pass(const ForceWork<double>& work, ExactParts* sums);                               \
-  template <class Real>                                                                          \
-  constexpr Loops<Real> loops() {                                                                \
-    return {force_pass,                                                                          \
-            search_group,                                                                        \
-            spring_pass,                                                                         \
-            work_pass,                                                                           \
-            {pull_by_particles, pull_by_cells, potential_of_particles, potential_of_cells}};     \
-  }                                                                                              \
-  constexpr Isa named(const char* name) { return {name, loops<float>(), loops<double>()}; }      \
+#define HOOKE_DECLARE_LOOPS(isa)                                                             \
+  namespace isa {                                                                            \
+  void search_window(const NeighbourRule<float>& rule, const WindowSearch<float>& window);   \
+  void search_window(const NeighbourRule<double>& rule, const WindowSearch<double>& window); \
+  void spring_pass(const SpringPass<float>& pass, const SpringWork<float>& work);            \
+  void spring_pass(const SpringPass<double>& pass, const SpringWork<double>& work);          \
+  void work_pass(const ForceWork<float>& work, ExactParts* sums);                            \
+  void work_pass(const ForceWork<double>& work, ExactParts* sums);                           \
+  template <class Real>                                                                      \
+  constexpr Loops<Real> loops() {                                                            \
+    return {force_pass,                                                                      \
+            search_window,                                                                   \
+            spring_pass,                                                                     \
+            work_pass,                                                                       \
+            {pull_by_particles, pull_by_cells, potential_of_particles, potential_of_cells}}; \
+  }                                                                                          \
+  constexpr Isa named(const char* name) { return {name, loops<float>(), loops<double>()}; }  \
   }
 HOOKE_DECLARE_LOOPS(portable)
 HOOKE_DECLARE_LOOPS(avx2)

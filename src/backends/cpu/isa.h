@@ -10,7 +10,7 @@
 #include "hooke/backends/cpu/spring_pass.h"
 #include "hooke/backends/cpu/work_pass.h"
 #include "hooke/base/expected.h"
-#include "hooke/neighbours/group_search.h"
+#include "hooke/neighbours/window_search.h"
 
 namespace hooke {
 
@@ -18,7 +18,7 @@ namespace hooke {
 template <class Real>
 struct Loops {
   ForcePassFunction<Real> force_pass;
-  GroupSearchFunction<Real> search_group;
+  WindowSearchFunction<Real> search_window;
   SpringPassFunction<Real> spring_pass;
   WorkPassFunction<Real> work_pass;
   AttractionLoops<Real> attraction;

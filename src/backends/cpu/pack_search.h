@@ -140,6 +140,13 @@ HOOKE_HD WordVector load_words(const std::uint32_t* from) {
   __builtin_memcpy(&a, from, sizeof(a));
   return a;
 }
+/// As many bytes, as words.
+HOOKE_HD WordVector load_bytes(const std::uint8_t* from) {
+  typedef std::uint8_t ByteVector __attribute__((vector_size(kPackBytes / 8)));
+  ByteVector a;
+  __builtin_memcpy(&a, from, sizeof(a));
+  return __builtin_convertvector(a, WordVector);
+}
 HOOKE_HD void store(std::uint32_t* to, const WordVector& a) { __builtin_memcpy(to, &a, sizeof(a)); }
 
 }  // namespace hooke::HOOKE_ISA

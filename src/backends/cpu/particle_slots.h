@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "hooke/neighbours/window_search.h"
+
 namespace hooke {
 
 /// Where in memory particles lie. In front those that touch others, in the order of the neighbour list, with room
@@ -38,7 +40,7 @@ class ParticleSlots {
   bool is_loose(std::size_t slot) const { return slot >= first_loose_; }
 
   bool has_room(std::size_t listed, std::size_t loose) const {
-    return listed <= first_loose_ - std::min(first_loose_, whole(listed_end_, kLanes)) &&
+    return listed <= first_loose_ - std::min(first_loose_, whole(listed_end_, kWindow)) &&
            loose <= spare_.size() + (room() - loose_end_);
   }
   /// Slots for one that is born. Where the listed ones are laid out, it is not before `from`.

@@ -68,8 +68,14 @@ class ParticleState {
       put(slot, rank, particles, k);
       if (verlet() && !particles.acceleration.empty()) acceleration[slot] = vec_cast<Real>(particles.acceleration[k]);
     }
-    fill_unused();
+    fill_unused(records);
+    fill_unused(next);
   }
+
+  /// The buffer of the next state, to work in until a pass needs it: then end_scratch() first. Reordering works in it
+  /// too.
+  std::span<std::byte> scratch() { return std::as_writable_bytes(std::span(next)); }
+  void end_scratch() { fill_unused(next); }
 
   /// All particles, by id.
   void download(ParticleSet& out) const {
@@ -98,7 +104,7 @@ class ParticleState {
   void reorder(std::span<const std::uint32_t> order) {
     slots.set_listed(count_ - loose_count_);
     permute(records, next, order);
-    fill_unused();
+    fill_unused(records);
     if (verlet()) {
       LargeVector<Vec3<Real>> scratch(acceleration.size());
       permute(acceleration, scratch, order);
@@ -177,16 +183,14 @@ class ParticleState {
     wrap_periodic(rules_->pass, records[slot]);  // a coordinate may have been rounded up to the upper face
   }
 
-  void fill_unused() {
-    for (LargeVector<Record>* all : {&records, &next}) {
-      const auto fill = [&](std::size_t first, std::size_t last) {
-        std::fill(all->begin() + static_cast<std::ptrdiff_t>(first), all->begin() + static_cast<std::ptrdiff_t>(last),
-                  nowhere_record<Real>(Real(0)));
-      };
-      fill(slots.listed_end(), slots.first_loose());
-      fill(slots.loose_end(), all->size() - 1);
-      all->back() = filling_record<Real>();
-    }
+  void fill_unused(LargeVector<Record>& all) const {
+    const auto fill = [&](std::size_t first, std::size_t last) {
+      std::fill(all.begin() + static_cast<std::ptrdiff_t>(first), all.begin() + static_cast<std::ptrdiff_t>(last),
+                nowhere_record<Real>(Real(0)));
+    };
+    fill(slots.listed_end(), slots.first_loose());
+    fill(slots.loose_end(), all.size() - 1);
+    all.back() = filling_record<Real>();
   }
 
   template <class T>

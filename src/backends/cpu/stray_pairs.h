@@ -18,6 +18,7 @@
 #include "hooke/base/parallel.h"
 #include "hooke/neighbours/cell_list.h"
 #include "hooke/neighbours/neighbour_list.h"
+#include "hooke/neighbours/window_order.h"
 #include "hooke/physics/periodic.h"
 
 namespace hooke {
@@ -114,11 +115,12 @@ class StrayPairs {
   using Lack = MendedRows::Lack;
 
  public:
-  StrayPairs(const PassRules<Real>& rules, const Record* records, const CellList& cells, const std::uint32_t* ranks,
-             const NeighbourList& list, const ApartPairs& apart)
+  StrayPairs(const PassRules<Real>& rules, const Record* records, const CellList& cells, const WindowOrder& slots,
+             const std::uint32_t* ranks, const NeighbourList& list, const ApartPairs& apart)
       : rules_(rules),
         records_(records),
         cells_(cells),
+        slots_(slots),
         ranks_(ranks),
         list_(list),
         apart_(apart) {}
@@ -163,8 +165,7 @@ class StrayPairs {
     room.ranges.resize(std::max(room.ranges.size(), strays.size() / kGrain + 1));
     parallel_ranges(strays.size(), kGrain, [&](std::size_t first, std::size_t last) {
       std::vector<SearchRange>& ranges = room.ranges[first / kGrain];
-      for (std::size_t k = first; k < last; ++k) {
-        const std::size_t i = strays[k];
+      for (const std::uint32_t i : strays.subspan(first, last - first)) {
         if (is_nowhere(records_[i])) continue;
         if (!is_somewhere(records_[i])) {
           lost = true;
@@ -177,7 +178,8 @@ class StrayPairs {
           cells_.find(level, place.at - Vec3d{reach, reach, reach}, place.at + Vec3d{reach, reach, reach}, ranges);
         }
         for (const SearchRange& range : ranges) {
-          for (std::size_t p = range.from; p < range.to; ++p) {
+          for (std::size_t k = range.from; k < range.to; ++k) {
+            const std::size_t p = slots_.slot_of(k);
             const bool other_strays = (strayed[p / kLanes] >> p % kLanes & 1U) != 0;
             if (!other_strays && touch(i, p)) note_lacks(i, p, room.lacks);
           }
@@ -286,6 +288,7 @@ class StrayPairs {
   const PassRules<Real>& rules_;
   const Record* records_;
   const CellList& cells_;
+  const WindowOrder& slots_;
   const std::uint32_t* ranks_;
   const NeighbourList& list_;
   const ApartPairs& apart_;

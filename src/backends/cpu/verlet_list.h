@@ -23,11 +23,12 @@
 #include "hooke/neighbours/cell_list.h"
 #include "hooke/neighbours/motion_bounds.h"
 #include "hooke/neighbours/neighbour_list.h"
+#include "hooke/neighbours/window_order.h"
 
 namespace hooke {
 
 /// A neighbour list with a skin (Verlet, "Computer experiments on classical fluids", Phys. Rev. 159, 98, 1967), and
-/// what it takes to trust it for many steps. While every particle stays near its group's anchor (motion_bounds.h) the
+/// what it takes to trust it for many steps. While every particle stays near its anchor (motion_bounds.h) the
 /// list misses nothing. Particles that stray are looked after one by one: in every step each looks for whoever touches
 /// it, and rows that lack the pair are mended. A new list is built when strays have become too many to be worth it.
 ///
@@ -42,7 +43,7 @@ class VerletList {
   using Anchor = GroupAnchor<Real>;
 
   /// Pairs that are kept apart are never listed.
-  void configure(const PassRules<Real>& rules, GroupSearchFunction<Real> search, const ApartPairs& apart) {
+  void configure(const PassRules<Real>& rules, WindowSearchFunction<Real> search, const ApartPairs& apart) {
     rules_ = &rules;
     apart_ = &apart;
     search_ = search;
@@ -55,7 +56,7 @@ class VerletList {
   void forget() { listed_ = false; }
 
   /// Sorts `count` particles inside the box [min, max] (m) into cells; those that are nowhere come last. Returns the
-  /// order: which particle is to be the k-th. Until build(), works in `scratch`.
+  /// order: which particle is to be the k-th. Works in `scratch`.
   std::span<const std::uint32_t> sort(const Record* records, std::size_t count, Vec3d min, Vec3d max,
                                       std::span<std::byte> scratch) {
     choose_skin();
@@ -63,31 +64,36 @@ class VerletList {
     limits_.max = max;
     lay_out_cells(cells_, skin_, count);
     cells_.sort(count, key_of(cells_, records), order_, scratch);
+    slots_.lay_out(std::span(order_).first(cells_.point_count()));
     return order_;
   }
 
   /// Lists the neighbours of the first `count` particles, which lie in the order that sort() gave. `records` ends with
-  /// the one that fills short lanes, the last of `size`. From the next whole group on there is room, up to `end`, for
-  /// particles that are born later.
-  void build(const Record* records, std::size_t count, std::size_t end, std::size_t size) {
+  /// the one that fills short lanes, the last of `size`. From the next whole window on there is room, up to `end`, for
+  /// particles that are born later. Works in `scratch`, as large as the records.
+  void build(const Record* records, std::size_t count, std::size_t end, std::size_t size,
+             std::span<std::byte> scratch) {
     count_ = count;
     end_ = std::max(count, end);
     filling_ = record_offset<Real>(static_cast<std::uint32_t>(size - 1));
-    // A pack more than there are particles, for searches to read.
-    const std::size_t room = (end_ + kLanes - 1) / kLanes * kLanes + kLanes;
+    const std::size_t room = (end_ + kLanes - 1) / kLanes * kLanes;
     listed_at_.resize(room);
     std::vector<std::uint32_t>& ranks = order_;  // of no use any more as the order of the sort
     ranks.reserve(room);  // a growing vector would take twice that
     ranks.resize(room);
-    radii_.resize(rules_->largest_touching > rules_->smallest_radius ? room : 0);
+    const SearchColumns columns(scratch, count + kLanes, rules_->largest_touching > rules_->smallest_radius);
     parallel_ranges(count, NeighbourList::kSegment, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
         listed_at_.put(i, records[i].x);
         ranks[i] = rank_of(records[i].rank);
-        if (!radii_.empty()) radii_[i] = static_cast<Real>(reach_of(records[i]));
+      }
+      columns.fill(slots_, first, last, listed_at_, ranks.data());
+      if (columns.radius == nullptr) return;
+      for (std::size_t p = first; p < last; ++p) {
+        columns.radius[p] = static_cast<Real>(reach_of(records[slots_.slot_of(p)]));
       }
     });
-    build_neighbour_list(cells_, neighbour_rule(), search_, list_);
+    build_neighbour_list(cells_, neighbour_rule(columns), search_, list_);
     strike_apart();
     list_.add_empty_segments((end_ + NeighbourList::kSegment - 1) / NeighbourList::kSegment);
 
@@ -96,12 +102,13 @@ class VerletList {
     // A thousandth covers what rounding takes of displacements.
     limits_.skin = std::max(0.0, 0.999 * skin_ - 2 * rules_->rounding - coarseness_);
     std::copy(std::begin(rules_->pass.periodic), std::end(rules_->pass.periodic), limits_.periodic);
-    motion_.lay_out(listed_at_.columns(), count, kLanes, limits_);
-    const std::size_t groups = (end_ + kLanes - 1) / kLanes;
-    anchors_.assign(groups, Anchor{{}, {}, Real(-1), {}});  // those without a place are always far from it
-    moved_.resize(groups);
-    strayed_.resize(groups);
-    mended_.clear(groups);
+    // Within a window it does not matter in which order.
+    motion_.lay_out({columns.x, columns.y, columns.z}, count, kWindow, limits_);
+    // Those without a place are always far from it.
+    anchors_.assign((end_ + kWindow - 1) / kWindow, Anchor{{}, {}, Real(-1), {}});
+    moved_.resize(anchors_.size());
+    strayed_.assign(room / kLanes, 0);
+    mended_.clear(strayed_.size());
     released_.clear();
     const std::size_t many = count / kStrayCost + kLanes;  // a list with more strays does not last
     strays_.reserve(many);
@@ -126,7 +133,7 @@ class VerletList {
   std::uint64_t build_count() const { return builds_; }
 
   /// Where the next particle can be born, at least.
-  std::size_t first_free() const { return (count_ + kLanes - 1) / kLanes * kLanes; }
+  std::size_t first_free() const { return (count_ + kWindow - 1) / kWindow * kWindow; }
   /// A particle is born in slot i, first_free() or later: a stray from the start. Rows get it when they are mended
   /// next.
   void add(std::size_t i, std::uint32_t rank) {
@@ -151,13 +158,13 @@ class VerletList {
 
   // Moving ----------------------------------------------------------------------------------------------------------
 
-  const Anchor* anchors() const { return anchors_.data(); }
+  const Anchor* anchors() const { return anchors_.data(); }  ///< one a window
   Columns<Real> listed_at() const { return listed_at_.columns(); }
   /// Steps that anchors will have gone once particles have moved by one step more.
   Real next_step() const { return static_cast<Real>(steps_ + 1); }
 
-  /// Takes the lanes of a group that are further from its anchor than it allows: `far` has a bit a lane. Any thread may
-  /// call, one a group.
+  /// Takes the lanes of a group that are further from their anchor than it allows: `far` has a bit a lane. Any thread
+  /// may call, one a group.
   void note_far(std::size_t group, unsigned far) {
     const unsigned news = far & ~unsigned{strayed_[group]};
     if (news == 0) return;
@@ -168,8 +175,8 @@ class VerletList {
                         static_cast<std::uint32_t>(std::countr_zero(left)));
     }
   }
-  /// Whether particle i has moved, in its next step, further from its anchor than its group allows.
-  bool is_far(const Record& p, std::size_t i) const { return is_off(p, i, anchors_[i / kLanes], next_step()); }
+  /// Whether particle i has moved, in its next step, further from its anchor than that allows.
+  bool is_far(const Record& p, std::size_t i) const { return is_off(p, i, anchors_[i / kWindow], next_step()); }
   /// All particles have moved by a step, and those that strayed are noted. Says in good() whether the list goes on.
   void moved(const Record* records) {
     if (!listed_) return;
@@ -276,14 +283,41 @@ class VerletList {
     };
   }
 
-  NeighbourRule<Real> neighbour_rule() const {
+  // What a search reads, in cell order. Room for all of it is less than particles take themselves.
+  struct SearchColumns {
+    Real *x, *y, *z, *radius;  // m; no radius where all are the same
+    std::uint32_t* rank;
+
+    SearchColumns(std::span<std::byte> room, std::size_t count, bool radii)
+        : x(reinterpret_cast<Real*>(room.data())),
+          y(x + count),
+          z(y + count),
+          radius(radii ? z + count : nullptr),
+          rank(reinterpret_cast<std::uint32_t*>(z + count + (radii ? count : 0))) {}
+
+    // One column after the other, each in cell order: `at` (m) and `ranks` are by slot.
+    void fill(const WindowOrder& slots, std::size_t first, std::size_t last, const ColumnStore<Real>& at,
+              const std::uint32_t* ranks) const {
+      const auto copy = [&](const auto* from, auto* to) {
+        for (std::size_t p = first; p < last; ++p) to[p] = from[slots.slot_of(p)];
+      };
+      copy(at.columns().x, x);
+      copy(at.columns().y, y);
+      copy(at.columns().z, z);
+      copy(ranks, rank);
+    }
+  };
+
+  NeighbourRule<Real> neighbour_rule(const SearchColumns& columns) {
     constexpr double kRounding = 1e-3;
     NeighbourRule<Real> rule;
-    rule.at = listed_at_.columns();
-    rule.radius = radii_.empty() ? nullptr : radii_.data();
-    rule.rank = order_.data();
+    rule.at = {columns.x, columns.y, columns.z};
+    rule.radius = columns.radius;
+    rule.rank = columns.rank;
+    rule.place = slots_.places();
+    rule.neighbour_count = slots_.neighbour_counts();
     rule.reach = static_cast<Real>(kRounding * rules_->smallest_radius +
-                                   (radii_.empty() ? 2 * rules_->largest_reach() : 0) + skin_);
+                                   (columns.radius == nullptr ? 2 * rules_->largest_reach() : 0) + skin_);
     std::copy(std::begin(rules_->pass.periodic), std::end(rules_->pass.periodic), rule.periodic);
     rule.length = rules_->pass.length;
     rule.list_self = rules_->pass.periodic_kind == PeriodicKind::images;
@@ -325,10 +359,10 @@ class VerletList {
     using GroupMotion = typename MotionBounds<Real>::GroupMotion;
     const Real dt = rules_->pass.dt;
     horizon_ = motion_.follow(
-        [&](std::size_t g) {
+        [&](std::size_t w) {
           GroupMotion motion;
           Extent extent;
-          for (std::size_t i = g * kLanes; i < std::min((g + 1) * kLanes, count_); ++i) {
+          for (std::size_t i = w * kWindow; i < std::min((w + 1) * kWindow, count_); ++i) {
             if (is_nowhere(records[i])) continue;
             const Vec3<Real> u = displacement(records[i], i, {Real(0), Real(0), Real(0)});
             extent.add(u);
@@ -336,7 +370,7 @@ class VerletList {
             motion.step += dt * records[i].v;
             motion.count = motion.count + Real(1);
           }
-          moved_[g] = extent;
+          moved_[w] = extent;
           return motion;
         },
         anchors_);
@@ -344,35 +378,35 @@ class VerletList {
     since_followed_ = 0;
     strays_.clear();
     if (horizon_ < 0) return forget();
-    parallel_ranges(anchors_.size(), kGroups, [&](std::size_t first, std::size_t last) {
+    parallel_ranges(strayed_.size(), kGroups, [&](std::size_t first, std::size_t last) {
       for (std::size_t g = first; g < last; ++g) {
         strayed_[g] = 0;
-        const Anchor& anchor = anchors_[g];
-        if (g * kLanes >= count_) {  // of those born since
-          unsigned born = 0;
-          for (std::size_t lane = 0; lane < kLanes; ++lane) {
-            if (!is_nowhere(records[g * kLanes + lane])) born |= 1U << lane;
-          }
-          note_far(g, born);
-          continue;
-        }
-        if (moved_[g].furthest2(anchor.offset) <= anchor.limit2(Real(0))) continue;
-        unsigned far = 0;
-        for (std::size_t i = g * kLanes; i < std::min((g + 1) * kLanes, count_); ++i) {
-          if (!is_nowhere(records[i]) && is_off(records[i], i, anchor, Real(0))) far |= 1U << i % kLanes;
-        }
-        note_far(g, far);
+        note_far(g, strays_of_group(records, g));
       }
     });
   }
 
+  // Those that stray from where their anchor is now, and those born since, a bit a lane.
+  unsigned strays_of_group(const Record* records, std::size_t g) const {
+    const std::size_t window = g * kLanes / kWindow;
+    const Anchor& anchor = anchors_[window];
+    const bool born = g * kLanes >= first_free();
+    unsigned far = 0;
+    if (!born && moved_[window].furthest2(anchor.offset) <= anchor.limit2(Real(0))) return far;
+    const std::size_t end = born ? (g + 1) * kLanes : std::min((g + 1) * kLanes, count_);
+    for (std::size_t i = g * kLanes; i < end; ++i) {
+      if (!is_nowhere(records[i]) && (born || is_off(records[i], i, anchor, Real(0)))) far |= 1U << i % kLanes;
+    }
+    return far;
+  }
+
   StrayPairs<Real> stray_pairs(const Record* records) const {
-    return {*rules_, records, cells_, order_.data(), list_, *apart_};
+    return {*rules_, records, cells_, slots_, order_.data(), list_, *apart_};
   }
 
   // Finds the pairs of strays that touch and rows that lack them.
   void mend(const Record* records) {
-    mended_.clear(anchors_.size());
+    mended_.clear(strayed_.size());
     if (strays_.empty() && released_.empty()) return;
     const auto steps = static_cast<Real>(steps_);
     const double mild = MotionBounds<Real>::kMild * limits_.skin, half = 0.5 * skin_ + coarseness_;
@@ -380,7 +414,7 @@ class VerletList {
     const double anywhere = half + motion_.furthest_from_middle(static_cast<double>(steps_));
     const auto place_of = [&](std::size_t i) -> typename StrayPairs<Real>::Place {
       if (i >= count_) return {vec_cast<double>(records[i].x - middle), anywhere};
-      const Anchor& anchor = anchors_[i / kLanes];
+      const Anchor& anchor = anchors_[i / kWindow];
       const Vec3<Real> off = displacement(records[i], i, anchor.at(steps));
       if (static_cast<double>(dot(off, off)) < mild * mild) {
         return {vec_cast<double>(records[i].x - anchor.at(steps)), half + motion_.anchors_apart(anchor, steps)};
@@ -390,7 +424,7 @@ class VerletList {
     if (!stray_pairs(records).find(strays_, strayed_, place_of, filling_, released_, room_, mended_)) forget();
   }
 
-  // Bounds of the displacements of a group, m.
+  // Bounds of the displacements of a window, m.
   struct Extent {
     static constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
     Vec3<Real> low{kInfinite, kInfinite, kInfinite}, high{-kInfinite, -kInfinite, -kInfinite};
@@ -410,7 +444,7 @@ class VerletList {
   };
 
   const PassRules<Real>* rules_ = nullptr;
-  GroupSearchFunction<Real> search_ = nullptr;
+  WindowSearchFunction<Real> search_ = nullptr;
   const ApartPairs* apart_ = nullptr;
   double skin_ratio_ = kFirstSkin, skin_ = 0;  // of the smallest diameter; m
   double coarseness_ = 0;  // m
@@ -419,18 +453,18 @@ class VerletList {
   std::size_t end_ = 0;  // of the room for those born since
   std::uint32_t filling_ = 0;  // of short lanes: an entry
   CellList cells_;
+  WindowOrder slots_;
   std::vector<std::uint32_t> order_;  // while sorting: where each was before; then: ranks
   NeighbourList list_;
-  std::vector<Real> radii_;  // m; empty where all are the same
   ColumnStore<Real> listed_at_;  // m
   bool listed_ = false;
   std::uint64_t builds_ = 0;
 
   typename MotionBounds<Real>::Limits limits_;
   MotionBounds<Real> motion_;
-  std::vector<Anchor> anchors_;  // by group, as the next three
-  std::vector<Extent> moved_;
-  std::vector<std::uint16_t> strayed_;  // a bit a lane
+  std::vector<Anchor> anchors_;  // by window
+  std::vector<Extent> moved_;  // likewise
+  std::vector<std::uint16_t> strayed_;  // by group: a bit a lane
   MendedRows mended_;
   std::vector<std::uint32_t> strays_;
   std::vector<MendedRows::Lack> released_;  // what rows lack of pairs that were kept apart when they were listed

@@ -2,23 +2,23 @@
 // SPDX-License-Identifier: MIT
 
 // The search for neighbours, written once and compiled once for each instruction set (HOOKE_ISA). Points of a block are
-// compared with a pack of others at a time; then the rows of 16 points are sorted by rank side by side, one a lane.
+// compared with a pack of others at a time; then the rows of each group are sorted by rank side by side, one a lane.
 
 #include <utility>
 
 #include "hooke/backends/cpu/pack_search.h"
-#include "hooke/neighbours/group_search.h"
+#include "hooke/neighbours/window_search.h"
 
 namespace hooke::HOOKE_ISA {
 namespace {
 
-constexpr std::size_t kRowLanes = 16;
+constexpr std::size_t kRowLanes = 16, kGroups = kWindow / kRowLanes;
 constexpr std::size_t kTogether = kPackBytes == 64 ? 4 : kPackBytes == 32 ? 2 : 1;  // points that registers hold
 
-// A neighbour's rank and index in one number that sorts like the rank: the bits of doubles of 1 and above.
+// A neighbour's rank and slot in one number that sorts like the rank: the bits of doubles of 1 and above.
 constexpr std::uint32_t kOne = 0x3ff00000U;
-HOOKE_HD std::uint64_t row_key(std::uint32_t rank, std::uint32_t index) {
-  return std::uint64_t{kOne + rank} << 32U | index;
+HOOKE_HD std::uint64_t row_key(std::uint32_t rank, std::uint32_t slot) {
+  return std::uint64_t{kOne + rank} << 32U | slot;
 }
 
 // Pairs of rows that Batcher's merge exchange compares (Knuth, The Art of Computer Programming, 5.2.2, algorithm M).
@@ -117,26 +117,35 @@ class Search {
   using P = Pack<Real>;
 
  public:
-  HOOKE_HD Search(const NeighbourRule<Real>& rule, const GroupSearch<Real>& group) : rule_(rule), group_(group) {}
+  HOOKE_HD Search(const NeighbourRule<Real>& rule, const WindowSearch<Real>& window) : rule_(rule), window_(window) {}
 
-  HOOKE_HD std::size_t run() {
-    std::uint32_t i = group_.first;
-    for (std::size_t b = 0; b < group_.block_count; ++b) {
-      const SearchBlock<Real>& block = group_.blocks[b];
+  HOOKE_HD void run() {
+    Group groups[kGroups];
+    for (std::size_t g = 0; g < kGroups; ++g) groups[g].rows = window_.rows + g * window_.row_room * kRowLanes;
+    const SearchRange* ranges = window_.ranges;
+    std::uint32_t i = window_.first;
+    for (const SearchBlock<Real>* at = window_.blocks; i < window_.end; ++at) {
+      const SearchBlock<Real>& block = *at;
       middle_ = {P(block.middle.x), P(block.middle.y), P(block.middle.z)};
-      const std::size_t count = gather(ranges_, ranges_ + block.range_count);
-      for (; i + kTogether <= block.last; i += kTogether) list_near<kTogether>(i, count);
+      const std::size_t count = gather(ranges, ranges + block.range_count);
+      for (; i + kTogether <= block.last; i += kTogether) list_near<kTogether>(i, count, groups);
       if constexpr (kTogether > 2) {
-        for (; i + 2 <= block.last; i += 2) list_near<2>(i, count);
+        for (; i + 2 <= block.last; i += 2) list_near<2>(i, count, groups);
       }
-      for (; i < block.last; ++i) list_near<1>(i, count);
-      ranges_ += block.range_count;
+      for (; i < block.last; ++i) list_near<1>(i, count, groups);
+      ranges += block.range_count;
     }
-    write_rows();
-    return row_count_;
+    for (const Group& group : groups) write_rows(group);
   }
 
  private:
+  // The rows of a group as they are filled.
+  struct Group {
+    std::uint64_t* rows = nullptr;
+    std::size_t count = 0;  // of rows
+    std::size_t cleared = 0;  // of rows
+  };
+
   // Copies the ranges behind each other, whole packs: what is too much is overwritten by the next one.
   // And sixteen more, far away.
   HOOKE_HD std::size_t gather(const SearchRange* range, const SearchRange* end) const {
@@ -173,15 +182,17 @@ class Search {
     if constexpr (kPackBytes > 16) {
       for (std::size_t lane = 0; lane < P::kLanes; lane += Pack<double>::kLanes) {
         const WordVector ranks = load_words(rule_.rank + p + lane) + kOne;
-        store_bits(keys_ + at + lane, join_halves(ranks, ascending_words_ + static_cast<std::uint32_t>(p + lane)));
+        const WordVector window = (ascending_words_ + static_cast<std::uint32_t>(p + lane)) & ~kInWindow;
+        store_bits(keys_ + at + lane, join_halves(ranks, window | load_bytes(rule_.place + p + lane)));
       }
     } else {
       for (std::size_t lane = 0; lane < P::kLanes; ++lane) {
-        keys_[at + lane] = row_key(rule_.rank[p + lane], static_cast<std::uint32_t>(p + lane));
+        keys_[at + lane] = row_key(rule_.rank[p + lane], slot_of(static_cast<std::uint32_t>(p + lane)));
       }
     }
   }
 
+  HOOKE_HD std::uint32_t slot_of(std::uint32_t p) const { return (p & ~kInWindow) | rule_.place[p]; }
   HOOKE_HD Vec3<P> positions(std::size_t first) const {
     return {load(rule_.at.x + first), load(rule_.at.y + first), load(rule_.at.z + first)};
   }
@@ -202,7 +213,7 @@ class Search {
   // |x_p - x_i|^2 multiplied out, that is x_p^2 - 2 x_p x_i < reach^2 - x_i^2. Reaches are sums, and are multiplied out
   // likewise.
   template <std::size_t kPoints>
-  HOOKE_HD void list_near(std::uint32_t i, std::size_t count) {
+  HOOKE_HD void list_near(std::uint32_t i, std::size_t count, Group* groups) const {
     Vec3<P> twice[kPoints];
     P twice_reach[kPoints], limit[kPoints];
     for (std::size_t k = 0; k < kPoints; ++k) {
@@ -225,17 +236,20 @@ class Search {
       }
     }
     for (std::size_t k = 0; k < kPoints; ++k) {
-      put_into_lane(i + static_cast<std::uint32_t>(k), near_ + k * near_room_, near[k]);
+      put_into_lane(i + static_cast<std::uint32_t>(k), near_ + k * near_room_, near[k], groups);
     }
   }
 
   // Copies the keys of the candidates whose numbers are given, but for the point's own.
-  HOOKE_HD void put_into_lane(std::uint32_t i, const std::int32_t* near, std::size_t count) {
+  HOOKE_HD void put_into_lane(std::uint32_t i, const std::int32_t* near, std::size_t count, Group* groups) const {
+    const std::uint32_t slot = slot_of(i);
+    rule_.neighbour_count[slot] = static_cast<std::uint8_t>(count < 255 ? count : 255);
     if (count == 0) return;
-    clear_rows(count);
-    std::uint64_t* const lane = rows_ + (i - group_.first);
+    Group& group = groups[slot % kWindow / kRowLanes];
+    clear_rows(group, count);
+    std::uint64_t* const lane = group.rows + slot % kRowLanes;
     std::uint64_t* own = lane;
-    const std::uint64_t own_key = row_key(rule_.rank[i], i);
+    const std::uint64_t own_key = row_key(rule_.rank[i], slot);
     for (std::size_t row = 0; row < count; ++row) {
       const std::uint64_t key = keys_[near[row]];
       lane[row * kRowLanes] = key;
@@ -246,67 +260,70 @@ class Search {
       *own = lane[count * kRowLanes];
       lane[count * kRowLanes] = last_key_;
     }
-    if (count > row_count_) row_count_ = count;
+    if (count > group.count) group.count = count;
   }
 
-  HOOKE_HD void clear_rows(std::size_t count) {
-    for (; cleared_ < count; ++cleared_) {
-      for (std::size_t lane = 0; lane < kRowLanes; ++lane) rows_[cleared_ * kRowLanes + lane] = last_key_;
+  HOOKE_HD void clear_rows(Group& group, std::size_t count) const {
+    for (; group.cleared < count; ++group.cleared) {
+      for (std::size_t lane = 0; lane < kRowLanes; ++lane) group.rows[group.cleared * kRowLanes + lane] = last_key_;
     }
   }
 
-  HOOKE_HD void write_rows() const {
-    sort_rows(rows_, row_count_);
+  HOOKE_HD void write_rows(const Group& group) const {
+    std::uint32_t* const entries = window_.room_for_rows(window_.list, group.count);
+    sort_rows(group.rows, group.count);
     if constexpr (kPackBytes > 16) {
-      for (std::size_t k = 0; k < row_count_ * kRowLanes; k += Pack<double>::kLanes) {
-        store(group_.entries + k, lower_half(load_bits(rows_ + k)) * rule_.stride);
+      for (std::size_t k = 0; k < group.count * kRowLanes; k += Pack<double>::kLanes) {
+        store(entries + k, lower_half(load_bits(group.rows + k)) * rule_.stride);
       }
     } else {
-      for (std::size_t k = 0; k < row_count_ * kRowLanes; ++k) {
-        group_.entries[k] = static_cast<std::uint32_t>(rows_[k]) * rule_.stride;
+      for (std::size_t k = 0; k < group.count * kRowLanes; ++k) {
+        entries[k] = static_cast<std::uint32_t>(group.rows[k]) * rule_.stride;
       }
     }
   }
+
+  static constexpr std::uint32_t kInWindow = kWindow - 1;  // bits of a slot
 
   // Copies: the compiler need not read them again after every store.
   const NeighbourRule<Real> rule_;
-  const GroupSearch<Real> group_;
-  Real* const x_ = group_.x;
-  Real* const y_ = group_.y;
-  Real* const z_ = group_.z;
-  Real* const square_ = group_.square;
-  Real* const radius_ = group_.radius;
-  std::uint64_t* const keys_ = group_.keys;
-  std::uint64_t* const rows_ = group_.rows;
-  std::int32_t* const near_ = group_.near;
-  const std::size_t near_room_ = group_.near_room;
+  const WindowSearch<Real> window_;
+  Real* const x_ = window_.x;
+  Real* const y_ = window_.y;
+  Real* const z_ = window_.z;
+  Real* const square_ = window_.square;
+  Real* const radius_ = window_.radius;
+  std::uint64_t* const keys_ = window_.keys;
+  std::int32_t* const near_ = window_.near;
+  const std::size_t near_room_ = window_.near_room;
   const std::uint64_t last_key_ = row_key(0x3fffffffU, rule_.dummy);
   const WordVector ascending_words_ = ascending_words();
-  const SearchRange* ranges_ = group_.ranges;  // the block's
-  Vec3<P> middle_;
-  std::size_t cleared_ = 0;  // rows
-  std::size_t row_count_ = 0;
+  Vec3<P> middle_;  // the block's
 };
 
 template <class Real, bool kOneRadius>
-std::size_t choose_periodic(const NeighbourRule<Real>& rule, const GroupSearch<Real>& group) {
-  const bool periodic = rule.periodic[0] || rule.periodic[1] || rule.periodic[2];
-  return periodic ? Search<Real, kOneRadius, true>(rule, group).run()
-                  : Search<Real, kOneRadius, false>(rule, group).run();
+void choose_periodic(const NeighbourRule<Real>& rule, const WindowSearch<Real>& window) {
+  if (rule.periodic[0] || rule.periodic[1] || rule.periodic[2]) {
+    Search<Real, kOneRadius, true>(rule, window).run();
+  } else {
+    Search<Real, kOneRadius, false>(rule, window).run();
+  }
 }
 
 template <class Real>
-std::size_t choose_radius(const NeighbourRule<Real>& rule, const GroupSearch<Real>& group) {
-  return rule.radius == nullptr ? choose_periodic<Real, true>(rule, group) : choose_periodic<Real, false>(rule, group);
+void choose_radius(const NeighbourRule<Real>& rule, const WindowSearch<Real>& window) {
+  if (rule.radius == nullptr) {
+    choose_periodic<Real, true>(rule, window);
+  } else {
+    choose_periodic<Real, false>(rule, window);
+  }
 }
 
 }  // namespace
 
-std::size_t search_group(const NeighbourRule<float>& rule, const GroupSearch<float>& group) {
-  return choose_radius(rule, group);
-}
-std::size_t search_group(const NeighbourRule<double>& rule, const GroupSearch<double>& group) {
-  return choose_radius(rule, group);
+void search_window(const NeighbourRule<float>& rule, const WindowSearch<float>& window) { choose_radius(rule, window); }
+void search_window(const NeighbourRule<double>& rule, const WindowSearch<double>& window) {
+  choose_radius(rule, window);
 }
 
 }  // namespace hooke::HOOKE_ISA

@@ -1,4 +1,4 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 #define HOOKE_ISA avx2
-#include "hooke/backends/cpu/group_search.inl"
+#include "hooke/backends/cpu/window_search.inl"

@@ -1,4 +1,4 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
-#define HOOKE_ISA avx512
-#include "hooke/backends/cpu/group_search.inl"
+#define HOOKE_ISA portable
+#include "hooke/backends/cpu/window_search.inl"
