@@ -32,7 +32,8 @@ class NeighbourList {
 
   static constexpr std::array<std::uint32_t, kLanes> kNoRow{};
 
-  /// The rows of 1024 particles: what one thread builds and later walks over.
+  /// The rows of 1024 particles: what one thread builds and later walks over. Behind the last one kRowsAhead more can
+  /// be read, which mean nothing.
   struct Segment {
     const std::uint32_t* entries = kNoRow.data();  // rows of kLanes
     std::array<std::uint32_t, kGroups + 1> first_row{};  // group g: rows first_row[g] to first_row[g + 1]
@@ -119,11 +120,12 @@ class NeighbourList {
 
   // Memory for at least so many entries. Any thread may call.
   std::span<std::uint32_t> new_block(std::size_t entries) {
+    constexpr std::size_t kBehind = kRowsAhead * kLanes;
     const std::lock_guard lock(mutex_);
     if (blocks_in_use_ == blocks_.size()) blocks_.emplace_back();
     LargeVector<std::uint32_t>& block = blocks_[blocks_in_use_++];
-    if (block.size() < entries) block.resize(std::max(kBlock, entries));
-    return block;
+    if (block.size() < entries + kBehind) block.resize(std::max(kBlock, entries + kBehind));
+    return std::span(block).first(block.size() - kBehind);
   }
 
   // What an earlier writer left of a block; empty where none did.

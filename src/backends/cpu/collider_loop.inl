@@ -25,11 +25,17 @@ struct ColliderLoop {
     Vec3<P> force{P(Real(0)), P(Real(0)), P(Real(0))};
     if (pass.collider_count == 0) return force;
     if (any(present & is_inside(own.x, pass.near_colliders_from, pass.near_colliders_to))) {
-      touched = meet(too_fast, force);
+      // With copies: what a function is given by reference lies in memory from its start, whether it is called or not.
+      const Lanes<Real> own_copy = own;
+      const Mask<Real> present_copy = present;
+      Mask<Real> fast = too_fast;
+      touched = ColliderLoop{pass, own_copy, present_copy}.meet(fast, force);
+      too_fast = fast;
     }
     return force;
   }
 
+ private:
   // Whether any lane touches any collider.
   __attribute__((noinline)) bool meet(Mask<Real>& too_fast, Vec3<P>& force) const {
     bool touched = false;

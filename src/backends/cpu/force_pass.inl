@@ -69,7 +69,8 @@ HOOKE_HD Quad<Real> load_rows(const Row* table, const Pack<Real>& index, int par
 template <class Real, Materials kMaterials>
 struct Acting {
   Contacts<Real, kMaterials> contacts;
-  Mask<Real> too_fast{};  // or on the very same spot as another
+  // Not where a contact closes faster than the limit, or with another on the very same spot.
+  Mask<Real> slow = Pack<Real>(Real(0)) == Pack<Real>(Real(0));
 };
 
 // Contacts with particles in ascending order of id. The first two flags drop what a scene does not need, the third what
@@ -80,33 +81,36 @@ struct ContactLoop {
   const ForcePass<Real>& pass;
   const Lanes<Real>& own;
 
+  // One contact, with the partner at x_pi from the lane's particle. What the law is given is 0 where nothing acts, and
+  // so is what the linear law makes of it: fewer masks than for each of its parts.
   template <class Pair>
-  HOOKE_HD void one_image(const Lanes<Real>& other, const Vec3<P>& x_ip, const Pair& pair, const Mask<Real>& counts,
+  HOOKE_HD void one_image(const Lanes<Real>& other, const Vec3<P>& x_pi, const Pair& pair, const Mask<Real>& counts,
                           Acting<Real, kMaterials>& acting) const {
-    const P distance = sqrt_of(dot(x_ip, x_ip));
-    const P overlap = pair.reach - distance;
-    const Mask<Real> here = counts & acts<Real>(overlap, pair.law);
+    const P distance = sqrt_of(dot(x_pi, x_pi));
+    const P gap = pair.reach - distance;
+    const Mask<Real> here = counts & acts<Real>(gap, pair.law);
+    const P overlap = only_where(here, gap);
     Vec3<P> normal;
     if constexpr (kTies) {
-      normal = contact_normal(x_ip, distance, select(own.rank > other.rank, P(Real(1)), P(Real(-1))));
+      normal = contact_normal(-x_pi, distance, select(own.rank > other.rank, P(Real(1)), P(Real(-1))));
     } else {
-      normal = contact_normal(x_ip, distance);
+      normal = only_where(here, P(Real(-1)) / distance) * x_pi;
     }
-    const Vec3<P> w = other.v - own.v;
+    const Vec3<P> w = only_where(here, other.v - own.v);
     if constexpr (have_surfaces(kMaterials)) {
       acting.contacts.add(here, contact_forces(overlap, normal, w, pair.law));
     } else {
-      acting.contacts.add(here, contact_vectors(overlap, normal, w), pair.law);
+      acting.contacts.add(contact_vectors(overlap, normal, w), pair.law);
     }
-    // What is not a number, where centres coincide, counts. So do those that only cohesion holds: they are looked at.
-    acting.too_fast = acting.too_fast | (here & !(dot(w, normal) <= P(pass.speed_limit)));
+    // What is not a number, where centres coincide, is not slow. Those that only cohesion holds are looked at, too.
+    acting.slow = acting.slow & (dot(w, normal) <= P(pass.speed_limit));
   }
 
   template <class Pair>
   HOOKE_HD void neighbour(const Lanes<Real>& other, const Pair& pair, Acting<Real, kMaterials>& acting) const {
     const Mask<Real> all = P(Real(0)) == P(Real(0));
     if constexpr (kPeriodic == PeriodicKind::none) {
-      one_image(other, own.x - other.x, pair, all, acting);
+      one_image(other, other.x - own.x, pair, all, acting);
     } else if constexpr (kPeriodic == PeriodicKind::nearest) {
       const auto displacement = [&](const P& x_i, const P& x_p, bool periodic, Real length) {
         if (!periodic) return x_i - x_p;
@@ -115,7 +119,7 @@ struct ContactLoop {
       const Vec3<P> x_ip{displacement(own.x.x, other.x.x, pass.periodic[0], pass.length.x),
                          displacement(own.x.y, other.x.y, pass.periodic[1], pass.length.y),
                          displacement(own.x.z, other.x.z, pass.periodic[2], pass.length.z)};
-      one_image(other, x_ip, pair, all, acting);
+      one_image(other, -x_ip, pair, all, acting);
     } else {
       const Mask<Real> another = !(own.rank == other.rank);
       for (int sx = -pass.images[0]; sx <= pass.images[0]; ++sx) {
@@ -125,19 +129,18 @@ struct ContactLoop {
                                image_displacement(own.x.y, other.x.y, P(static_cast<Real>(sy)), P(pass.length.y)),
                                image_displacement(own.x.z, other.x.z, P(static_cast<Real>(sz)), P(pass.length.z))};
             const bool itself = sx == 0 && sy == 0 && sz == 0;
-            one_image(other, x_ip, pair, itself ? another : all, acting);
+            one_image(other, -x_ip, pair, itself ? another : all, acting);
           }
         }
       }
     }
   }
 
-  HOOKE_HD Acting<Real, kMaterials> run(const std::uint32_t* row, const std::uint32_t* end,
-                                        const std::uint32_t* last_row) const {
+  HOOKE_HD Acting<Real, kMaterials> run(const std::uint32_t* row, const std::uint32_t* end) const {
     Acting<Real, kMaterials> acting;
     const PairTable<Real, kMaterials> table(pass, own.material);
     for (; row != end; row += kGroupLanes) {
-      prefetch_row(row, last_row);
+      prefetch_row(row + kRowsAhead * kGroupLanes);
       const Lanes<Real> other = load_neighbours(pass.in, row);
       neighbour(other, table.lookup(other.material), acting);
     }
@@ -145,10 +148,8 @@ struct ContactLoop {
   }
 
   // Neighbours come in the order of their ids, which no processor foresees: those of about the next group are asked for
-  // now.
-  HOOKE_HD void prefetch_row(const std::uint32_t* row, const std::uint32_t* last_row) const {
-    constexpr std::ptrdiff_t kAhead = 14 * kGroupLanes;
-    row = last_row - row > kAhead ? row + kAhead : last_row;
+  // now, beyond a segment's end those of the next segment, whatever is behind the last one's.
+  HOOKE_HD void prefetch_row(const std::uint32_t* row) const {
     for (std::size_t lane = 0; lane < P::kLanes; ++lane) {
       prefetch(reinterpret_cast<const char*>(pass.in) + std::size_t{row[lane]} * 8);
     }
@@ -313,18 +314,19 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
     const std::uint32_t* rows = work.rows + half;
     const std::uint32_t* row = rows + std::size_t{work.first_row[group]} * kGroupLanes;
     const std::uint32_t* end = rows + std::size_t{work.first_row[group + 1]} * kGroupLanes;
-    const std::uint32_t* last_row = rows + (std::size_t{work.first_row[work.group_count]} - 1) * kGroupLanes;
-    acting = ContactLoop<Real, kMaterials, kPeriodic, false>{pass, own}.run(row, end, last_row);
-    if (any(acting.too_fast))
-      acting = ContactLoop<Real, kMaterials, kPeriodic, true>{pass, own}.run(row, end, last_row);
+    acting = ContactLoop<Real, kMaterials, kPeriodic, false>{pass, own}.run(row, end);
+    if (any(!acting.slow)) {
+      acting = ContactLoop<Real, kMaterials, kPeriodic, true>{pass, own}.run(row, end);
+    }
   }
+  Mask<Real> too_fast = !acting.slow;
 
   const auto by_contacts = acting.contacts.forces(pass);
   Forces<Real, std::remove_const_t<decltype(by_contacts)>> forces{by_contacts, {}, {}, {}, {}};
   Touching touching;
   touching.others = !work.alone;
-  forces.walls = WallLoop<Real, kMaterials>{pass, own, present}.run(acting.too_fast, touching.wall);
-  forces.colliders = ColliderLoop<Real, kMaterials>{pass, own, present}.run(acting.too_fast, touching.collider);
+  forces.walls = WallLoop<Real, kMaterials>{pass, own, present}.run(too_fast, touching.wall);
+  forces.colliders = ColliderLoop<Real, kMaterials>{pass, own, present}.run(too_fast, touching.collider);
   const Quad<Real> body = body_of<Real, kMaterials>(pass, own);
   Vec3<P> force = (forces.contacts.total() + forces.walls) + forces.colliders;
   if (pass.has_drag) {
@@ -354,7 +356,7 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
       far |= bits(present & is_far<Real, kPeriodic>(pass, to, first)) << half;
     }
   }
-  if (any(acting.too_fast)) notes |= kApproachTooFast;
+  if (any(too_fast)) notes |= kApproachTooFast;
 
   const Vec3<P> zero{P(Real(0)), P(Real(0)), P(Real(0))};
   x = select_vector(present, x, own.x);

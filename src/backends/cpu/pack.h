@@ -201,6 +201,17 @@ HOOKE_HD Mask<Real> lanes_of(unsigned set) {
 #endif
 }
 
+/// a where m holds, else 0.
+template <class Real>
+HOOKE_HD Pack<Real> only_where(const Mask<Real>& m, const Pack<Real>& a) {
+#if defined(__AVX512F__)
+  return select(m, a, Pack<Real>(Real(0)));
+#else
+  using Bits = typename Mask<Real>::Bits;
+  return Pack<Real>((typename Pack<Real>::Vector)((Bits)a.v & m.v));
+#endif
+}
+
 // bits() has a bit a lane.
 template <class Real>
 HOOKE_HD bool any(const Mask<Real>& m) {

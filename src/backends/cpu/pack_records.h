@@ -185,6 +185,30 @@ HOOKE_HD TwoQuads<double> load_two_quads(double, const At& at) {
   return {load_quads(double{}, at), load_quads(double{}, [&](int lane) { return at(lane) + 4; })};
 }
 
+#elif defined(__AVX2__)
+
+// A register holds a record: first quad, second. What four such registers give when transposed is put together with
+// what the other four give.
+template <class At>
+HOOKE_HD TwoQuads<float> load_two_quads(float, const At& at) {
+  const Quad<float> low =
+      transpose(_mm256_load_ps(at(0)), _mm256_load_ps(at(1)), _mm256_load_ps(at(2)), _mm256_load_ps(at(3)));
+  const Quad<float> high =
+      transpose(_mm256_load_ps(at(4)), _mm256_load_ps(at(5)), _mm256_load_ps(at(6)), _mm256_load_ps(at(7)));
+  const auto first = [](const Pack<float>& a, const Pack<float>& b) {
+    return Pack<float>(_mm256_insertf128_ps(a.v, _mm256_castps256_ps128(b.v), 1));
+  };
+  const auto second = [](const Pack<float>& a, const Pack<float>& b) {
+    return Pack<float>(_mm256_permute2f128_ps(a.v, b.v, 0x31));
+  };
+  return {{first(low.a, high.a), first(low.b, high.b), first(low.c, high.c), first(low.d, high.d)},
+          {second(low.a, high.a), second(low.b, high.b), second(low.c, high.c), second(low.d, high.d)}};
+}
+template <class At>
+HOOKE_HD TwoQuads<double> load_two_quads(double, const At& at) {
+  return {load_quads(double{}, at), load_quads(double{}, [&](int lane) { return at(lane) + 4; })};
+}
+
 #else
 
 template <class Real, class At>

@@ -121,19 +121,20 @@ template <class Real>
 HOOKE_HD void add_where(const Mask<Real>& m, Vec3<Pack<Real>>& sum, const Vec3<Pack<Real>>& b) {
   sum = {add_where(m, sum.x, b.x), add_where(m, sum.y, b.y), add_where(m, sum.z, b.z)};
 }
+template <class Real>
+HOOKE_HD Vec3<Pack<Real>> only_where(const Mask<Real>& m, const Vec3<Pack<Real>>& a) {
+  return {only_where(m, a.x), only_where(m, a.y), only_where(m, a.z)};
+}
 
-// The contacts of the lanes' particles with others: of one material summed before its coefficients are applied. The
-// vectors are handed over as they are computed: of a local copy of them GCC 12 keeps one in memory.
+// The contacts of the lanes' particles with others: of one material summed before its coefficients are applied. Without
+// surfaces, what does not act is added as 0.
 template <class Real, Materials kMaterials, bool = have_surfaces(kMaterials)>
 struct Contacts {
   using P = Pack<Real>;
   ContactForces<P> sum;
 
-  HOOKE_HD void add(const Mask<Real>& acting, const ContactVectors<P>& contact, const ContactCoefficients<P>& law) {
-    const ContactForces<P> forces = contact_forces(contact, law);
-    add_where(acting, sum.spring, forces.spring);
-    add_where(acting, sum.shear, forces.shear);
-    add_where(acting, sum.damping, forces.damping);
+  HOOKE_HD void add(const ContactVectors<P>& contact, const ContactCoefficients<P>& law) {
+    sum += contact_forces(contact, law);
   }
   HOOKE_HD ContactForces<P> forces(const ForcePass<Real>&) const { return sum; }
 };
@@ -142,11 +143,7 @@ struct Contacts<Real, Materials::one, false> {
   using P = Pack<Real>;
   ContactVectors<P> sum;
 
-  HOOKE_HD void add(const Mask<Real>& acting, const ContactVectors<P>& contact, const ContactCoefficients<P>&) {
-    add_where(acting, sum.overlap, contact.overlap);
-    add_where(acting, sum.normal, contact.normal);
-    add_where(acting, sum.relative, contact.relative);
-  }
+  HOOKE_HD void add(const ContactVectors<P>& contact, const ContactCoefficients<P>&) { sum += contact; }
   HOOKE_HD ContactForces<P> forces(const ForcePass<Real>& pass) const {
     const PairRow<Real>& pair = *pass.pairs;
     return contact_forces(sum, ContactCoefficients<P>{P(pair.stiffness), P(pair.shear), P(pair.damping)});

@@ -74,9 +74,10 @@ class MendedRows {
         most = std::max(most, end + 1 - lane_start);
       }
       const auto rows = list.rows(group / NeighbourList::kGroups, group % NeighbourList::kGroups);
-      const std::size_t first = entries_.size(), count = rows.size() + most * kLanes;
-      entries_.insert(entries_.end(), rows.begin(), rows.end());
-      entries_.resize(first + count, filling);
+      // Over what is behind the rows before.
+      const std::size_t first = entries_.empty() ? 0 : entries_.size() - kBehind, count = rows.size() + most * kLanes;
+      entries_.resize(first + count + kBehind, filling);
+      std::copy(rows.begin(), rows.end(), entries_.begin() + static_cast<std::ptrdiff_t>(first));
       for (; k < end; ++k) insert(lacks[k], entries_.data() + first, count, filling, rank_of_entry);
       at_[group] = static_cast<std::uint32_t>(mended_.size());
       mended_.push_back({group, first, count});
@@ -85,6 +86,7 @@ class MendedRows {
 
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  static constexpr std::size_t kBehind = kRowsAhead * kLanes;
   struct Mended {
     std::size_t group, first, count;  // its entries
   };
@@ -103,7 +105,7 @@ class MendedRows {
 
   std::vector<std::uint32_t> at_;  // by group: index into mended_
   std::vector<Mended> mended_;
-  std::vector<std::uint32_t> entries_;
+  std::vector<std::uint32_t> entries_;  // kRowsAhead rows of `filling` behind the last
 };
 
 /// Finds who touches particles that are no longer near where they were listed.
