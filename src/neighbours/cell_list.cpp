@@ -128,11 +128,8 @@ std::uint32_t CellList::first_in_slot(std::uint64_t slot, std::uint64_t key) con
 }
 
 std::size_t CellList::find(std::size_t level, const Vec3d& min, const Vec3d& max, std::vector<SearchRange>& out) const {
-  const LevelGrid& in = levels_[level];
   std::size_t points = 0;
-  in.grid.for_path_ranges(min, max, [&](const CellGrid::KeyRange& cells) {
-    const SearchRange range{first_at(in.first_key + cells.first), first_at(in.first_key + cells.last + 1)};
-    if (range.from == range.to) return;
+  for_ranges(level, min, max, [&](const SearchRange& range) {
     out.push_back(range);
     points += range.to - range.from;
   });

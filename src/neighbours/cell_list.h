@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -69,6 +70,29 @@ class CellList {
   /// too. Returns their number.
   std::size_t find(std::size_t level, const Vec3d& min, const Vec3d& max, std::vector<SearchRange>& out) const;
 
+  /// body(k) for each sorted point k of any level whose surface may be nearer than `reach` (m) to `at`, and for some
+  /// others.
+  template <class Body>
+  void for_points_near(const Vec3d& at, double reach, const Body& body) const {
+    // What the directory says is looked up for many ranges at once: waiting for one does not hold up the next.
+    std::array<SearchRange, 64> found;
+    std::size_t count = 0;
+    const auto visit = [&] {
+      for (const SearchRange& range : std::span(found).first(count)) {
+        for (std::uint32_t k = range.from; k < range.to; ++k) body(k);
+      }
+      count = 0;
+    };
+    for (std::size_t level = 0; level < level_count(); ++level) {
+      const double most = reach + largest_radius(level);
+      for_ranges(level, at - Vec3d{most, most, most}, at + Vec3d{most, most, most}, [&](const SearchRange& range) {
+        if (count == found.size()) visit();
+        found[count++] = range;
+      });
+    }
+    visit();
+  }
+
  private:
   static constexpr double kCellsAlongRow = 2;
 
@@ -90,6 +114,16 @@ class CellList {
   void sort_keys(const Room& room, std::vector<std::uint32_t>& order);
   void sort_part(std::span<const KeyedPoint> points, std::size_t first_slot, std::uint32_t first_point,
                  std::span<std::uint32_t> starts, std::vector<KeyedPoint>& sorted) const;
+
+  // body(range) for points of a level in the cells that the box meets, where a range has any.
+  template <class Body>
+  void for_ranges(std::size_t level, const Vec3d& min, const Vec3d& max, const Body& body) const {
+    const LevelGrid& in = levels_[level];
+    in.grid.for_path_ranges(min, max, [&](const CellGrid::KeyRange& cells) {
+      const SearchRange range{first_at(in.first_key + cells.first), first_at(in.first_key + cells.last + 1)};
+      if (range.from != range.to) body(range);
+    });
+  }
 
   // Index of the first sorted point whose key is `key` or more.
   std::uint32_t first_at(std::uint64_t key) const {

@@ -130,6 +130,31 @@ TEST_P(CellLists, FindEverythingInABoxOnce) {
   }
 }
 
+// From far more ranges than are looked up at a time, too.
+TEST_P(CellLists, VisitWhoeverIsNearOnce) {
+  sort();
+  const Vec3d size = setting().max - setting().min;
+  for (std::uint64_t q = 0; q < 50; ++q) {
+    const Vec3d at = point(q, setting().spread);
+    const double reach = static_cast<double>(q % 10) * setting().levels[0].cell;
+    std::vector<int> found(points_.size(), 0);
+    cells_.for_points_near(at, reach, [&](std::size_t k) { ++found[order_[k]]; });
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      ASSERT_LE(found[i], is_gone(i) ? 0 : 1) << i;
+      double distance2 = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        double d = component(points_[i], axis) - component(at, axis);
+        if (setting().periodic[axis]) d -= component(size, axis) * std::nearbyint(d / component(size, axis));
+        distance2 += d * d;
+      }
+      const double surface = std::sqrt(distance2) - setting().levels[level_of(i)].largest_radius;
+      if (surface < reach && !is_gone(i)) {
+        ASSERT_EQ(found[i], 1) << i;
+      }
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Settings, CellLists, testing::ValuesIn(kSettings),
                          [](const auto& instance) { return instance.param.name; });
 

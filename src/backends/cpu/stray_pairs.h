@@ -140,14 +140,11 @@ class StrayPairs {
     };
     std::vector<Stray> sorted;
     std::vector<Lack> lacks;
-    std::vector<std::vector<SearchRange>> ranges;  // one for some strays each
 
     /// So that searches for so many allocate nothing; memory that is not used is not taken.
     void reserve(std::size_t strays) {
       sorted.reserve(2 * strays);
       lacks.reserve(4 * strays);
-      ranges.resize(strays / kGrain + 1);
-      for (auto& r : ranges) r.reserve(64);
     }
   };
 
@@ -164,9 +161,7 @@ class StrayPairs {
             std::uint32_t filling, const std::vector<Lack>& lacks, Room& room, MendedRows& mended) const {
     room.lacks.assign(lacks.begin(), lacks.end());
     std::atomic<bool> lost{false};
-    room.ranges.resize(std::max(room.ranges.size(), strays.size() / kGrain + 1));
     parallel_ranges(strays.size(), kGrain, [&](std::size_t first, std::size_t last) {
-      std::vector<SearchRange>& ranges = room.ranges[first / kGrain];
       for (const std::uint32_t i : strays.subspan(first, last - first)) {
         if (is_nowhere(records_[i])) continue;
         if (!is_somewhere(records_[i])) {
@@ -174,18 +169,11 @@ class StrayPairs {
           continue;
         }
         const Place place = place_of(i);
-        ranges.clear();
-        for (std::size_t level = 0; level < cells_.level_count(); ++level) {
-          const double reach = place.range + reach_of(i) + cells_.largest_radius(level) + margin();
-          cells_.find(level, place.at - Vec3d{reach, reach, reach}, place.at + Vec3d{reach, reach, reach}, ranges);
-        }
-        for (const SearchRange& range : ranges) {
-          for (std::size_t k = range.from; k < range.to; ++k) {
-            const std::size_t p = slots_.slot_of(k);
-            const bool other_strays = (strayed[p / kLanes] >> p % kLanes & 1U) != 0;
-            if (!other_strays && touch(i, p)) note_lacks(i, p, room.lacks);
-          }
-        }
+        cells_.for_points_near(place.at, place.range + reach_of(i) + margin(), [&](std::size_t k) {
+          const std::size_t p = slots_.slot_of(k);
+          const bool other_strays = (strayed[p / kLanes] >> p % kLanes & 1U) != 0;
+          if (!other_strays && touch(i, p)) note_lacks(i, p, room.lacks);
+        });
       }
     });
     if (lost) return false;

@@ -208,20 +208,12 @@ class VerletList {
       for (std::size_t i = first; i < last; ++i) {
         if (is_nowhere(records[i])) continue;
         const auto rows = this->rows(i / NeighbourList::kSegment, i % NeighbourList::kSegment / kLanes);
-        const Vec3d at = vec_cast<double>(records[i].x);
-        std::vector<SearchRange> ranges;
-        for (std::size_t level = 0; level < cells.level_count(); ++level) {
-          const double reach = reach_of(records[i]) + cells.largest_radius(level);
-          cells.find(level, at - Vec3d{reach, reach, reach}, at + Vec3d{reach, reach, reach}, ranges);
-        }
-        for (const SearchRange& range : ranges) {
-          for (std::size_t k = range.from; k < range.to; ++k) {
-            const std::uint32_t p = order[k];
-            if (p != i && pairs.overlap(i, p) && !apart_->hold(rank_of(records[i].rank), rank_of(records[p].rank)) &&
-                !is_in_lane(rows, i % kLanes, record_offset<Real>(p)))
-              ++missed;
-          }
-        }
+        cells.for_points_near(vec_cast<double>(records[i].x), reach_of(records[i]), [&](std::size_t k) {
+          const std::uint32_t p = order[k];
+          if (p != i && pairs.overlap(i, p) && !apart_->hold(rank_of(records[i].rank), rank_of(records[p].rank)) &&
+              !is_in_lane(rows, i % kLanes, record_offset<Real>(p)))
+            ++missed;
+        });
       }
     });
     return missed;
