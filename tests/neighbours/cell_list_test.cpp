@@ -141,15 +141,19 @@ TEST_P(CellLists, VisitWhoeverIsNearOnce) {
     cells_.for_points_near(at, reach, [&](std::size_t k) { ++found[order_[k]]; });
     for (std::size_t i = 0; i < points_.size(); ++i) {
       ASSERT_LE(found[i], is_gone(i) ? 0 : 1) << i;
-      double distance2 = 0;
+      const std::size_t level = level_of(i);
+      const double radius = setting().levels[level].largest_radius;
+      double distance2 = 0, outside = -INFINITY;  // of the box around, the furthest along an axis, in cells
       for (int axis = 0; axis < 3; ++axis) {
         double d = component(points_[i], axis) - component(at, axis);
         if (setting().periodic[axis]) d -= component(size, axis) * std::nearbyint(d / component(size, axis));
         distance2 += d * d;
+        outside = std::max(outside, (std::abs(d) - reach - radius) / cells_.grid(level).axis(axis).cell);
       }
-      const double surface = std::sqrt(distance2) - setting().levels[level_of(i)].largest_radius;
-      if (surface < reach && !is_gone(i)) {
+      if (std::sqrt(distance2) - radius < reach && !is_gone(i)) {
         ASSERT_EQ(found[i], 1) << i;
+      } else if (outside > 1.001) {
+        ASSERT_EQ(found[i], 0) << i;
       }
     }
   }
