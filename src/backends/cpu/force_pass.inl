@@ -73,78 +73,122 @@ struct Acting {
   Mask<Real> slow = Pack<Real>(Real(0)) == Pack<Real>(Real(0));
 };
 
+// The lanes' particles and a neighbour of each: what a contact needs, with all that takes the processor long.
+template <class Real, class Law>
+struct Meeting {
+  using P = Pack<Real>;
+  P gap;        // how far they overlap, m, below 0 where they don't
+  Vec3<P> way;  // times `scale` it is the contact's normal
+  P scale;
+  Vec3<P> w;  // v_p - v_i, m/s
+  Law law;
+};
+
 // Contacts with particles in ascending order of id. The first two flags drop what a scene does not need, the third what
 // only coincident centres need.
 template <class Real, Materials kMaterials, PeriodicKind kPeriodic, bool kTies>
 struct ContactLoop {
   using P = Pack<Real>;
+  using Table = PairTable<Real, kMaterials>;
+  using Met = Meeting<Real, decltype(Table::Pair::law)>;
   const ForcePass<Real>& pass;
   const Lanes<Real>& own;
 
-  // One contact, with the partner at x_pi from the lane's particle. What the law is given is 0 where nothing acts, and
-  // so is what the linear law makes of it: fewer masks than for each of its parts.
-  template <class Pair>
-  HOOKE_HD void one_image(const Lanes<Real>& other, const Vec3<P>& x_pi, const Pair& pair, const Mask<Real>& counts,
-                          Acting<Real, kMaterials>& acting) const {
-    const P distance = sqrt_of(dot(x_pi, x_pi));
-    const P gap = pair.reach - distance;
-    const Mask<Real> here = counts & acts<Real>(gap, pair.law);
-    const P overlap = only_where(here, gap);
-    Vec3<P> normal;
-    if constexpr (kTies) {
-      normal = contact_normal(-x_pi, distance, select(own.rank > other.rank, P(Real(1)), P(Real(-1))));
-    } else {
-      normal = only_where(here, P(Real(-1)) / distance) * x_pi;
+  // Some rows' roots and quotients are begun before the first row's are needed: one row after the other, what waits for
+  // them would keep the processor from looking further ahead.
+  static constexpr std::size_t kRowsAtOnce = 8;
+
+  HOOKE_HD Acting<Real, kMaterials> run(const std::uint32_t* row, const std::uint32_t* end) const {
+    Acting<Real, kMaterials> acting;
+    const Table table(pass, own.material);
+    while (row != end) {
+      if constexpr (kPeriodic == PeriodicKind::images) {
+        add_images(table, load_row(row), acting);
+        row += kGroupLanes;
+      } else {
+        Met met[kRowsAtOnce];
+        std::size_t count = 0;
+        do {
+          const Lanes<Real> other = load_row(row);
+          meet(table, other, nearest(other), met[count++]);
+          row += kGroupLanes;
+        } while (count < kRowsAtOnce && row != end);
+        for (std::size_t k = 0; k < count; ++k) add(met[k], acting);
+      }
     }
-    const Vec3<P> w = only_where(here, other.v - own.v);
-    if constexpr (have_surfaces(kMaterials)) {
-      acting.contacts.add(here, contact_forces(overlap, normal, w, pair.law));
-    } else {
-      acting.contacts.add(contact_vectors(overlap, normal, w), pair.law);
-    }
-    // What is not a number, where centres coincide, is not slow. Those that only cohesion holds are looked at, too.
-    acting.slow = acting.slow & (dot(w, normal) <= P(pass.speed_limit));
+    return acting;
   }
 
-  template <class Pair>
-  HOOKE_HD void neighbour(const Lanes<Real>& other, const Pair& pair, Acting<Real, kMaterials>& acting) const {
-    const Mask<Real> all = P(Real(0)) == P(Real(0));
+  // Number by number: what is copied whole GCC 12 may copy byte by byte.
+  HOOKE_HD void meet(const Table& table, const Lanes<Real>& other, const Vec3<P>& x_pi, Met& met) const {
+    const typename Table::Pair pair = table.lookup(other.material);
+    const P distance = sqrt_of(dot(x_pi, x_pi));
+    met.gap = pair.reach - distance;
+    if constexpr (kTies) {
+      met.way = contact_normal(-x_pi, distance, select(own.rank > other.rank, P(Real(1)), P(Real(-1))));
+      met.scale = P(Real(1));
+    } else {
+      met.way = x_pi;
+      met.scale = P(Real(-1)) / distance;
+    }
+    met.w = other.v - own.v;
+    keep<Real>(pair.law, met.law);
+  }
+
+  // From the lane's particle to the nearest image of its neighbour.
+  HOOKE_HD Vec3<P> nearest(const Lanes<Real>& other) const {
     if constexpr (kPeriodic == PeriodicKind::none) {
-      one_image(other, other.x - own.x, pair, all, acting);
-    } else if constexpr (kPeriodic == PeriodicKind::nearest) {
+      return other.x - own.x;
+    } else {
       const auto displacement = [&](const P& x_i, const P& x_p, bool periodic, Real length) {
         if (!periodic) return x_i - x_p;
         return image_displacement(x_i, x_p, nearest_image(x_i, x_p, P(length)), P(length));
       };
-      const Vec3<P> x_ip{displacement(own.x.x, other.x.x, pass.periodic[0], pass.length.x),
-                         displacement(own.x.y, other.x.y, pass.periodic[1], pass.length.y),
-                         displacement(own.x.z, other.x.z, pass.periodic[2], pass.length.z)};
-      one_image(other, -x_ip, pair, all, acting);
-    } else {
-      const Mask<Real> another = !(own.rank == other.rank);
-      for (int sx = -pass.images[0]; sx <= pass.images[0]; ++sx) {
-        for (int sy = -pass.images[1]; sy <= pass.images[1]; ++sy) {
-          for (int sz = -pass.images[2]; sz <= pass.images[2]; ++sz) {
-            const Vec3<P> x_ip{image_displacement(own.x.x, other.x.x, P(static_cast<Real>(sx)), P(pass.length.x)),
-                               image_displacement(own.x.y, other.x.y, P(static_cast<Real>(sy)), P(pass.length.y)),
-                               image_displacement(own.x.z, other.x.z, P(static_cast<Real>(sz)), P(pass.length.z))};
-            const bool itself = sx == 0 && sy == 0 && sz == 0;
-            one_image(other, -x_ip, pair, itself ? another : all, acting);
-          }
+      return -Vec3<P>{displacement(own.x.x, other.x.x, pass.periodic[0], pass.length.x),
+                      displacement(own.x.y, other.x.y, pass.periodic[1], pass.length.y),
+                      displacement(own.x.z, other.x.z, pass.periodic[2], pass.length.z)};
+    }
+  }
+
+  // All images of a neighbour, and those of the lane's particle itself.
+  HOOKE_HD void add_images(const Table& table, const Lanes<Real>& other, Acting<Real, kMaterials>& acting) const {
+    const Mask<Real> itself = own.rank == other.rank;
+    for (int sx = -pass.images[0]; sx <= pass.images[0]; ++sx) {
+      for (int sy = -pass.images[1]; sy <= pass.images[1]; ++sy) {
+        for (int sz = -pass.images[2]; sz <= pass.images[2]; ++sz) {
+          const Vec3<P> x_ip{image_displacement(own.x.x, other.x.x, P(static_cast<Real>(sx)), P(pass.length.x)),
+                             image_displacement(own.x.y, other.x.y, P(static_cast<Real>(sy)), P(pass.length.y)),
+                             image_displacement(own.x.z, other.x.z, P(static_cast<Real>(sz)), P(pass.length.z))};
+          Met met;
+          meet(table, other, -x_ip, met);
+          // Too far from itself for any contact.
+          if (sx == 0 && sy == 0 && sz == 0) met.gap = select(itself, P(static_cast<Real>(-kNowhere)), met.gap);
+          add(met, acting);
         }
       }
     }
   }
 
-  HOOKE_HD Acting<Real, kMaterials> run(const std::uint32_t* row, const std::uint32_t* end) const {
-    Acting<Real, kMaterials> acting;
-    const PairTable<Real, kMaterials> table(pass, own.material);
-    for (; row != end; row += kGroupLanes) {
-      prefetch_row(row + kRowsAhead * kGroupLanes);
-      const Lanes<Real> other = load_neighbours(pass.in, row);
-      neighbour(other, table.lookup(other.material), acting);
+  // What the law is given is 0 where nothing acts, and so is what the linear law makes of it: fewer masks than for each
+  // of its parts.
+  HOOKE_HD void add(const Met& met, Acting<Real, kMaterials>& acting) const {
+    const Mask<Real> here = acts<Real>(met.gap, met.law);
+    const P overlap = only_where(here, met.gap);
+    const Vec3<P> normal = only_where(here, met.scale) * met.way;
+    const Vec3<P> w = only_where(here, met.w);
+    if constexpr (have_surfaces(kMaterials)) {
+      acting.contacts.add(here, contact_forces(overlap, normal, w, met.law));
+    } else {
+      acting.contacts.add(contact_vectors(overlap, normal, w), met.law);
     }
-    return acting;
+    // What is not a number, where centres coincide, is not slow. Those that only cohesion holds are looked at, too.
+    acting.slow = acting.slow & (dot(w, normal) <= P(pass.speed_limit));
+  }
+
+  // Lanes of a row's neighbours, once those of later rows are asked for.
+  HOOKE_HD Lanes<Real> load_row(const std::uint32_t* row) const {
+    prefetch_row(row + kRowsAhead * kGroupLanes);
+    return load_neighbours(pass.in, row);
   }
 
   // Neighbours come in the order of their ids, which no processor foresees: those of about the next group are asked for
