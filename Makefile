@@ -10,7 +10,7 @@ RUN_ARGS ?=
 BENCH_ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help run gallery test soak build bench format lint install clean setup setup-test setup-lint setup-bench
+.PHONY: help run gallery test sanitize soak build build-all bench format lint install clean setup setup-test setup-lint setup-soak setup-bench
 
 help:  ## this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
@@ -30,17 +30,25 @@ run: build  ## build, run the dam break of 512,000 particles into out/water, and
 gallery: build  ## run every scene and draw a picture of each into docs/gallery.md
 	tools/gallery.sh
 
-test: setup-test  ## build with assertions and sanitizers, run every test but the long ones
+test: setup-test  ## build with assertions, run every test but the long ones
 	tools/test.sh
 
-soak: setup-test  ## the long tests
+sanitize: setup-test  ## the tests again that address and thread sanitizers can make fail
+	tools/test.sh sanitize
+
+soak: setup-soak  ## hours: the long tests, lint, and everything under the address sanitizer
+	tools/lint.sh
 	tools/test.sh soak
 
 build: setup  ## release build: build/hooke
 	@cmake --preset release >/dev/null
+	@cmake --build --preset run -j $(JOBS)
+
+build-all: setup  ## release build of the program, the libraries and the benchmarks
+	@cmake --preset release >/dev/null
 	@cmake --build --preset release -j $(JOBS)
 
-bench: build setup-bench  ## measure this machine, a quarter of an hour, for docs/performance.md; or BENCH_ARGS=--quick
+bench: build-all setup-bench  ## measure this machine, a quarter of an hour, for docs/performance.md; or BENCH_ARGS=--quick
 	bench/run_benchmarks $(BENCH_ARGS)
 
 format: setup-lint  ## format all sources
@@ -49,11 +57,11 @@ format: setup-lint  ## format all sources
 lint: setup-lint  ## check the format, clang-tidy, and a build with Clang 19
 	tools/lint.sh
 
-install: build  ## install program, library, headers and scenes below PREFIX
+install: build-all  ## install program, library, headers and scenes below PREFIX
 	cmake --install build --prefix $(PREFIX)
 
 clean:  ## remove every build folder
-	rm -rf build build-dev build-clang build-asan build-tsan
+	rm -rf build build-dev build-clang build-asan build-asan-everything build-tsan
 
 setup:
 	@tools/setup.sh
@@ -63,6 +71,9 @@ setup-test:
 
 setup-lint:
 	@tools/setup.sh lint
+
+setup-soak:
+	@tools/setup.sh soak
 
 setup-bench:
 	@tools/setup.sh bench

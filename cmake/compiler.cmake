@@ -14,7 +14,17 @@ target_compile_options(hooke_compiler_flags INTERFACE
   $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>
   # At -O3 GCC 12 sees overlapping copies in std::string's operator+ (its bug 105651).
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<CONFIG:Release>>:-Wno-restrict>
-  $<$<BOOL:${HOOKE_WARNINGS_AS_ERRORS}>:-Werror>)
+  $<$<BOOL:${HOOKE_WARNINGS_AS_ERRORS}>:-Werror>
+  # Without it the compiler cache can't serve what is built with a precompiled header.
+  $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+
+# A fast linker where there is one, for the builds that are linked again and again.
+if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE STREQUAL "Release")
+  find_program(HOOKE_MOLD mold DOC "Fast linker; builds work without it")
+  if(HOOKE_MOLD)
+    add_link_options(-fuse-ld=mold)
+  endif()
+endif()
 
 # GCC takes what the sanitizers add for reads of uninitialised values, in the standard library's headers too.
 if((HOOKE_SANITIZE_ADDRESS OR HOOKE_SANITIZE_THREAD) AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

@@ -1,12 +1,13 @@
 # SPDX-FileCopyrightText: The Hooke authors
 # SPDX-License-Identifier: MIT
 
-# hooke_library(NAME [INTERFACE] [SOURCES ...] [LINKS ...] [PRIVATE_LINKS ...])
+# hooke_library(NAME [INTERFACE] [SOURCES ...] [LINKS ...] [PRIVATE_LINKS ...] [PRECOMPILED HEADER ...])
 # One static (or header-only) library of src/, exported as hooke::NAME. LINKS may only name libraries below it:
-# tests/layering checks includes and links.
+# tests/layering checks includes and links. PRECOMPILED: headers that most of its sources include and that take long;
+# each source includes what it uses all the same.
 set_property(GLOBAL PROPERTY HOOKE_LIBRARIES)
 function(hooke_library name)
-  cmake_parse_arguments(ARG "INTERFACE" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "INTERFACE" "" "SOURCES;LINKS;PRIVATE_LINKS;PRECOMPILED" ${ARGN})
   set(target hooke_${name})
   if(ARG_INTERFACE)
     add_library(${target} INTERFACE)
@@ -16,6 +17,9 @@ function(hooke_library name)
     set(scope PUBLIC)
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:hooke_compiler_flags> ${ARG_PRIVATE_LINKS})
+    if(ARG_PRECOMPILED)
+      target_precompile_headers(${target} PRIVATE ${ARG_PRECOMPILED})
+    endif()
   endif()
   add_library(hooke::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})

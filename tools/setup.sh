@@ -6,7 +6,8 @@
 #   tools/setup.sh          to build and run
 #   tools/setup.sh test     also to test, which checks the format
 #   tools/setup.sh lint     also to lint
-#   tools/setup.sh bench    also to measure and to draw what was measured
+#   tools/setup.sh bench    to build and run, to measure and to draw what was measured
+#   tools/setup.sh soak     all of these
 set -euo pipefail
 
 build_packages=(
@@ -17,7 +18,7 @@ build_packages=(
   libepoxy-dev libegl1 libgl1 libgl1-mesa-dri libpng-dev libcairo2-dev fonts-dejavu-core ffmpeg
   python3)
 bench_packages=(lammps python3-numpy python3-matplotlib)
-test_packages=(clang-format-19 python3-vtk9 python3-h5py "${bench_packages[@]}")
+test_packages=(clang-format-19 mold python3-vtk9 python3-h5py)
 lint_packages=(clang-19 clang-tidy-19)
 
 packages=("${build_packages[@]}")
@@ -25,6 +26,7 @@ case "${1:-}" in
   test) packages+=("${test_packages[@]}") ;;
   lint) packages+=("${test_packages[@]}" "${lint_packages[@]}") ;;
   bench) packages+=("${bench_packages[@]}") ;;
+  soak) packages+=("${test_packages[@]}" "${lint_packages[@]}" "${bench_packages[@]}") ;;
 esac
 
 if ! command -v dpkg-query >/dev/null; then

@@ -2,25 +2,37 @@
 # SPDX-FileCopyrightText: The Hooke authors
 # SPDX-License-Identifier: MIT
 #
-# tools/test.sh        everything but the long tests: with assertions, then the sanitizer builds
-# tools/test.sh soak   the long tests
+# tools/test.sh            the format, and every test but the long ones, in one build with assertions
+# tools/test.sh sanitize   what reads, lists and stores under the address sanitizer, what runs on several threads under
+#                          the thread sanitizer
+# tools/test.sh soak       the long tests, and everything but those under the address sanitizer
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=$(nproc)
 
-build_and_test() {  # PRESET OF THE BUILD, PRESET OF THE TESTS
-  echo "== $2"
-  cmake --preset "$1" >/dev/null
-  cmake --build --preset "$1" -j "$jobs"
-  ctest --preset "$2" -j "$jobs"
+build_and_test() {  # NAME OF THE TEST'S PRESET, NAMES OF THE CONFIGURATION'S AND THE BUILD'S WHERE THEY DIFFER
+  echo "== $1"
+  cmake --preset "${2:-$1}" >/dev/null
+  cmake --build --preset "${3:-$1}" -j "$jobs"
+  ctest --preset "$1" -j "$jobs"
 }
 
-if [[ "${1:-}" == soak ]]; then
-  build_and_test dev soak
-  exit
-fi
-
-tools/lint.sh format-check
-build_and_test dev dev
-build_and_test asan asan
-build_and_test tsan tsan
+case "${1:-}" in
+  "")
+    tools/lint.sh format-check
+    build_and_test dev
+    ;;
+  sanitize)
+    build_and_test asan
+    build_and_test tsan
+    ;;
+  soak)
+    build_and_test soak dev soak
+    build_and_test asan-everything
+    build_and_test tsan
+    ;;
+  *)
+    echo "usage: tools/test.sh [sanitize|soak]" >&2
+    exit 2
+    ;;
+esac

@@ -18,7 +18,7 @@ class States : public ProgramTest {
  protected:
   // The exit status of bench/make_states with a folder `states` in this test's own.
   int make_states(const std::string& names) const {
-    return std::system((HOOKE_SOURCE_DIR "/bench/make_states --hooke " HOOKE_PROGRAM " --folder '" +
+    return std::system((std::string(HOOKE_SOURCE_DIR "/bench/make_states --hooke ") + program_file() + " --folder '" +
                         path("states").string() + "' " + names)
                            .c_str());
   }

@@ -106,7 +106,7 @@ class InterchangePage : public ProgramTest {
 
 TEST_F(InterchangePage, Works) {
   std::filesystem::create_directories(path("bin"));
-  std::filesystem::create_symlink(HOOKE_PROGRAM, path("bin/hooke"));
+  std::filesystem::create_symlink(program_file(), path("bin/hooke"));
   std::filesystem::create_directories(path("scenes"));
   // The page's scene, with fewer particles and steps.
   std::string scene = contents(HOOKE_SOURCE_DIR "/scenes/mixed.json");

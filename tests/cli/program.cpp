@@ -32,13 +32,16 @@ void redirect(const std::filesystem::path& file, int descriptor) {
 
 }  // namespace
 
+std::string program_file() { return HOOKE_PROGRAM; }
+
 Program::Program(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
                  std::uint64_t file_size_limit) {
   static std::atomic<int> count{0};
   const std::string name = "call" + std::to_string(count++);
   out_ = folder / (name + ".out");
   err_ = folder / (name + ".err");
-  std::vector<const char*> argv{HOOKE_PROGRAM};
+  const std::string program = program_file();
+  std::vector<const char*> argv{program.c_str()};
   for (const std::string& argument : arguments) argv.push_back(argument.c_str());
   argv.push_back(nullptr);
 
@@ -52,7 +55,7 @@ Program::Program(const std::filesystem::path& folder, const std::vector<std::str
     const rlimit limit{file_size_limit, file_size_limit};
     setrlimit(RLIMIT_FSIZE, &limit);
   }
-  execv(HOOKE_PROGRAM, const_cast<char* const*>(argv.data()));
+  execv(program.c_str(), const_cast<char* const*>(argv.data()));
   _exit(127);
 }
 

@@ -14,6 +14,9 @@
 
 namespace hooke::test {
 
+/// The program under test.
+std::string program_file();
+
 /// What a call of the program left behind.
 struct Outcome {
   int status = -1;  ///< exit status, or 128 + the signal that ended it

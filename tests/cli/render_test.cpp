@@ -184,7 +184,7 @@ TEST_F(RenderCommand, SaysThatThereIsNoOpenGl) {
 
 TEST_F(RenderCommand, OnlyPicturesNeedTheGlModule) {
   // The program alone, without what lies beside it.
-  std::filesystem::copy_file(HOOKE_PROGRAM, path("hooke"));
+  std::filesystem::copy_file(program_file(), path("hooke"));
   const auto call = [&](const std::string& arguments) {
     const std::string command = "cd '" + path("").string() + "' && ./hooke " + arguments + " >call.out 2>call.err";
     return WEXITSTATUS(std::system(command.c_str()));
@@ -196,7 +196,7 @@ TEST_F(RenderCommand, OnlyPicturesNeedTheGlModule) {
 }
 
 TEST_F(RenderCommand, TheProgramItselfIsLinkedWithNoGl) {
-  const std::string command = std::string("readelf -d '") + HOOKE_PROGRAM + "' > '" + path("needed").string() + "'";
+  const std::string command = "readelf -d '" + program_file() + "' > '" + path("needed").string() + "'";
   ASSERT_EQ(std::system(command.c_str()), 0);
   EXPECT_THAT(read("needed"), HasSubstr("libtbb"));
   EXPECT_THAT(read("needed"), testing::Not(testing::ContainsRegex("libE?GL|libepoxy|libOpenGL")));

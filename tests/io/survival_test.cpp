@@ -78,9 +78,14 @@ bool write_for_ever(RunWriter& writer, std::int64_t from, SharedNumber& flushed)
   }
 }
 
-TEST(Survival, EverySnapshotBeforeAKillReadsBack) {
+// So many times over, each time at another moment: a few for every change, many in the long tests.
+class SurvivalOfKills : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(AFew, SurvivalOfKills, testing::Values(4));
+INSTANTIATE_TEST_SUITE_P(Many, SurvivalOfKills, testing::Values(40));
+
+TEST_P(SurvivalOfKills, EverySnapshotBeforeAKillReadsBack) {
   std::mt19937 random(5);
-  for (int round = 0; round < 40; ++round) {
+  for (int round = 0; round < GetParam(); ++round) {
     const TemporaryFolder folder;
     const fs::path run = folder / "run";
     SharedNumber flushed;
@@ -117,11 +122,11 @@ TEST(Survival, EverySnapshotBeforeAKillReadsBack) {
   }
 }
 
-TEST(Survival, AKillDuringACheckpointLeavesTheOldOrTheNewOne) {
+TEST_P(SurvivalOfKills, AKillDuringACheckpointLeavesTheOldOrTheNewOne) {
   std::mt19937 random(6);
   const TemporaryFolder folder;
   const fs::path file = folder / "checkpoint.h5";
-  for (int round = 0; round < 40; ++round) {
+  for (int round = 0; round < GetParam(); ++round) {
     SharedNumber written;
     kill_during(written, std::chrono::microseconds(random() % 20000), [&] {
       for (std::int64_t step = 0;; ++step) {

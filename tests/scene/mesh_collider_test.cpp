@@ -10,7 +10,7 @@
 
 #include "hooke/core/shapes.h"
 #include "hooke/scene/load_scene.h"
-#include "made_meshes.h"
+#include "mesh_shapes.h"
 #include "scratch_folder.h"
 #include "support/engines.h"
 #include "support/particles.h"

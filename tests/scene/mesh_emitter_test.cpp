@@ -11,7 +11,7 @@
 #include "hooke/core/births.h"
 #include "hooke/physics/enclosure.h"
 #include "hooke/scene/load_scene.h"
-#include "made_meshes.h"
+#include "mesh_shapes.h"
 #include "scratch_folder.h"
 #include "support/engines.h"
 #include "support/particles.h"

@@ -6,26 +6,9 @@
 #include <algorithm>
 #include <string>
 
-#include "scene/made_meshes.h"
+#include "support/capsule_field.h"
 
 namespace hooke::test {
-namespace {
-
-#ifdef __SANITIZE_THREAD__
-constexpr bool kHasMeshes = false;  // OpenVDB, in headers, is watched, and TBB, which orders what it does, is not
-#else
-constexpr bool kHasMeshes = true;
-#endif
-
-// A capsule of triangles, closed, or open at its top.
-MeshShape mesh_around(const Vec3d& middle, double radius, bool closed, double reach) {
-  TriangleMesh mesh = capsule_mesh(radius, -radius, radius, 16);
-  if (!closed) mesh.triangles.erase(mesh.triangles.begin(), mesh.triangles.begin() + 24);
-  for (Vec3d& x : mesh.vertices) x += middle;
-  return shape_of(mesh, 0.2 * radius, reach);
-}
-
-}  // namespace
 
 void add_every_collider(Scene& scene, const Vec3d& middle, double size) {
   Material steel;
@@ -65,10 +48,9 @@ void add_every_collider(Scene& scene, const Vec3d& middle, double size) {
   double reach = 0;
   for (const Material& m : scene.materials) reach = std::max(reach, 1.1 * m.radius);
   for (const bool closed : {true, false}) {
-    if (!kHasMeshes) break;
     Collider c;
     c.name = closed ? "mesh" : "open mesh";
-    c.shape = mesh_around(closed ? at(-0.5, -0.3, -0.6) : at(0.6, 0.6, -0.6), r, closed, reach);
+    c.shape = capsule_with_field(closed ? at(-0.5, -0.3, -0.6) : at(0.6, 0.6, -0.6), r, closed, reach);
     c.motion = closed ? Motion(Oscillation{{0, 0.05 * size, 0}, 3, 0.1})
                       : Motion(SteadyMotion{{0, 0, 0}, {0, 2, 1}, std::nullopt});
     scene.colliders.push_back(c);

@@ -4,15 +4,13 @@
 
 #include <array>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "hooke/core/shapes.h"
-#include "hooke/scene/mesh_field.h"
-#include "hooke/scene/mesh_file.h"
+#include "hooke/core/triangle_mesh.h"
 
 namespace hooke::test {
 
@@ -90,14 +88,6 @@ inline std::string obj_text(const TriangleMesh& mesh) {
   for (const Vec3d& x : mesh.vertices) text << "v " << x.x << ' ' << x.y << ' ' << x.z << '\n';
   for (const auto& t : mesh.triangles) text << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
   return text.str();
-}
-
-inline MeshShape shape_of(const TriangleMesh& mesh, double cell, double reach) {
-  MeshShape shape;
-  shape.surface = std::make_shared<const TriangleMesh>(mesh);
-  shape.field =
-      std::make_shared<const DistanceField>(make_distance_field(mesh, {cell, reach, count_open_edges(mesh) == 0}));
-  return shape;
 }
 
 inline double distance(const Shape& shape, const Vec3d& x) {
