@@ -15,6 +15,8 @@ target_compile_options(hooke_compiler_flags INTERFACE
   # At -O3 GCC 12 sees overlapping copies in std::string's operator+ (its bug 105651).
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<CONFIG:Release>>:-Wno-restrict>
   $<$<BOOL:${HOOKE_WARNINGS_AS_ERRORS}>:-Werror>)
+# Checks of indices in the headers of the C++ library; Hooke's own assertions: src/base/assert.h.
+target_compile_definitions(hooke_compiler_flags INTERFACE $<$<BOOL:${HOOKE_ASSERTIONS}>:_GLIBCXX_ASSERTIONS>)
 
 # GCC takes what the sanitizers add for reads of uninitialised values, in the standard library's headers too.
 if((HOOKE_SANITIZE_ADDRESS OR HOOKE_SANITIZE_THREAD) AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
