@@ -25,6 +25,8 @@ if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE STREQUAL "Release")
     add_link_options(-fuse-ld=mold)
   endif()
 endif()
+# Checks of indices in the headers of the C++ library; Hooke's own assertions: src/base/assert.h.
+target_compile_definitions(hooke_compiler_flags INTERFACE $<$<BOOL:${HOOKE_ASSERTIONS}>:_GLIBCXX_ASSERTIONS>)
 
 # GCC takes what the sanitizers add for reads of uninitialised values, in the standard library's headers too.
 if((HOOKE_SANITIZE_ADDRESS OR HOOKE_SANITIZE_THREAD) AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

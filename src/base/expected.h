@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "hooke/base/assert.h"
+
 namespace hooke {
 
 /// One thing that is wrong, and where.
@@ -46,6 +48,9 @@ using Expected = tl::expected<T, Error>;
 inline tl::unexpected<Error> fail(Error::Kind kind, std::string where, std::string message) {
   return tl::unexpected<Error>(Error{kind, {{std::move(where), std::move(message)}}});
 }
-inline tl::unexpected<Error> fail(Error error) { return tl::unexpected<Error>(std::move(error)); }
+inline tl::unexpected<Error> fail(Error error) {
+  HOOKE_ASSERT(!error.findings.empty());
+  return tl::unexpected<Error>(std::move(error));
+}
 
 }  // namespace hooke

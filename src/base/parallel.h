@@ -15,15 +15,17 @@
 #include <vector>
 #endif
 
+#include "hooke/base/assert.h"
 #include "hooke/base/floating_point.h"
 
 namespace hooke {
 
-/// body(first, last) on disjoint ranges that cover [0, count), each but the last a whole number of `grain`. Ranges run
-/// on the threads of the task arena that this is called in, in no order; what they compute must not depend on the
+/// body(first, last) on disjoint ranges that cover [0, count), each but the last a whole number of `grain`, > 0. Ranges
+/// run on the threads of the task arena that this is called in, in no order; what they compute must not depend on the
 /// split.
 template <class Body>
 void parallel_ranges(std::size_t count, std::size_t grain, const Body& body) {
+  HOOKE_ASSERT(grain > 0, count);
   const std::size_t blocks = (count + grain - 1) / grain;
   const auto run_blocks = [&](std::size_t first, std::size_t last) {
     const FloatingPointGuard guard;

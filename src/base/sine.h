@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "hooke/base/assert.h"
+
 namespace hooke {
 
 struct SineCosine {
@@ -15,6 +17,7 @@ struct SineCosine {
 /// any angle that the number itself tells apart (up to 2^52 turns), and exact at quarters of a turn. The angle must be
 /// finite.
 inline SineCosine sine_cosine_of_turns(double turns) {
+  HOOKE_ASSERT(std::isfinite(turns), turns);
   // Quarter turns come off without rounding; an eighth of a turn either way is left.
   const double quarters = std::floor(4 * turns + 0.5);
   constexpr double kTwoPi = 6.283185307179586477;

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "hooke/base/assert.h"
 #include "hooke/core/scene.h"
 
 namespace hooke {
@@ -43,6 +44,7 @@ std::vector<Finding> validate_attraction(const Scene& scene) {
 }
 
 bool attracts_by_tree(const Attraction& attraction, std::size_t particles) {
+  HOOKE_ASSERT(attraction.accuracy >= kFinestAccuracy && attraction.accuracy <= kCoarsestAccuracy, attraction.accuracy);
   if (attraction.method != Attraction::Method::automatic) return attraction.method == Attraction::Method::tree;
   // Interactions a particle and step, one with a cell counted as two (bench/attraction_bench.cpp).
   const double n = static_cast<double>(particles);
@@ -54,6 +56,7 @@ AttractionUnits attraction_units(const Scene& scene) {
   AttractionUnits units;
   double longest = 0, largest_mass = 0;
   for (int axis = 0; axis < 3; ++axis) longest = std::max(longest, scene.domain.length(axis));
+  HOOKE_ASSERT(longest > 0, scene.domain.min, scene.domain.max);
   double smallest_radius = longest;
   for (const Material& m : scene.materials) {
     if (m.radius > 0) smallest_radius = std::min(smallest_radius, m.radius);

@@ -27,7 +27,8 @@ struct Attraction {
   double constant = 6.674e-11;  ///< G, m^3 kg^-1 s^-2, >= 0
   double softening = 0;         ///< Plummer's length eps, m, >= 0
   Method method = Method::automatic;
-  double accuracy = 1e-3;  ///< of the tree: root mean square of the error of a particle's force, relative to it
+  double accuracy = 1e-3;  ///< of the tree, kFinestAccuracy to kCoarsestAccuracy: root mean square of the error of a
+                           ///< particle's force, relative to it
   bool exact = true;       ///< the same bits on every machine, for some of the speed
 };
 

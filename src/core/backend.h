@@ -111,7 +111,8 @@ struct StageTimes {
 
 /// Where particles live and step: reference (all pairs, the specification), cpu, and others to come. A back
 /// end owns the particles' state in its own layout and order; everything that comes out is by id. Stages
-/// are coarse: fusing inside one is its own affair. core/step.cpp says in which order they run.
+/// are coarse: fusing inside one is its own affair. core/step.cpp says in which order they run. Scenes are valid, and
+/// particles are those of the scene (are_particles_of).
 class Backend {
  public:
   virtual ~Backend() = default;

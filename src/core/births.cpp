@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/random.h"
 #include "hooke/base/sine.h"
 #include "hooke/core/placed_colliders.h"
@@ -134,6 +135,7 @@ bool is_open_mesh(const Shape& shape) {
 std::vector<double> areas_of_birth(const Shape& shape) {
   std::vector<double> areas;
   if (!is_open_mesh(shape)) return areas;
+  HOOKE_ASSERT(std::get<MeshShape>(shape).surface != nullptr);
   const TriangleMesh& mesh = *std::get<MeshShape>(shape).surface;
   double sum = 0;
   for (const auto& t : mesh.triangles) {
@@ -146,6 +148,8 @@ std::vector<double> areas_of_birth(const Shape& shape) {
 
 PlacedEmitter place_emitter(const Emitter& emitter, std::uint32_t index, double time, double reach,
                             std::span<const double> areas) {
+  HOOKE_ASSERT(dot(emitter.direction, emitter.direction) > 0, emitter.name, emitter.direction);
+  HOOKE_ASSERT(emitter.spread >= 0 && emitter.spread <= 180, emitter.name, emitter.spread);
   const Collider body{emitter.name, emitter.shape, false, {}, emitter.motion};
   PlacedEmitter placed;
   placed.emitter = &emitter;
@@ -158,6 +162,8 @@ PlacedEmitter place_emitter(const Emitter& emitter, std::uint32_t index, double 
 }
 
 Vec3d draw_position(const PlacedEmitter& emitter, std::uint64_t number, std::uint32_t attempt) {
+  HOOKE_ASSERT(emitter.emitter != nullptr);
+  HOOKE_ASSERT(!is_open_mesh(emitter.emitter->shape) || !emitter.areas.empty(), emitter.emitter->name);
   const ShapeGeometry<double>& shape = emitter.body.shape;
   const std::uint64_t seed = emitter.emitter->seed;
   const std::uint32_t purpose = stream(emitter.index, Draw::position);
@@ -175,6 +181,7 @@ Vec3d draw_position(const PlacedEmitter& emitter, std::uint64_t number, std::uin
 // (1 - cos spread) makes the direction so over the cone (Marsaglia, "Choosing a point from the surface of a sphere",
 // Ann. Math. Stat. 43, 645, 1972).
 Vec3d draw_velocity(const PlacedEmitter& emitter, std::uint64_t number, const Vec3d& x) {
+  HOOKE_ASSERT(emitter.emitter != nullptr);
   const auto u = draw_until(emitter.emitter->seed, number, 0, stream(emitter.index, Draw::velocity), [](const auto& v) {
     return both_ways(v[0]) * both_ways(v[0]) + both_ways(v[1]) * both_ways(v[1]) < 1;
   });
@@ -191,7 +198,9 @@ Vec3d draw_velocity(const PlacedEmitter& emitter, std::uint64_t number, const Ve
 
 std::optional<std::int64_t> draw_lifetime(const Emitter& emitter, std::uint32_t index, std::uint64_t number,
                                           double dt) {
+  HOOKE_ASSERT(dt > 0, dt);
   if (!emitter.life) return {};
+  HOOKE_ASSERT(emitter.life->least > 0 && emitter.decay.least > 0, emitter.life->least, emitter.decay.least);
   const auto u = uniform4(emitter.seed, number, 0, stream(index, Draw::life));
   const double life = from_range(*emitter.life, u[0]), each = dt * from_range(emitter.decay, u[1]);
   constexpr double kLongest = 4503599627370496;  // 2^52 steps: exact, and no run lasts longer

@@ -22,7 +22,7 @@ struct PlacedEmitter {
   PlacedCollider<double> body;    ///< its shape and motion
   Vec3d direction{0, 1, 0};       ///< unit vector, in the body's own frame
   double cosine = 1;              ///< of the spread
-  std::span<const double> areas;  ///< areas_of_birth()
+  std::span<const double> areas;  ///< areas_of_birth() of the shape
 };
 
 /// Whether births are spread over the faces of the shape, as it has no inside.
@@ -44,8 +44,8 @@ Vec3d draw_position(const PlacedEmitter& emitter, std::uint64_t number, std::uin
 /// both seen from the emitter, whose own velocity there is added.
 Vec3d draw_velocity(const PlacedEmitter& emitter, std::uint64_t number, const Vec3d& x);
 
-/// How many steps of `dt` (s) its life lasts, at least 1: life and decay are drawn evenly from their ranges, and the
-/// life is over after the first n steps with n dt decay >= life. Nothing where it lives for ever.
+/// How many steps of `dt` (s, > 0) its life lasts, at least 1: life and decay are drawn evenly from their ranges, and
+/// the life is over after the first n steps with n dt decay >= life. Nothing where it lives for ever.
 std::optional<std::int64_t> draw_lifetime(const Emitter& emitter, std::uint32_t index, std::uint64_t number, double dt);
 
 }  // namespace hooke

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <set>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/sine.h"
 #include "hooke/core/scene.h"
 
@@ -55,6 +56,12 @@ ColliderPose posed(const Vec3d& pivot, const Vec3d& position, const Vec3d& rotat
   return {pivot + position, turn.axes, velocity, turn.angular_velocity};
 }
 
+// At least one, times ascending.
+bool is_ascending_in_time(const std::vector<Keyframe>& keyframes) {
+  const auto not_later = [](const Keyframe& a, const Keyframe& b) { return !(b.time > a.time); };
+  return !keyframes.empty() && std::adjacent_find(keyframes.begin(), keyframes.end(), not_later) == keyframes.end();
+}
+
 struct PoseAt {
   const Vec3d& pivot;
   double time;
@@ -64,6 +71,7 @@ struct PoseAt {
     return posed(pivot, time * m.velocity, time * m.angular_velocity, m.velocity, m.angular_velocity);
   }
   ColliderPose operator()(const KeyframeMotion& m) const {
+    HOOKE_ASSERT(is_ascending_in_time(m.keyframes), m.keyframes.size());
     const auto later =
         std::find_if(m.keyframes.begin(), m.keyframes.end(), [this](const Keyframe& k) { return k.time > time; });
     if (later == m.keyframes.begin()) return resting(m.keyframes.front());
@@ -75,6 +83,7 @@ struct PoseAt {
                  per_second * turned);
   }
   ColliderPose operator()(const Oscillation& m) const {
+    HOOKE_ASSERT(m.frequency >= 0, m.frequency);
     const SineCosine at = sine_cosine_of_turns(m.frequency * time + m.phase);
     return posed(pivot, at.sine * m.amplitude, {}, (kTwoPi * m.frequency * at.cosine) * m.amplitude, {});
   }
@@ -155,6 +164,7 @@ Vec3d pivot_of(const Collider& collider) {
 }
 
 ColliderPose pose_at(const Collider& collider, double time) {
+  HOOKE_ASSERT(std::isfinite(time), collider.name, time);
   const Vec3d pivot = pivot_of(collider);
   return std::visit(PoseAt{pivot, time}, collider.motion);
 }

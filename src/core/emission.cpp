@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
 #include "hooke/core/backend.h"
 #include "hooke/core/free_space.h"
@@ -63,6 +64,7 @@ EmissionState Emission::state() const {
 }
 
 void Emission::restore(EmissionState state) {
+  HOOKE_ASSERT(std::is_sorted(state.mortals.begin(), state.mortals.end()), state.mortals.size());
   emitters_ = std::move(state.emitters);
   mortals_.clear();
   for (const Mortal& m : state.mortals) mortals_[m.death].push_back(m);
@@ -70,6 +72,9 @@ void Emission::restore(EmissionState state) {
 
 void Emission::end_step(const Scene& scene, std::int64_t step, std::span<const ColliderPose> poses, Backend& backend,
                         std::uint64_t& next_id) {
+  HOOKE_ASSERT(step > 0, step);
+  HOOKE_ASSERT(emitters_.size() == scene.emitters.size(), emitters_.size(), scene.emitters.size());
+  HOOKE_ASSERT(poses.size() == scene.colliders.size(), poses.size(), scene.colliders.size());
   if (!scene.sinks.empty()) backend.sink_particles();
   if (emitters_.empty()) return;
   std::vector<std::uint64_t> respawning(emitters_.size(), 0);

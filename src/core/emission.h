@@ -55,14 +55,16 @@ std::vector<Finding> check_state(const EmissionState& state, const Scene& scene)
 /// back end is asked who is in the way, and does as it is told.
 class Emission {
  public:
+  /// Takes the emitters of a scene, before anything else and after restore().
   void configure(const Scene& scene);
 
-  /// After `step` steps, colliders in these poses: sinks take, lives end, emitters emit. Ids from `next_id` on are
-  /// given out. Costs nothing in a scene with no emitters and no sinks.
+  /// After `step` (> 0) steps of the scene that it was configured for, its colliders in these poses: sinks take, lives
+  /// end, emitters emit. Ids from `next_id` on are given out. Costs nothing in a scene with no emitters and no sinks.
   void end_step(const Scene& scene, std::int64_t step, std::span<const ColliderPose> poses, Backend& backend,
                 std::uint64_t& next_id);
 
   EmissionState state() const;
+  /// Goes on from a state that check_state() finds nothing wrong with.
   void restore(EmissionState state);
 
  private:

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <set>
 
+#include "hooke/base/assert.h"
 #include "hooke/core/births.h"
 #include "hooke/core/free_space.h"
 #include "hooke/core/placed_colliders.h"
@@ -139,6 +140,7 @@ std::vector<Finding> check_places_of_birth(const Scene& scene) {
 double expected_population(const Emitter& emitter, double seconds) {
   double most = std::max(0.0, std::min(seconds, emitter.stop) - emitter.start);
   if (emitter.life && !emitter.respawn) {
+    HOOKE_ASSERT(emitter.decay.least > 0, emitter.name, emitter.decay.least);
     const double mean = (emitter.life->least + emitter.life->most) / (emitter.decay.least + emitter.decay.most);
     most = std::min(most, 1.2 * mean);
   }

@@ -18,7 +18,7 @@ namespace hooke {
 struct Gust {
   Vec3d amplitude{0, 0, 0};  ///< m/s
   double frequency = 1;      ///< Hz, >= 0
-  double wavelength = 0;     ///< m, > 0; 0: everywhere at once
+  double wavelength = 0;     ///< m, > 0, of a wind that is not 0; 0: everywhere at once
 };
 
 /// A medium that moves.

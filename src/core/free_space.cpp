@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/hash.h"
 
 namespace hooke {
@@ -33,9 +34,14 @@ FreeSpace::FreeSpace(const Scene& scene, std::size_t material, std::span<const P
       colliders_(colliders),
       interacts_(scene.materials[material].interacts),
       radius_(scene.materials[material].radius),
-      reach_(kClear * (radius_ + largest_radius_of_those_that_touch(scene))) {}
+      reach_(kClear * (radius_ + largest_radius_of_those_that_touch(scene))) {
+  HOOKE_ASSERT(scene.materials[material].is_of_particles(), scene.materials[material].name);
+}
 
-void FreeSpace::add(const Occupant& occupant) { add_images(occupant, 0); }
+void FreeSpace::add(const Occupant& occupant) {
+  HOOKE_ASSERT(occupant.radius > 0, occupant.radius, occupant.position);
+  add_images(occupant, 0);
+}
 
 // Across periodic faces, too.
 void FreeSpace::add_images(Occupant occupant, int axis) {

@@ -16,13 +16,13 @@ namespace hooke {
 /// touches others, of those, by a little more than rounding takes.
 class FreeSpace {
  public:
-  /// Colliders are placed for particles of the material's radius at least.
+  /// The material (index) is one of particles. Colliders are placed for particles of its radius at least.
   FreeSpace(const Scene& scene, std::size_t material, std::span<const PlacedCollider<double>> colliders);
 
   /// How far from the centre of one of these another's can be and still touch it, m.
   double reach() const { return reach_; }
 
-  /// Somebody who touches others is there.
+  /// Somebody who touches others is there, in or near the domain.
   void add(const Occupant& occupant);
 
   bool has_room_at(const Vec3d& x) const;

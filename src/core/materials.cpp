@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "hooke/base/assert.h"
+
 namespace hooke {
 
 ContactCoefficients<double> mix(const ContactCoefficients<double>& a, const ContactCoefficients<double>& b) {
@@ -33,6 +35,7 @@ ContactTable::ContactTable(std::span<const Material> materials, std::span<const 
     }
   }
   for (const ContactEntry& entry : entries) {
+    HOOKE_ASSERT(entry.a < n && (entry.b < n || entry.b == ContactEntry::kWall), entry.a, entry.b, n);
     const ContactLaw<double> law{entry.coefficients, entry.surface};
     if (entry.b == ContactEntry::kWall) {
       wall_[entry.a] = law;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hooke/base/assert.h"
 #include "hooke/physics/contact.h"
 
 namespace hooke {
@@ -56,8 +57,15 @@ class ContactTable {
   ContactTable(std::span<const Material> materials, std::span<const ContactEntry> entries);
 
   std::size_t material_count() const { return wall_.size(); }
-  const ContactLaw<double>& pair(std::size_t a, std::size_t b) const { return pairs_[a * wall_.size() + b]; }
-  const ContactLaw<double>& wall(std::size_t a) const { return wall_[a]; }
+  /// Of materials < material_count().
+  const ContactLaw<double>& pair(std::size_t a, std::size_t b) const {
+    HOOKE_ASSERT(a < material_count() && b < material_count(), a, b, material_count());
+    return pairs_[a * wall_.size() + b];
+  }
+  const ContactLaw<double>& wall(std::size_t a) const {
+    HOOKE_ASSERT(a < material_count(), a, material_count());
+    return wall_[a];
+  }
   /// Of material `a` against a collider of material `b`; without one the wall's.
   const ContactLaw<double>& collider(std::size_t a, std::optional<std::size_t> b) const {
     return b ? pair(a, *b) : wall(a);

@@ -6,6 +6,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "hooke/base/ascending.h"
+#include "hooke/base/assert.h"
+#include "hooke/core/scene.h"
+
 namespace hooke {
 namespace {
 
@@ -36,7 +40,14 @@ void ParticleSet::resize(std::size_t n) {
 
 void ParticleSet::clear() { *this = ParticleSet{}; }
 
+bool ParticleSet::columns_fit() const {
+  const std::size_t n = size();
+  return material.size() == n && position.size() == n && velocity.size() == n &&
+         (acceleration.empty() || acceleration.size() == n);
+}
+
 void ParticleSet::sort_by_id() {
+  HOOKE_ASSERT(columns_fit(), id.size(), material.size(), position.size(), velocity.size(), acceleration.size());
   if (std::is_sorted(id.begin(), id.end())) return;
   std::vector<std::size_t> order(size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -51,12 +62,19 @@ void ParticleSet::sort_by_id() {
 }
 
 std::size_t ParticleSet::find(std::uint64_t particle_id) const {
+  HOOKE_ASSERT(id.empty() || id.front() <= id.back(), id.front(), id.back());  // to look at all would take too long
   // Most often ids are consecutive numbers.
   if (!id.empty() && id.back() - id.front() == size() - 1) {
     return particle_id >= id.front() && particle_id <= id.back() ? particle_id - id.front() : size();
   }
   const auto found = std::lower_bound(id.begin(), id.end(), particle_id);
   return found != id.end() && *found == particle_id ? static_cast<std::size_t>(found - id.begin()) : size();
+}
+
+bool are_particles_of(const ParticleSet& particles, const Scene& scene) {
+  const auto is_known = [&](std::uint16_t material) { return material < scene.materials.size(); };
+  return particles.columns_fit() && is_ascending(particles.id) &&
+         std::all_of(particles.material.begin(), particles.material.end(), is_known);
 }
 
 }  // namespace hooke

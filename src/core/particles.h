@@ -10,6 +10,8 @@
 
 namespace hooke {
 
+struct Scene;
+
 /// Particles on the host, one entry of every column a particle, in ascending order of id. Values that a
 /// single-precision back end holds are exact in these doubles.
 struct ParticleSet {
@@ -24,10 +26,17 @@ struct ParticleSet {
   void reserve(std::size_t n);
   void resize(std::size_t n);
   void clear();
-  /// Puts the columns into ascending order of id (a stable permutation).
+  /// Whether all columns are of the same length; accelerations may be left out.
+  bool columns_fit() const;
+
+  /// Puts the columns, which fit, into ascending order of id (a stable permutation).
   void sort_by_id();
-  /// Index of the particle of this id, or size() where there is none. O(log n).
+  /// Index of the particle of this id, or size() where there is none, in a set in ascending order. O(log n).
   std::size_t find(std::uint64_t particle_id) const;
 };
+
+/// Whether the columns fit, ids ascend, and materials are the scene's: what all functions rely on that take both a
+/// scene and its particles.
+bool are_particles_of(const ParticleSet& particles, const Scene& scene);
 
 }  // namespace hooke

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "hooke/base/assert.h"
 #include "hooke/core/colliders.h"
 #include "hooke/core/scene.h"
 #include "hooke/physics/collider.h"
@@ -30,9 +31,10 @@ ShapeGeometry<S> rounded(const ShapeGeometry<double>& g) {
 
 }  // namespace detail
 
-/// A collider where it is, in a back end's number type. `reach`: no further from a particle's centre it acts, m.
+/// A collider where it is, in a back end's number type. `reach` (m, >= 0): no further from a particle's centre it acts.
 template <class S>
 PlacedCollider<S> place_collider(const Collider& collider, const ColliderPose& pose, double reach) {
+  HOOKE_ASSERT(reach >= 0, collider.name, reach);
   PlacedCollider<S> placed;
   const Vec3d pivot = pivot_of(collider);
   placed.shape = detail::rounded<S>(geometry_of(collider.shape, collider.hollow, pivot));
@@ -63,11 +65,12 @@ struct PlacedColliders {
   std::vector<std::uint32_t> of;  ///< the index in the scene of each
 };
 
-/// `reach` as above. Images are what can be touched inside of the domain: of a collider that is shorter along a
-/// periodic axis than the domain, where it may have moved on across the face. A longer one, as a plane is, spans the
-/// domain, and is there once, as it is.
+/// A pose for each collider; `reach` as above. Images are what can be touched inside of the domain: of a collider that
+/// is shorter along a periodic axis than the domain, where it may have moved on across the face. A longer one, as a
+/// plane is, spans the domain, and is there once, as it is.
 template <class S>
 PlacedColliders<S> place_colliders(const Scene& scene, std::span<const ColliderPose> poses, double reach) {
+  HOOKE_ASSERT(poses.size() == scene.colliders.size(), poses.size(), scene.colliders.size());
   PlacedColliders<S> placed;
   for (std::uint32_t c = 0; c < poses.size(); ++c) {
     const Collider& collider = scene.colliders[c];

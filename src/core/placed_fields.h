@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/sine.h"
 #include "hooke/core/scene.h"
 #include "hooke/physics/field.h"
@@ -23,7 +24,10 @@ class PlacedField {
       max_ = vec_cast<Real>(field.within->max);
     }
     std::vector<char> chosen(scene.materials.size(), field.materials.empty() ? 1 : 0);
-    for (const std::size_t m : field.materials) chosen[m] = 1;
+    for (const std::size_t m : field.materials) {
+      HOOKE_ASSERT(m < chosen.size(), m, chosen.size());
+      chosen[m] = 1;
+    }
     for (std::size_t m = 0; m < chosen.size(); ++m) {
       feels_.push_back(
           {chosen[m] != 0, static_cast<Real>(scene.materials[m].mass), static_cast<Real>(scene.materials[m].drag)});
@@ -84,6 +88,7 @@ class PlacedField {
     const double turns = wind.gust->frequency * time;
     amplitude_ = vec_cast<Real>(wind.gust->amplitude);
     if (wind.gust->wavelength > 0) {
+      HOOKE_ASSERT(dot(wind.velocity, wind.velocity) > 0, wind.velocity, wind.gust->wavelength);
       travels_ = true;
       turns_ = turns - std::floor(turns);
       turns_a_metre_ = (1 / (wind.gust->wavelength * std::sqrt(dot(wind.velocity, wind.velocity)))) * wind.velocity;

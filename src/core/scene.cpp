@@ -9,6 +9,8 @@
 #include <cmath>
 #include <set>
 
+#include "hooke/base/assert.h"
+
 namespace hooke {
 namespace {
 
@@ -142,6 +144,8 @@ void check_camera(const SceneCamera& camera, Checker& check) {
 }  // namespace
 
 bool OutputCadence::is_due(std::int64_t step, double dt) const {
+  HOOKE_ASSERT(step >= 0 && dt > 0, step, dt);
+  HOOKE_ASSERT(seconds >= 0 && steps >= 0, seconds, steps);
   if (step == 0) return true;
   if (steps > 0) return step % steps == 0;
   if (!(seconds > 0)) return false;

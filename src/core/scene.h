@@ -58,7 +58,7 @@ struct OutputCadence {
   double seconds = 0;      ///< > 0, or 0 where `steps` rules
   std::int64_t steps = 0;  ///< >= 1, or 0 where `seconds` rules
 
-  /// Whether the state after `step` steps of `dt` (s) is to be written. Step 0 always is.
+  /// Whether the state after `step` (>= 0) steps of `dt` (s, > 0) is to be written. Step 0 always is.
   bool is_due(std::int64_t step, double dt) const;
 };
 

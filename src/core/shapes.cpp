@@ -9,6 +9,8 @@
 #include <cmath>
 #include <limits>
 
+#include "hooke/base/assert.h"
+
 namespace hooke {
 namespace {
 
@@ -33,12 +35,14 @@ Vec3d across(const Vec3d& axis) {
 }
 
 void set_axis(ShapeGeometry<double>& g, const Vec3d& along) {
+  HOOKE_ASSERT(length_of(along) > 0, along);
   g.axis = (1 / length_of(along)) * along;
   g.across = across(g.axis);
 }
 
 template <class LongShape>
 void set_long(ShapeGeometry<double>& g, const LongShape& s, const Vec3d& origin) {
+  HOOKE_ASSERT(s.radius > 0, s.radius);
   g.center = 0.5 * (s.from + s.to) - origin;
   set_axis(g, s.to - s.from);
   g.half_length = 0.5 * length_of(s.to - s.from);
@@ -47,6 +51,7 @@ void set_long(ShapeGeometry<double>& g, const LongShape& s, const Vec3d& origin)
 
 // How far a disc reaches along each axis from its centre.
 Vec3d reach_of_disc(const Vec3d& normal, double radius) {
+  HOOKE_ASSERT(length_of(normal) > 0 && radius > 0, normal, radius);
   const Vec3d n = (1 / length_of(normal)) * normal;
   const auto reach = [radius](double c) { return radius * std::sqrt(std::max(0.0, 1 - c * c)); };
   return {reach(n.x), reach(n.y), reach(n.z)};
@@ -100,7 +105,10 @@ ShapeBounds bounds_of(const Shape& shape) {
                  [&](const CapsuleShape& s) { return around(s.from, s.to, all_ways(s.radius)); },
                  [&](const CylinderShape& s) { return around(s.from, s.to, reach_of_disc(s.to - s.from, s.radius)); },
                  [&](const DiscShape& s) { return around(s.center, s.center, reach_of_disc(s.normal, s.radius)); },
-                 [&](const MeshShape& s) { return ShapeBounds{s.field->min, s.field->max}; }},
+                 [&](const MeshShape& s) {
+                   HOOKE_ASSERT(s.field != nullptr);
+                   return ShapeBounds{s.field->min, s.field->max};
+                 }},
       shape);
 }
 
@@ -119,11 +127,13 @@ ShapeGeometry<double> geometry_of(const Shape& shape, bool hollow, const Vec3d& 
                           set_axis(g, s.normal);
                         },
                         [&](const BoxShape& s) {
+                          HOOKE_ASSERT(s.min.x < s.max.x && s.min.y < s.max.y && s.min.z < s.max.z, s.min, s.max);
                           g.kind = ShapeKind::box;
                           g.center = 0.5 * (s.min + s.max) - origin;
                           g.half = 0.5 * (s.max - s.min);
                         },
                         [&](const SphereShape& s) {
+                          HOOKE_ASSERT(s.radius > 0, s.radius);
                           g.kind = ShapeKind::sphere;
                           g.center = s.center - origin;
                           g.radius = s.radius;
@@ -137,12 +147,14 @@ ShapeGeometry<double> geometry_of(const Shape& shape, bool hollow, const Vec3d& 
                           set_long(g, s, origin);
                         },
                         [&](const DiscShape& s) {
+                          HOOKE_ASSERT(s.radius > 0, s.radius);
                           g.kind = ShapeKind::disc;
                           g.center = s.center - origin;
                           set_axis(g, s.normal);
                           g.radius = s.radius;
                         },
                         [&](const MeshShape& s) {
+                          HOOKE_ASSERT(s.field != nullptr);
                           g.kind = ShapeKind::mesh;
                           g.center = s.field->origin - origin;
                           g.field = s.field->view();

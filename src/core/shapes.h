@@ -15,7 +15,8 @@
 
 namespace hooke {
 
-// Shapes as scenes describe them, of colliders and of whatever else takes a part of space. Lengths in metres.
+// Shapes as scenes describe them, of colliders and of whatever else takes a part of space. Lengths in metres. All
+// functions but validate() want shapes as these comments say they are.
 
 struct PlaneShape {
   Vec3d point{0, 0, 0};

@@ -9,6 +9,8 @@
 #include <new>
 #include <utility>
 
+#include "hooke/base/ascending.h"
+#include "hooke/base/assert.h"
 #include "hooke/base/floating_point.h"
 #include "hooke/base/hash.h"
 #include "hooke/core/step.h"
@@ -261,6 +263,7 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 Expected<Simulation> Simulation::create(Scene scene, ParticleSet particles, std::unique_ptr<Backend> backend) {
+  HOOKE_ASSERT(backend != nullptr);
   const FloatingPointGuard guard;
   std::vector<Finding> findings = validate(scene);
   if (findings.empty()) findings = check_particles(scene, particles, false);
@@ -284,6 +287,7 @@ Expected<Simulation> Simulation::create(Scene scene, ParticleSet particles, std:
 }
 
 Expected<Simulation> Simulation::resume(Scene scene, SimulationState state, std::unique_ptr<Backend> backend) {
+  HOOKE_ASSERT(backend != nullptr);
   const FloatingPointGuard guard;
   std::vector<Finding> findings = validate(scene);
   if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});
@@ -472,7 +476,9 @@ Expected<void> Simulation::restore(SimulationState state) {
   const auto& structure = s.scene.structure ? s.scene.structure : state.structure;
   if (structure && findings.empty()) findings = validate(*structure, s.single());
   const std::size_t springs = structure ? structure->springs.size() : 0;
-  if (!state.broken_springs.empty() && state.broken_springs.back() >= springs) {
+  if (!is_ascending(state.broken_springs)) {
+    findings.push_back({"broken_springs", "indices must be unique and ascending"});
+  } else if (!state.broken_springs.empty() && state.broken_springs.back() >= springs) {
     findings.push_back(
         {"broken_springs", fmt::format("{} is no spring; there are {}", state.broken_springs.back(), springs)});
   }

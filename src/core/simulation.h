@@ -48,8 +48,8 @@ struct NewParticle {
 /// calls, the back end uses as many as it was given.
 class Simulation {
  public:
-  /// Checks scene and particles (ids unique and ascending, materials known, everything finite) and hands
-  /// them to the back end. Error::Kind::bad_input with every finding otherwise.
+  /// `backend` is not null. Checks scene and particles (ids unique and ascending, materials known, everything finite)
+  /// and hands them to the back end. Error::Kind::bad_input with every finding otherwise.
   static Expected<Simulation> create(Scene scene, ParticleSet particles, std::unique_ptr<Backend> backend);
 
   /// Goes on from a saved state: the same bits as if it had never stopped.
@@ -65,7 +65,7 @@ class Simulation {
 
   const Scene& scene() const;
   std::int64_t step_count() const;  ///< steps done since the start
-  double time() const;              ///< step_count * time_step, s
+  double time() const;  ///< step_count * time_step, s
   std::uint64_t particle_count() const;
   std::uint64_t next_id() const;
   BackendInfo backend_info() const;
@@ -77,7 +77,7 @@ class Simulation {
   /// The first look after a step copies them from the back end.
   const ParticleSet& particles() const;
   std::span<const std::uint64_t> ids() const;
-  std::span<const Vec3d> positions() const;   ///< m
+  std::span<const Vec3d> positions() const;  ///< m
   std::span<const Vec3d> velocities() const;  ///< m/s
 
   /// Adds particles; their ids, in order. Materials must exist, values be finite, positions inside the domain.

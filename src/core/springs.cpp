@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/base/ascending.h"
+#include "hooke/base/assert.h"
 #include "hooke/core/particles.h"
 
 namespace hooke {
@@ -74,6 +76,7 @@ void SpringSet::push_back(const Spring& spring) {
 }
 
 Spring SpringSet::operator[](std::size_t i) const {
+  HOOKE_ASSERT(i < size(), i, size());
   return {a[i], b[i], rest_length[i], stiffness[i], damping[i], break_strain[i], mode[i], contact[i] != 0};
 }
 
@@ -102,6 +105,7 @@ std::vector<Finding> validate(const Structure& structure, bool single) {
 }
 
 std::vector<Finding> check_ids(const Structure& structure, const ParticleSet& particles) {
+  HOOKE_ASSERT(is_ascending(particles.id), particles.size());
   std::vector<Finding> findings;
   const auto check = [&](std::uint64_t id, const auto& where) {
     if (findings.size() >= kMostFindings || particles.find(id) != particles.size()) return;

@@ -46,7 +46,7 @@ struct SpringSet {
   bool empty() const { return a.empty(); }
   void reserve(std::size_t n);
   void push_back(const Spring& spring);
-  Spring operator[](std::size_t i) const;
+  Spring operator[](std::size_t i) const;  ///< i < size()
 
   friend bool operator==(const SpringSet&, const SpringSet&) = default;
 };
@@ -83,7 +83,7 @@ struct Structure {
 /// `single` asks that values survive the rounding to float.
 std::vector<Finding> validate(const Structure& structure, bool single);
 
-/// What of it does not fit `particles`: ids that there are none of.
+/// What of it does not fit `particles`, in ascending order of id: ids that there are none of.
 std::vector<Finding> check_ids(const Structure& structure, const ParticleSet& particles);
 
 }  // namespace hooke

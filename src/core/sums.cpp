@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/base/assert.h"
 #include "hooke/physics/contact.h"
 
 namespace hooke {
@@ -27,6 +28,7 @@ void SpringSums::add(const SpringSums& other) {
 }
 
 void AppliedSums::add_held(double mass, const Vec3d& held, const Vec3d& kicked, double seconds) {
+  HOOKE_ASSERT(mass > 0 && seconds > 0, mass, seconds);
   const Vec3d given = (mass / seconds) * (held - kicked);
   Rates& hold = (*this)[Cause::hold];
   hold.force.add(given);
@@ -74,6 +76,7 @@ StepRates first_rates(const StepSums& start, const AppliedSums* applied, const V
 
 void book_step(Ledger& ledger, const StepSums& now, const AppliedSums* applied, const Vec3d& gravity, double mass,
                double dt, Integrator integrator) {
+  HOOKE_ASSERT(dt > 0 && mass >= 0, dt, mass);
   const auto book = [&ledger](const StepRates& rates, double seconds) {
     for (std::size_t cause = 0; cause < kCauses; ++cause) {
       ledger.work.of[cause] += seconds * rates.power.of[cause];
@@ -139,6 +142,7 @@ void ColliderLoadSums::add(const ColliderLoadSums& other) {
 }
 
 std::vector<ColliderLoad> ColliderLoadSums::result(std::size_t count) const {
+  HOOKE_ASSERT(loads_.empty() || loads_.rbegin()->first < count, loads_.rbegin()->first, count);
   std::vector<ColliderLoad> all(count);
   for (const auto& [index, load] : loads_) all[index] = {load.force.value(), load.torque.value(), load.contacts};
   return all;
@@ -164,6 +168,7 @@ void MeasurementSums::add_particle(double mass, const Vec3d& x, const Vec3d& v, 
 }
 
 void MeasurementSums::add_contact_side(const ContactLaw<double>& law, double overlap, double reach) {
+  HOOKE_ASSERT(reach > 0, reach);
   elastic_.add(0.5 * contact_energy(overlap, law));
   if (!(overlap > 0)) return;
   ++contact_sides_;

@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/exact_sum.h"
 #include "hooke/core/backend.h"
 
@@ -57,10 +58,17 @@ struct AppliedSums {
     ExactVectorSum force;  ///< N
   };
 
-  Rates& operator[](Cause cause) { return of[static_cast<std::size_t>(cause) - kPassCauses]; }
-  const Rates& operator[](Cause cause) const { return of[static_cast<std::size_t>(cause) - kPassCauses]; }
+  /// Of an applied cause.
+  Rates& operator[](Cause cause) {
+    HOOKE_ASSERT(static_cast<std::size_t>(cause) >= kPassCauses, cause);
+    return of[static_cast<std::size_t>(cause) - kPassCauses];
+  }
+  const Rates& operator[](Cause cause) const {
+    HOOKE_ASSERT(static_cast<std::size_t>(cause) >= kPassCauses, cause);
+    return of[static_cast<std::size_t>(cause) - kPassCauses];
+  }
 
-  /// A held particle, which kept its velocity `held` in place of `kicked` (m/s) over `seconds`.
+  /// A held particle, which kept its velocity `held` in place of `kicked` (m/s) over `seconds` (> 0).
   void add_held(double mass, const Vec3d& held, const Vec3d& kicked, double seconds);
   void add(const AppliedSums& other);
 
@@ -68,9 +76,9 @@ struct AppliedSums {
   SpringSums springs;
 };
 
-/// Books what an evaluation did in one step of `dt` (s); gravity (m/s^2) pulls at `mass` (kg) in all. Symplectic Euler
-/// kicks once, by dt; velocity Verlet by half a dt with the last evaluation's forces, and by half a dt with these.
-/// `applied` is null where the scene has no such causes.
+/// Books what an evaluation did in one step of `dt` (s, > 0); gravity (m/s^2) pulls at `mass` (kg) in all. Symplectic
+/// Euler kicks once, by dt; velocity Verlet by half a dt with the last evaluation's forces, and by half a dt with
+/// these. `applied` is null where the scene has no such causes.
 void book_step(Ledger& ledger, const StepSums& now, const AppliedSums* applied, const Vec3d& gravity, double mass,
                double dt, Integrator integrator);
 
@@ -100,7 +108,7 @@ class ColliderLoadSums {
   /// A particle that touches collider `index` at `point` (m, from the pivot) and gets `force` (N) from it.
   void add_contact(std::size_t index, const Vec3d& point, const Vec3d& force);
   void add(const ColliderLoadSums& other);
-  /// One entry a collider, of `count`.
+  /// One entry a collider, of `count`, above all indices that were added.
   std::vector<ColliderLoad> result(std::size_t count) const;
 
  private:
@@ -116,7 +124,7 @@ class MeasurementSums {
  public:
   void add_particle(double mass, const Vec3d& x, const Vec3d& v, const Vec3d& gravity);
   /// One side of a contact between particles, which cohesion may hold across a gap: call for each of the two. `reach`
-  /// is r_i + r_p, m.
+  /// is r_i + r_p, m, > 0.
   void add_contact_side(const ContactLaw<double>& law, double overlap, double reach);
   void add_wall_contact(const ContactLaw<double>& law, double overlap, const Vec3d& force);
   /// A particle that touches collider `index` at `point` (m, from the pivot) and gets `force` (N) from it.

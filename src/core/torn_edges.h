@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "hooke/base/assert.h"
 #include "hooke/core/nearest_displacement.h"
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
@@ -23,6 +24,7 @@ namespace hooke {
 class TornEdges {
  public:
   explicit TornEdges(const Scene& scene) : scene_(scene) {
+    HOOKE_ASSERT(scene.structure != nullptr);
     const SpringSet& springs = scene.structure->springs;
     for (std::size_t s = 0; s < springs.size(); ++s) {
       if (springs.break_strain[s] < std::numeric_limits<double>::infinity()) edges_.push_back(s);
@@ -32,6 +34,7 @@ class TornEdges {
 
   /// Whether a triangle of these particles (indices into the set) has a torn edge.
   bool any_of(const std::size_t (&corners)[3], const ParticleSet& p) const {
+    for (const std::size_t corner : corners) HOOKE_ASSERT(corner < p.size(), corner, p.size());
     return is_torn(corners[0], corners[1], p) || is_torn(corners[1], corners[2], p) ||
            is_torn(corners[2], corners[0], p);
   }

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstddef>
 
+#include "hooke/base/assert.h"
+
 namespace hooke {
 
 /// What works on the particles: the parts into which the change of their kinetic energy divides.
@@ -31,8 +33,14 @@ template <class T, std::size_t kCount = kCauses>
 struct ByCause {
   std::array<T, kCount> of{};
 
-  T& operator[](Cause cause) { return of[static_cast<std::size_t>(cause)]; }
-  const T& operator[](Cause cause) const { return of[static_cast<std::size_t>(cause)]; }
+  T& operator[](Cause cause) {
+    HOOKE_ASSERT(static_cast<std::size_t>(cause) < kCount, cause, kCount);
+    return of[static_cast<std::size_t>(cause)];
+  }
+  const T& operator[](Cause cause) const {
+    HOOKE_ASSERT(static_cast<std::size_t>(cause) < kCount, cause, kCount);
+    return of[static_cast<std::size_t>(cause)];
+  }
 
   friend bool operator==(const ByCause&, const ByCause&) = default;
 };

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
 
 namespace hooke {
@@ -16,6 +17,8 @@ void CellGrid::lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic
   for (int i = 0; i < 3; ++i) {
     Axis& a = axes_[i];
     const double length = component(max, i) - component(min, i);
+    HOOKE_ASSERT(std::isfinite(length) && length >= 0, i, min, max);
+    HOOKE_ASSERT(component(reach, i) > 0, i, reach);
     const double cells = std::floor(length / component(reach, i));
     a.periodic = periodic[i];
     a.origin = component(min, i);
@@ -31,6 +34,7 @@ void CellGrid::lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic
 }
 
 std::size_t CellGrid::neighbour_ranges(std::uint64_t key, KeyRange (&out)[kMostRanges], int more) const {
+  HOOKE_ASSERT(key < key_end() && more >= 0, key, key_end(), more);
   const auto k = static_cast<std::int64_t>(key);
   const std::int64_t rows_y = axes_[1].count + 2;
   const std::int64_t row = k / stride_y_;
@@ -90,6 +94,7 @@ using Histogram = std::array<std::uint32_t, kDigits>;
 
 void sort_by_key(std::vector<std::uint64_t>& keys, std::vector<std::uint32_t>& order, std::span<std::byte> scratch) {
   const std::size_t n = keys.size();
+  HOOKE_ASSERT(n <= std::uint64_t{1} << 32U, n);
   order.resize(n);
   for (std::size_t i = 0; i < n; ++i) order[i] = static_cast<std::uint32_t>(i);
 

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/vec3.h"
 #include "hooke/neighbours/window_search.h"
 
@@ -34,8 +35,9 @@ class CellGrid {
 
   static constexpr std::int64_t kMaxCells = 1 << 20;            ///< an axis; beyond that cells grow
 
-  /// Lays the grid over the box [min, max] (m) with cells no smaller than `reach` (m, > 0): points nearer to each other
-  /// than that are in the same or in adjacent cells. A periodic axis covers its whole period min to max.
+  /// Lays the grid over the box [min, max] (m, finite, min no greater than max) with cells no smaller than `reach` (m,
+  /// > 0): points nearer to each other than that are in the same or in adjacent cells. A periodic axis covers its whole
+  /// period min to max.
   void lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic)[3], double reach) {
     lay_out(min, max, periodic, Vec3d{reach, reach, reach});
   }
@@ -44,6 +46,7 @@ class CellGrid {
 
   /// Number of the cell of a finite point; points outside the box count to its edge cells.
   std::uint64_t key_of(const Vec3d& x) const {
+    HOOKE_ASSERT(is_finite(x), x);
     return static_cast<std::uint64_t>(index_of(x.x, 0) + stride_y_ * index_of(x.y, 1) + stride_z_ * index_of(x.z, 2));
   }
 
@@ -51,6 +54,8 @@ class CellGrid {
   /// vectorise.
   template <class Real>
   void keys_of(const Columns<Real>& points, std::size_t first, std::size_t last, std::uint32_t* keys) const {
+    HOOKE_ASSERT(first <= last, first, last);
+    HOOKE_ASSERT(key_end() <= std::uint64_t{1} << 32U, key_end());
     std::fill(keys, keys + (last - first), 0U);
     const Real* const columns[] = {points.x + first, points.y + first, points.z + first};
     const std::int64_t strides[] = {1, stride_y_, stride_z_};
@@ -70,6 +75,7 @@ class CellGrid {
   /// layer walked backwards, so that cells with consecutive numbers are adjacent. Layers lie across the longest axis:
   /// they are the smallest, and adjacent ones are close to each other in memory.
   std::uint64_t path_key_of(const Vec3d& x) const {
+    HOOKE_ASSERT(is_finite(x), x);
     const auto index = [&](int axis) { return index_of(component(x, axis), axis); };
     const Row row = row_at(index(path_[1]), index(path_[2]));
     return static_cast<std::uint64_t>(row.start + mirrored(index(path_[0]), path_[0], row.backwards));
@@ -92,8 +98,9 @@ class CellGrid {
   struct KeyRange {
     std::uint64_t first, last;
   };
-  /// The cells adjacent to `key` and up to `more` cells after it in its row, themselves included, as disjoint ranges of
-  /// numbers; each cell in one of them, once. At most nine rows, each cut in two where x is periodic.
+  /// The cells adjacent to `key` (< key_end()) and up to `more` (>= 0) cells after it in its row, themselves included,
+  /// as disjoint ranges of numbers; each cell in one of them, once. At most nine rows, each cut in two where x is
+  /// periodic.
   static constexpr std::size_t kMostRanges = 18;
   std::size_t neighbour_ranges(std::uint64_t key, KeyRange (&out)[kMostRanges], int more = 0) const;
 
@@ -128,6 +135,8 @@ class CellGrid {
   const std::array<int, 3>& path() const { return path_; }
 
  private:
+  static bool is_finite(const Vec3d& x) { return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z); }
+
   std::int64_t index_of(double x, int i) const {
     const double cell = (x - axes_[i].origin) * inverse_cell_[i];
     // Bounded before the conversion, which is undefined for what no int64 holds.
@@ -181,8 +190,9 @@ class CellGrid {
 /// points after the one before; each of a cell's ranges keeps its own place.
 class KeyCursor {
  public:
-  /// Index into the ascending `keys`, keys.size() where all are less.
+  /// Index into the ascending `keys`, the same in every call; keys.size() where all are less.
   std::size_t seek(std::span<const std::uint64_t> keys, std::uint64_t key) {
+    HOOKE_ASSERT(at_ <= keys.size(), at_, keys.size());
     constexpr std::size_t kFew = 16;
     if (at_ > 0 && keys[at_ - 1] >= key) {
       at_ = static_cast<std::size_t>(std::lower_bound(keys.begin(), keys.begin() + at(), key) - keys.begin());
@@ -205,9 +215,9 @@ class KeyCursor {
   std::size_t at_ = 0;
 };
 
-/// Sorts points by key, stably: `keys` ascending afterwards, `order[k]` the index that the k-th had before. Parallel
-/// radix sort. Works in `scratch` where that is aligned to 8 bytes and holds 12 for each key; else in memory of its
-/// own.
+/// Sorts up to 2^32 points by key, stably: `keys` ascending afterwards, `order[k]` the index that the k-th had before.
+/// Parallel radix sort. Works in `scratch` where that is aligned to 8 bytes and holds 12 for each key; else in memory
+/// of its own.
 void sort_by_key(std::vector<std::uint64_t>& keys, std::vector<std::uint32_t>& order,
                  std::span<std::byte> scratch = {});
 

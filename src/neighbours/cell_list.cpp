@@ -7,6 +7,8 @@
 #include <array>
 #include <utility>
 
+#include "hooke/base/assert.h"
+
 namespace hooke {
 
 void CellList::lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic)[3], std::span<const Level> levels,
@@ -14,6 +16,7 @@ void CellList::lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic
   levels_.clear();
   key_end_ = 0;
   for (const Level& level : levels) {
+    HOOKE_ASSERT(level.cell > 0 && level.largest_radius >= 0, level.cell, level.largest_radius);
     levels_.push_back({CellGrid{}, level.largest_radius, key_end_});
     Vec3d reach{level.cell, level.cell, level.cell};
     component(reach, CellGrid::path_axes(min, max)[0]) /= kCellsAlongRow;
@@ -27,6 +30,7 @@ void CellList::lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic
 }
 
 CellList::Room CellList::make_room(std::size_t count, std::span<std::byte> scratch) {
+  HOOKE_ASSERT(count <= std::uint64_t{1} << 32U, count);
   const std::size_t needed = count * (sizeof(std::uint64_t) + sizeof(KeyedPoint));
   if (scratch.size() < needed || reinterpret_cast<std::uintptr_t>(scratch.data()) % alignof(KeyedPoint) != 0) {
     own_room_.resize(needed / sizeof(std::uint64_t));
@@ -54,7 +58,10 @@ void CellList::sort_keys(const Room& room, std::vector<std::uint32_t>& order) {
     for (std::size_t block = first; block < last; ++block) {
       starts[block].fill(0);
       const std::size_t end = std::min((block + 1) * kBlock, count);
-      for (std::size_t i = block * kBlock; i < end; ++i) ++starts[block][room.keys[i] >> part_shift];
+      for (std::size_t i = block * kBlock; i < end; ++i) {
+        HOOKE_ASSERT(room.keys[i] <= key_end_, i, room.keys[i], key_end_);
+        ++starts[block][room.keys[i] >> part_shift];
+      }
     }
   });
   std::vector<std::uint32_t> part_start(parts + 1, 0);
@@ -128,6 +135,7 @@ std::uint32_t CellList::first_in_slot(std::uint64_t slot, std::uint64_t key) con
 }
 
 std::size_t CellList::find(std::size_t level, const Vec3d& min, const Vec3d& max, std::vector<SearchRange>& out) const {
+  HOOKE_ASSERT(level < level_count(), level, level_count());
   std::size_t points = 0;
   for_ranges(level, min, max, [&](const SearchRange& range) {
     out.push_back(range);

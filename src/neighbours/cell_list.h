@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
 #include "hooke/base/vec3.h"
 #include "hooke/neighbours/cell_grid.h"
@@ -30,20 +31,22 @@ class CellList {
     double cell = 1;  ///< m, > 0: what cells are wide, or a little more; half of it along rows
   };
 
-  /// Lays grids over the box [min, max] (m), for up to `most_points` points; those outside count to the cells at its
-  /// edge. A periodic axis covers its whole period.
+  /// Lays grids over the box [min, max] (m, finite, min no greater than max), for up to `most_points` points; those
+  /// outside count to the cells at its edge. A periodic axis covers its whole period.
   void lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic)[3], std::span<const Level> levels,
                std::size_t most_points);
 
   /// Number of the cell of a finite point of a level.
   std::uint64_t key_of(const Vec3d& x, std::size_t level) const {
+    HOOKE_ASSERT(level < level_count(), level, level_count());
     return levels_[level].first_key + levels_[level].grid.path_key_of(x);
   }
   /// The key of points that take no part: they are sorted last.
   std::uint64_t key_end() const { return key_end_; }
 
-  /// Sorts points 0 to count - 1 by key_of_point(i), stably: afterwards order[k] is the index that the k-th had before.
-  /// Works in `scratch` where that is aligned to 8 bytes and holds 24 for each point; else in memory of its own.
+  /// Sorts points 0 to count - 1, up to 2^32, by key_of_point(i), a key or key_end(), stably: afterwards order[k] is
+  /// the index that the k-th had before. Works in `scratch` where that is aligned to 8 bytes and holds 24 for each
+  /// point; else in memory of its own.
   template <class KeyOfPoint>
   void sort(std::size_t count, const KeyOfPoint& key_of_point, std::vector<std::uint32_t>& order,
             std::span<std::byte> scratch = {}) {

@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
 #include "hooke/base/vec3.h"
 #include "hooke/neighbours/cell_grid.h"
@@ -37,8 +38,8 @@ template <class Real>
 class MotionBounds {
  public:
   struct Limits {
-    double diameter = 1;  ///< m, the largest
-    double skin = 0;  ///< m, less what rounding may take
+    double diameter = 1;  ///< m, > 0, the largest
+    double skin = 0;  ///< m, >= 0, less what rounding may take
     bool periodic[3]{};
     Vec3d min{}, max{};  ///< m, box around the points; of a periodic axis its whole period
   };
@@ -56,8 +57,11 @@ class MotionBounds {
     Real count{};
   };
 
-  /// Takes the places of the points when the list was built, m, in cell order; `group` consecutive ones are a group.
+  /// Takes the places of the points when the list was built, m, in cell order; `group` (> 0) consecutive ones are a
+  /// group.
   void lay_out(const Columns<Real>& listed_at, std::size_t count, std::size_t group, const Limits& limits) {
+    HOOKE_ASSERT(group > 0);
+    HOOKE_ASSERT(limits.diameter > 0 && limits.skin >= 0, limits.diameter, limits.skin);
     const std::size_t most_blocks = std::max<std::size_t>(4096, count / 4);
     skin_ = limits.skin;
     double width = 4 * limits.diameter;
@@ -76,10 +80,11 @@ class MotionBounds {
     find_blocks(listed_at, count, group);
   }
 
-  /// Lets anchors follow the particles: motion(g) is the GroupMotion of group g. `anchors` has one for each group.
-  /// Returns for how many steps from now they are good; negative where they are not even now.
+  /// Lets anchors follow the particles: motion(g) is the GroupMotion of group g. `anchors` has one for each group, or
+  /// more. Returns for how many steps from now they are good; negative where they are not even now.
   template <class Motion>
   std::int64_t follow(const Motion& motion, std::span<Anchor> anchors) {
+    HOOKE_ASSERT(anchors.size() >= group_count(), anchors.size(), group_count());
     average(motion);
     for (Level& level : levels_) level.boxes.assign(level.grid.key_end(), Box{});
     place(anchors);

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/huge_pages.h"
 #include "hooke/base/parallel.h"
 #include "hooke/base/vec3.h"
@@ -42,6 +43,7 @@ class NeighbourList {
 
   /// The rows of group g of segment s.
   std::span<const std::uint32_t> rows(std::size_t s, std::size_t g) const {
+    HOOKE_ASSERT(s < segments.size() && g < kGroups, s, segments.size(), g);
     const Segment& segment = segments[s];
     const std::uint32_t first = segment.first_row[g];
     return {segment.entries + std::size_t{first} * kLanes, (segment.first_row[g + 1] - first) * kLanes};
@@ -70,8 +72,8 @@ class NeighbourList {
   /// Adds segments without rows until there are `segment_count`.
   void add_empty_segments(std::size_t segment_count) { segments.resize(std::max(segments.size(), segment_count)); }
 
-  /// Takes the rows of one segment after the other, group by group, straight to where they stay until clear(). One
-  /// thread each.
+  /// Takes the rows of one segment after the other, up to kGroups groups each, group by group, straight to where they
+  /// stay until clear(). One thread each.
   class Writer {
    public:
     explicit Writer(NeighbourList& list) : list_(list), to_(list.begun_block()) {}
@@ -82,6 +84,7 @@ class NeighbourList {
     /// Where the so many rows of the segment's next group are to be written before the next call; those of groups
     /// before may move then.
     std::uint32_t* next_group(std::size_t rows) {
+      HOOKE_ASSERT(group_ < kGroups, group_);
       const std::size_t entries = rows * kLanes;
       if (to_.size() < entries) {
         const std::size_t written = static_cast<std::size_t>(to_.data() - segment_);
@@ -164,8 +167,10 @@ class WindowSearcher {
     }
   }
 
-  /// Writes the rows of a window, the points first to end - 1.
+  /// Writes the rows of a window, the points first to end - 1: at least one, up to kWindow.
   void write_rows(std::size_t first, std::size_t end, NeighbourList::Writer& writer) {
+    HOOKE_ASSERT(first < end && end - first <= kWindow && end <= cells_.point_count(), first, end,
+                 cells_.point_count());
     ranges_.clear();
     std::size_t most = 0, block_count = 0;
     for (std::size_t i = first; i < end; i = blocks_[block_count++].last) {
@@ -280,6 +285,8 @@ template <class Real>
 void build_neighbour_list(const CellList& cells, const NeighbourRule<Real>& rule,
                           WindowSearchFunction<Real> search_window, NeighbourList& list) {
   const std::size_t count = cells.point_count();
+  HOOKE_ASSERT(search_window != nullptr);
+  HOOKE_ASSERT(count == 0 || (rule.at.x != nullptr && rule.rank != nullptr && rule.place != nullptr), count);
   list.clear((count + NeighbourList::kSegment - 1) / NeighbourList::kSegment);
 
   parallel_ranges(list.segments.size(), 1, [&](std::size_t first_segment, std::size_t last_segment) {

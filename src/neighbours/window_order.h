@@ -33,7 +33,7 @@ class WindowOrder {
     neighbour_counts_.resize(order.size());
   }
 
-  /// The slot of the p-th point in cell order.
+  /// The slot of the p-th point in cell order, of those laid out.
   std::size_t slot_of(std::size_t p) const { return p / kWindow * kWindow + places_[p]; }
   /// Which slot of its window each point in cell order lies in; 16 more can be read.
   const std::uint8_t* places() const { return places_.data(); }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "hooke/base/assert.h"
 #include "hooke/physics/shapes.h"
 
 namespace hooke {
@@ -16,6 +17,7 @@ inline constexpr std::int32_t kBrickInside = -2;
 /// Whether `at` (m, from the field's origin) is inside of the closed mesh of a field: where there are samples the
 /// distance between them is negative. Nothing is inside of an open mesh.
 inline bool encloses(const DistanceFieldView& field, const Vec3d& at) {
+  HOOKE_ASSERT(field.directory != nullptr && field.cell > 0, field.directory, field.cell);
   const Vec3d u = (1 / field.cell) * at;
   std::size_t place = 0;
   for (int axis = 2; axis >= 0; --axis) {

@@ -4,17 +4,21 @@
 
 #include <cmath>
 
+#include "hooke/base/assert.h"
+
 namespace hooke {
 
-/// m_i m_p / (m_i + m_p), kg. A partner of infinite mass gives the other's mass.
+/// m_i m_p / (m_i + m_p), kg, of masses > 0. A partner of infinite mass gives the other's mass.
 inline double effective_mass(double mass_i, double mass_p) {
+  HOOKE_ASSERT(mass_i > 0 && mass_p > 0, mass_i, mass_p);
   if (std::isinf(mass_i)) return mass_p;
   if (std::isinf(mass_p)) return mass_i;
   return mass_i * mass_p / (mass_i + mass_p);
 }
 
-/// c / (2 sqrt(k m_eff)): 1 is critical damping; 0 where there is no spring.
+/// c / (2 sqrt(k m_eff)), with m_eff > 0: 1 is critical damping; 0 where there is no spring.
 inline double damping_ratio(double damping, double stiffness, double m_eff) {
+  HOOKE_ASSERT(m_eff > 0, m_eff);
   return stiffness > 0 ? damping / (2 * std::sqrt(stiffness * m_eff)) : 0;
 }
 

@@ -8,17 +8,20 @@
 #include <utility>
 #include <vector>
 
+#include "hooke/base/assert.h"
+
 namespace hooke {
 
 /// Pairs of particles, by rank, that don't touch each other because a spring keeps them apart.
 class ApartPairs {
  public:
   ApartPairs() = default;
-  /// Of so many particles; each pair counts both ways.
+  /// Of so many particles, above all of the pairs; each pair counts both ways.
   ApartPairs(std::size_t ranks, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
     if (pairs.empty()) return;
     first_.assign(ranks + 1, 0);
     for (const auto& [a, b] : pairs) {
+      HOOKE_ASSERT(a < ranks && b < ranks, a, b, ranks);
       ++first_[a + 1];
       ++first_[b + 1];
     }
@@ -41,8 +44,9 @@ class ApartPairs {
     return !empty() && std::find(begin(a), begin(a + 1), b) != begin(a + 1);
   }
 
-  /// From now on these two touch.
+  /// From now on these two, which were kept apart, touch.
   void release(std::uint32_t a, std::uint32_t b) {
+    HOOKE_ASSERT(hold(a, b) && hold(b, a), a, b);
     *std::find(begin(a), begin(a + 1), b) = kNobody;
     *std::find(begin(b), begin(b + 1), a) = kNobody;
   }

@@ -17,6 +17,7 @@
 #include "hooke/backends/cpu/isa.h"
 #include "hooke/backends/cpu/particle_record.h"
 #include "hooke/backends/cpu/spring_lists.h"
+#include "hooke/base/assert.h"
 #include "hooke/base/huge_pages.h"
 #include "hooke/base/parallel.h"
 #include "hooke/core/scene.h"
@@ -102,7 +103,10 @@ class AppliedForces {
   }
 
   /// Where the particle of a rank was laid out or born, in a scene with births.
-  std::size_t place(std::size_t rank) const { return place_[rank]; }
+  std::size_t place(std::size_t rank) const {
+    HOOKE_ASSERT(rank < place_.size(), rank, place_.size());
+    return place_[rank];
+  }
 
   /// The scene's clock, s.
   void set_time(double seconds) { fields_.set_time(seconds); }
@@ -147,6 +151,7 @@ class AppliedForces {
   /// adds up what all of this did. `acceleration` (velocity Verlet, else null) is that of the half kick to come.
   void settle(std::size_t first, std::size_t last, const Record* before, Record* after, Vec3<Real>* acceleration,
               AppliedSums& sums) const {
+    HOOKE_ASSERT(last - first <= kSegment, first, last);
     hold_still(first, last, before, after, acceleration, sums);
     for (const Acting& acting : acting_) add_work(acting, first, last, before, after, acceleration, sums);
   }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
 
 namespace hooke {
@@ -226,6 +227,7 @@ void AttractionSums<Real>::sum_by_tree(std::span<AttractionPoint<Real>> points,
 template <class Real>
 void AttractionSums<Real>::configure(const Attraction& attraction, double softening2,
                                      const AttractionLoops<Real>& loops) {
+  HOOKE_ASSERT(softening2 > 0, softening2);
   attraction_ = attraction;
   softening2_ = static_cast<Real>(softening2);
   loops_ = loops;

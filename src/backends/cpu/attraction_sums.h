@@ -18,6 +18,7 @@ namespace hooke {
 template <class Real>
 class AttractionSums {
  public:
+  /// `softening2` > 0, a length squared.
   void configure(const Attraction& attraction, double softening2, const AttractionLoops<Real>& loops);
 
   /// a[p.index] = what pulls p, a mass over a length squared. Reorders `points`; `ids`

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
 
 namespace hooke {
@@ -48,6 +49,7 @@ void add_spread(std::array<double, 6>& moments, double m, double x, double y, do
 
 template <class Real>
 void AttractionTree<Real>::build(std::span<AttractionPoint<Real>> points) {
+  HOOKE_ASSERT(points.size() < std::uint64_t{1} << 32U, points.size());
   points_ = points;
   nodes_.clear();
   boxes_.clear();
@@ -110,6 +112,7 @@ std::size_t AttractionTree<Real>::split(std::size_t k) {
 
 template <class Real>
 std::vector<std::uint32_t> AttractionTree<Real>::largest_nodes(std::size_t most) const {
+  HOOKE_ASSERT(most >= kMostInLeaf, most);
   std::vector<std::uint32_t> found;
   const auto fits = [&](const Node& node) { return node.last - node.first <= most; };
   if (!nodes_.empty() && fits(nodes_[0])) found.push_back(0);

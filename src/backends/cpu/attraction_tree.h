@@ -46,7 +46,7 @@ class AttractionTree {
     std::array<Real, 3> min, max;
   };
 
-  /// Sorts `points`, which must stay until the next build.
+  /// Sorts `points`, less than 2^32, which must stay until the next build.
   void build(std::span<AttractionPoint<Real>> points);
 
   std::span<const AttractionPoint<Real>> points() const { return points_; }

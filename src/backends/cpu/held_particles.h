@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "hooke/base/assert.h"
+
 namespace hooke {
 
 /// Which particles are held still, by their place in memory. Takes no memory and no time where none is.
@@ -15,7 +17,11 @@ class HeldParticles {
  public:
   /// None of `count` particles is held.
   void clear(std::size_t count) { lanes_.assign((count + kLanes - 1) / kLanes, 0); }
-  void hold(std::size_t i) { lanes_[i / kLanes] = static_cast<std::uint16_t>(lanes_[i / kLanes] | 1U << i % kLanes); }
+  /// One of them.
+  void hold(std::size_t i) {
+    HOOKE_ASSERT(i / kLanes < lanes_.size(), i);
+    lanes_[i / kLanes] = static_cast<std::uint16_t>(lanes_[i / kLanes] | 1U << i % kLanes);
+  }
 
   bool none() const { return lanes_.empty(); }
   bool holds(std::size_t i) const { return !none() && (lanes_[i / kLanes] >> i % kLanes & 1U) != 0; }

@@ -7,6 +7,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "hooke/base/ascending.h"
+#include "hooke/base/assert.h"
+
 namespace hooke {
 
 /// The ids of all ranks, ascending. Those at the end of the table that are consecutive, most often all, take no memory,
@@ -17,6 +20,7 @@ class IdTable {
   /// `ids` ascend. With `with_gaps` up to half of the consecutive ones are of nobody; else ranks are places in `ids`.
   explicit IdTable(const std::vector<std::uint64_t>& ids, bool with_gaps = false) {
     if (ids.empty()) return;
+    HOOKE_ASSERT(is_ascending(ids), ids.size());
     const std::uint64_t fewest = with_gaps ? 2 : 1;  // of so many consecutive ones one is somebody's
     std::size_t from = ids.size() - 1;
     for (std::size_t k = from; k-- > 0;) {
@@ -33,6 +37,7 @@ class IdTable {
 
   /// Adds an id above all others.
   void append(std::uint64_t id) {
+    HOOKE_ASSERT(size() == 0 || id > (*this)[size() - 1], id, size());
     if (consecutive_ == 0) first_ = id;
     if (id != first_ + consecutive_) {
       for (std::size_t k = 0; k < consecutive_; ++k) ids_.push_back(first_ + k);
@@ -49,7 +54,9 @@ class IdTable {
     const auto found = std::lower_bound(ids_.begin(), ids_.end(), id);
     return found != ids_.end() && *found == id ? static_cast<std::size_t>(found - ids_.begin()) : size();
   }
+  /// The id of a rank < size().
   std::uint64_t operator[](std::size_t rank) const {
+    HOOKE_ASSERT(rank < size(), rank, size());
     return rank < ids_.size() ? ids_[rank] : first_ + (rank - ids_.size());
   }
 

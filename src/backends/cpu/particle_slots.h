@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "hooke/base/assert.h"
 #include "hooke/neighbours/window_search.h"
 
 namespace hooke {
@@ -43,12 +44,14 @@ class ParticleSlots {
     return listed <= first_loose_ - std::min(first_loose_, whole(listed_end_, kWindow)) &&
            loose <= spare_.size() + (room() - loose_end_);
   }
-  /// Slots for one that is born. Where the listed ones are laid out, it is not before `from`.
+  /// Slots for one that is born, where there is room. Where the listed ones are laid out, it is not before `from`.
   std::size_t take_listed(std::size_t from) {
     listed_end_ = std::max(listed_end_, from) + 1;
+    HOOKE_ASSERT(listed_end_ <= first_loose_, listed_end_, first_loose_);
     return listed_end_ - 1;
   }
   std::size_t take_loose() {
+    HOOKE_ASSERT(!spare_.empty() || loose_end_ < room(), loose_end_, room());
     if (spare_.empty()) return loose_end_++;
     const std::size_t slot = spare_.back();
     spare_.pop_back();
@@ -56,6 +59,7 @@ class ParticleSlots {
   }
   /// Of one that is gone.
   void leave(std::size_t slot) {
+    HOOKE_ASSERT(slot < end(), slot, end());
     if (is_loose(slot)) (fixed_ ? left_ : spare_).push_back(static_cast<std::uint32_t>(slot));
   }
   void recycle() {
@@ -63,7 +67,10 @@ class ParticleSlots {
     left_.clear();
   }
   /// Listed ones have been sorted, and so many are left of them.
-  void set_listed(std::size_t count) { listed_end_ = count; }
+  void set_listed(std::size_t count) {
+    HOOKE_ASSERT(count <= listed_end_, count, listed_end_);
+    listed_end_ = count;
+  }
 
   /// Segments in use, of both kinds, and which one the n-th of them is.
   std::size_t segment_count() const {

@@ -14,6 +14,7 @@
 #include "hooke/backends/cpu/particle_record.h"
 #include "hooke/backends/cpu/particle_slots.h"
 #include "hooke/backends/cpu/pass_rules.h"
+#include "hooke/base/assert.h"
 #include "hooke/base/huge_pages.h"
 #include "hooke/base/parallel.h"
 #include "hooke/core/emitters.h"
@@ -49,8 +50,10 @@ class ParticleState {
   std::size_t loose_count() const { return loose_count_; }  ///< of those, the ones that touch none
   double mass() const { return mass_; }  ///< of all, kg
 
-  /// Lays out these and no others, in order of their ids, with room for those that may be born, for `births` at least.
+  /// Lays out these, of the scene, and no others, in order of their ids, with room for those that may be born, for
+  /// `births` at least.
   void place(const ParticleSet& particles, std::size_t births = 0) {
+    HOOKE_ASSERT(are_particles_of(particles, *scene_), particles.size(), scene_->materials.size());
     ids = IdTable(particles.id, !scene_->emitters.empty());
     count_of_.assign(scene_->materials.size(), 0);
     for (const std::uint16_t m : particles.material) ++count_of_[m];
@@ -102,6 +105,7 @@ class ParticleState {
 
   /// Puts into listed slot k what was in slot order[k], those that are nowhere last. Loose ones stay.
   void reorder(std::span<const std::uint32_t> order) {
+    HOOKE_ASSERT(order.size() >= count_ - loose_count_, order.size(), count_, loose_count_);
     slots.set_listed(count_ - loose_count_);
     permute(records, next, order);
     fill_unused(records);
@@ -148,6 +152,7 @@ class ParticleState {
   /// Sends who is in a slot nowhere; recount() when all are gone.
   void remove(std::size_t slot) {
     Record& p = records[slot];
+    HOOKE_ASSERT(!is_nowhere(p), slot);
     --count_of_[static_cast<std::size_t>(p.material)];
     p = nowhere_record<Real>(p.rank);
     slots.leave(slot);

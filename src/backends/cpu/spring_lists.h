@@ -19,6 +19,8 @@
 #include "hooke/backends/cpu/force_pass.h"
 #include "hooke/backends/cpu/id_table.h"
 #include "hooke/backends/cpu/spring_pass.h"
+#include "hooke/base/ascending.h"
+#include "hooke/base/assert.h"
 #include "hooke/base/huge_pages.h"
 #include "hooke/base/parallel.h"
 #include "hooke/core/scene.h"
@@ -53,7 +55,10 @@ class SpringLists {
 
   bool empty() const { return kind_.empty(); }
 
+  /// Indices, ascending: these and no others.
   void break_springs(const std::vector<std::uint64_t>& broken) {
+    HOOKE_ASSERT(is_ascending(broken), broken.size());
+    HOOKE_ASSERT(broken.empty() || broken.back() < kind_.size(), broken.back(), kind_.size());
     broken_.assign(kind_.size(), 0);
     for (const std::uint64_t s : broken) broken_[s] = 1;
   }
@@ -97,6 +102,7 @@ class SpringLists {
   /// There are more particles than those bound: nothing ties them.
   void grow(std::size_t ranks) {
     if (empty()) return;
+    HOOKE_ASSERT(ranks + 1 >= first_side_.size(), ranks, first_side_.size());
     first_side_.resize(ranks + 1, first_side_.back());
     apart_.grow(ranks);
   }
@@ -107,6 +113,7 @@ class SpringLists {
   /// Lays the springs out for `count` particles in their order of now; `place` is that of each rank, kNowherePlace
   /// where a particle is gone. The last of `size` records fills short rows.
   void lay_out(const Record* records, std::size_t count, std::size_t size, const std::vector<std::uint32_t>& place) {
+    HOOKE_ASSERT(count < size, count, size);
     const std::size_t groups = (count + kLanes - 1) / kLanes;
     count_ = count;
     first_row_.resize(groups + 1);

@@ -15,6 +15,7 @@
 
 #include "hooke/backends/cpu/apart_pairs.h"
 #include "hooke/backends/cpu/pass_rules.h"
+#include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
 #include "hooke/neighbours/cell_list.h"
 #include "hooke/neighbours/neighbour_list.h"
@@ -55,7 +56,9 @@ class MendedRows {
     entries_.reserve(groups * 24 * kLanes);
   }
   bool holds(std::size_t group) const { return at_[group] != kNone; }
+  /// Of a group that it holds.
   std::span<const std::uint32_t> rows(std::size_t group) const {
+    HOOKE_ASSERT(holds(group), group);
     const Mended& m = mended_[at_[group]];
     return std::span(entries_).subspan(m.first, m.count);
   }

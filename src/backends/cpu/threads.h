@@ -9,14 +9,16 @@
 #include <memory>
 #include <thread>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/floating_point.h"
 
 namespace hooke {
 
-/// Threads to run on, also where more are asked for than the machine has cores.
+/// Threads to run on, one at least, also where more are asked for than the machine has cores.
 class Threads {
  public:
   explicit Threads(int count) : count_(count), arena_(count) {
+    HOOKE_ASSERT(count >= 1, count);
     const auto cores = static_cast<int>(std::thread::hardware_concurrency());
     if (count > cores) {
       control_ = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,

@@ -18,6 +18,7 @@
 #include "hooke/backends/cpu/column_store.h"
 #include "hooke/backends/cpu/pass_rules.h"
 #include "hooke/backends/cpu/stray_pairs.h"
+#include "hooke/base/assert.h"
 #include "hooke/base/huge_pages.h"
 #include "hooke/base/parallel.h"
 #include "hooke/neighbours/cell_list.h"
@@ -73,6 +74,8 @@ class VerletList {
   /// particles that are born later. Works in `scratch`, as large as the records.
   void build(const Record* records, std::size_t count, std::size_t end, std::size_t size,
              std::span<std::byte> scratch) {
+    HOOKE_ASSERT(std::max(count, end) < size, count, end, size);
+    HOOKE_ASSERT(scratch.size() >= size * sizeof(Record), scratch.size(), size);
     count_ = count;
     end_ = std::max(count, end);
     filling_ = record_offset<Real>(static_cast<std::uint32_t>(size - 1));
@@ -138,6 +141,7 @@ class VerletList {
   /// next.
   void add(std::size_t i, std::uint32_t rank) {
     if (!listed_) return;
+    HOOKE_ASSERT(i >= first_free(), i, first_free());
     if (i >= end_ || rules_->pass.periodic_kind == PeriodicKind::images) return forget();
     order_[i] = rank;
     listed_at_.put(i, {Real(0), Real(0), Real(0)});
@@ -166,6 +170,7 @@ class VerletList {
   /// Takes the lanes of a group that are further from their anchor than it allows: `far` has a bit a lane. Any thread
   /// may call, one a group.
   void note_far(std::size_t group, unsigned far) {
+    HOOKE_ASSERT(group < strayed_.size() && far >> kLanes == 0, group, strayed_.size(), far);
     const unsigned news = far & ~unsigned{strayed_[group]};
     if (news == 0) return;
     strayed_[group] = static_cast<std::uint16_t>(strayed_[group] | far);

@@ -11,6 +11,7 @@
 #include "hooke/backends/reference/reference_attraction.h"
 #include "hooke/backends/reference/reference_fields.h"
 #include "hooke/backends/reference/reference_springs.h"
+#include "hooke/base/assert.h"
 #include "hooke/base/stopwatch.h"
 #include "hooke/core/placed_colliders.h"
 #include "hooke/core/state_hash.h"
@@ -48,6 +49,7 @@ class ReferenceBackend final : public Backend {
   std::vector<std::uint64_t> broken_springs() const override { return springs_.broken(); }
 
   Condition upload(const ParticleSet& particles, std::uint64_t first_new_id, const Ledger& ledger) override {
+    HOOKE_ASSERT(are_particles_of(particles, scene_), particles.size(), scene_.materials.size());
     p_ = particles;
     ledger_ = ledger;
     for (Vec3d& x : p_.position) wrap_periodic(x);
@@ -81,6 +83,7 @@ class ReferenceBackend final : public Backend {
   }
 
   void half_kick_and_drift() override {
+    HOOKE_ASSERT(verlet());
     const Stopwatch drifting(times_.drift);
     for (std::size_t i = 0; i < p_.size(); ++i) {
       if (is_held(i)) continue;
@@ -144,6 +147,8 @@ class ReferenceBackend final : public Backend {
   }
 
   void give_birth(const ParticleSet& newborn) override {
+    HOOKE_ASSERT(are_particles_of(newborn, scene_), newborn.size(), scene_.materials.size());
+    HOOKE_ASSERT(newborn.empty() || p_.empty() || newborn.id.front() > p_.id.back(), newborn.id.front(), p_.id.back());
     RemovalSums born;
     for (std::size_t k = 0; k < newborn.size(); ++k) {
       p_.id.push_back(newborn.id[k]);

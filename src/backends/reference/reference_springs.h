@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "hooke/base/ascending.h"
+#include "hooke/base/assert.h"
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
 #include "hooke/core/sums.h"
@@ -33,7 +35,10 @@ class ReferenceSprings {
     std::sort(apart_.begin(), apart_.end());
   }
 
+  /// Indices, ascending.
   void break_these(const std::vector<std::uint64_t>& broken) {
+    HOOKE_ASSERT(is_ascending(broken), broken.size());
+    HOOKE_ASSERT(broken.empty() || broken.back() < springs().size(), broken.back(), springs().size());
     broken_.assign(springs().size(), false);
     for (const std::uint64_t s : broken) broken_[s] = true;
   }

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+//
+// A file in which assertions are off, whatever the build is. It includes no other header of Hooke's: their inline
+// functions would differ from those of other files.
+#undef HOOKE_ASSERTIONS
+#define HOOKE_ASSERTIONS 0
+#include "hooke/base/assert.h"
+
+#include "base/assert_off.h"
+
+namespace {
+
+bool is_small(int value) { return value < 10; }  // of use in an assertion alone: no warning
+
+}  // namespace
+
+int evaluations_without_assertions() {
+  int evaluated = 0;
+  const int limit = 10;  // likewise
+  HOOKE_ASSERT(++evaluated > limit, ++evaluated, limit);
+  HOOKE_ASSERT(is_small(++evaluated));
+  return evaluated;
+}
