@@ -140,7 +140,7 @@ TEST(CorePreconditions, MaterialsAreTheScenes) {
 
 TEST(CorePreconditions, SpringsAreOfTheSet) {
   EXPECT_ASSERTS((void)SpringSet{}[2], "i = 2, size() = 0");
-  EXPECT_ASSERTS(TornEdges(open_scene()), "scene.structure != nullptr");
+  EXPECT_ASSERTS((void)TornEdges(open_scene()), "scene.structure != nullptr");
 }
 
 TEST(CorePreconditions, CausesHaveAnEntry) {
