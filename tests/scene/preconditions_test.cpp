@@ -8,10 +8,7 @@
 #include "hooke/scene/block_source.h"
 #include "hooke/scene/cluster_source.h"
 #include "hooke/scene/file_scanner.h"
-#include "hooke/scene/findings.h"
 #include "hooke/scene/lattice.h"
-#include "hooke/scene/particle_file.h"
-#include "hooke/scene/particle_rows.h"
 #include "hooke/scene/random_packing.h"
 #include "scratch_folder.h"
 #include "support/assertions.h"
@@ -43,24 +40,6 @@ TEST(ScenePreconditions, PiecesOfFilesAreBounded) {
   const ScratchFolder folder;
   FileScanner scanner(folder.write("some.csv", "x,y,z\n"));
   EXPECT_ASSERTS((void)scanner.bytes(FileScanner::kLongestLine + 1), "count = 1048577");
-}
-
-TEST(ScenePreconditions, RowsAreOfTheScenesMaterials) {
-  const Material water;
-  Findings findings("");
-  std::vector<Finding> warnings;
-  ParticleFileRules rules;
-  rules.materials = std::span(&water, 1);
-  ParticleRows rows(rules, "some.csv", false, findings, warnings);
-  Row row = rows.blank();
-  row.material = 4;
-  EXPECT_ASSERTS(rows.add(row, 12), "row.material = 4, rules_.materials.size() = 1, place = 12");
-  EXPECT_ASSERTS((void)row[Field::id], "field = 8");
-  EXPECT_TRUE(rows.set_columns({{Field::x, "x"}, {Field::y, "y"}, {Field::z, "z"}, {Field::material, "m"}}, 1));
-  EXPECT_ASSERTS(rows.set_labels({}), "columns_.size() = 4");
-  rules.material = 1;
-  EXPECT_ASSERTS((void)read_particle_file("some.csv", "some.csv", rules, findings, warnings),
-                 "rules.materials.size() = 1");
 }
 
 }  // namespace

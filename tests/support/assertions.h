@@ -16,11 +16,11 @@
 #define EXPECT_ASSERTS(statement, part)                                                             \
   do {                                                                                              \
     if (HOOKE_ASSERTIONS == 0) GTEST_SKIP() << "built without assertions";                          \
-    const std::string text = ::hooke::testing::failed_assertion([&] { statement; });                \
+    const std::string text = ::hooke::test::failed_assertion([&] { statement; });                   \
     EXPECT_NE(text.find(part), std::string::npos) << (text.empty() ? "no assertion failed" : text); \
   } while (false)
 
-namespace hooke::testing {
+namespace hooke::test {
 
 struct FailedAssertion : std::exception {
   const char* what() const noexcept override { return "an assertion failed"; }
@@ -46,4 +46,4 @@ std::string failed_assertion(const Statement& statement) {
   return text;
 }
 
-}  // namespace hooke::testing
+}  // namespace hooke::test
