@@ -63,7 +63,7 @@ TEST_P(BackendPreconditions, NewIdsAreAboveAllBefore) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, BackendPreconditions, testing::Values(kReference, kCpuDouble, kCpuSingle),
-                         [](const auto& info) { return info.param.name(); });
+                         [](const auto& engine) { return engine.param.name(); });
 
 TEST(CpuPreconditions, TablesOfIdsAscend) {
   EXPECT_ASSERTS((void)IdTable(std::vector<std::uint64_t>{3, 3}), "is_ascending(ids)");
