@@ -14,6 +14,7 @@
 #include <thread>
 #include <utility>
 
+#include "hooke/base/assert.h"
 #include "hooke/render/film.h"
 #include "hooke/render/interpolate.h"
 #include "studio.h"
@@ -39,6 +40,7 @@ struct FilmThread::Impl {
   std::optional<Error> error;  // nothing is drawn any more
   Summary summary;
   std::thread thread;
+  std::thread::id owner = std::this_thread::get_id();  // who uses this
 
   double time_of(std::int64_t frame) const { return static_cast<double>(frame) / picture.frames_per_second; }
 
@@ -101,6 +103,7 @@ struct FilmThread::Impl {
 
 Expected<std::unique_ptr<FilmThread>> FilmThread::start(const std::filesystem::path& file,
                                                         const PictureArguments& picture, const Simulation& simulation) {
+  HOOKE_ASSERT(picture.frames_per_second > 0, picture.frames_per_second);
   auto impl = std::make_unique<Impl>();
   impl->file = file;
   impl->picture = picture;
@@ -124,6 +127,8 @@ FilmThread::~FilmThread() { impl_->end(); }
 bool FilmThread::is_due(double time) const { return impl_->time_of(impl_->next_frame) <= time + 1e-9; }
 
 void FilmThread::show(const Simulation& simulation) {
+  HOOKE_ASSERT(std::this_thread::get_id() == impl_->owner);
+  HOOKE_ASSERT(!impl_->ending);
   for (const double time = simulation.time(); is_due(time); ++impl_->next_frame) {
     const double frame_time = impl_->time_of(impl_->next_frame);
     std::unique_lock lock(impl_->mutex);

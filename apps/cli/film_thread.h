@@ -30,7 +30,7 @@ class FilmThread {
 
   /// Whether a frame is due at `time` (s).
   bool is_due(double time) const;
-  /// Takes the frames that are due from the state now; waits where two are still to be drawn.
+  /// Before finish(). Takes the frames that are due from the state now; waits where two are still to be drawn.
   void show(const Simulation& simulation);
   /// Draws what is waiting and ends the film; what went wrong since the start.
   Expected<Summary> finish();

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "hooke/base/assert.h"
+
 namespace hooke::cli {
 namespace {
 
@@ -47,7 +49,9 @@ Progress::Progress(std::int64_t first, std::int64_t last, double time_step, bool
       time_step_(time_step),
       wanted_(wanted),
       status_(wanted),
-      recent_{{Clock::now(), first}} {}
+      recent_{{Clock::now(), first}} {
+  HOOKE_ASSERT(first <= last && time_step > 0, first, last, time_step);
+}
 
 void Progress::update(std::int64_t step, std::uint64_t particles) {
   if (!wanted_) return;
@@ -58,6 +62,7 @@ void Progress::update(std::int64_t step, std::uint64_t particles) {
 }
 
 void FrameProgress::update(std::int64_t done) {
+  HOOKE_ASSERT(done > 0 && done <= count_, done, count_);
   status_.update([&] {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     const double a_frame = seconds / static_cast<double>(done);

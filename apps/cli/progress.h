@@ -40,7 +40,7 @@ class StatusLine {
 /// Tells how far a run is.
 class Progress {
  public:
-  /// A run from step `first` to step `last` of `time_step` seconds each. Silent unless `wanted`.
+  /// A run from step `first` to step `last` of `time_step` seconds (> 0) each. Silent unless `wanted`.
   Progress(std::int64_t first, std::int64_t last, double time_step, bool wanted);
 
   /// `step` steps are done and `particles` are there. Cheap: prints only when it is time to.
@@ -67,6 +67,7 @@ class Progress {
 class FrameProgress {
  public:
   explicit FrameProgress(std::int64_t count) : count_(count) {}
+  /// `done` (> 0) frames are drawn.
   void update(std::int64_t done);
 
  private:

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "gl_loader.h"
+#include "hooke/base/assert.h"
 #include "hooke/render/legend.h"
 
 namespace hooke::cli {
@@ -22,6 +23,7 @@ void Studio::set_scene(const Scene& scene, const ParticleSet& first) {
 }
 
 Expected<Image> Studio::picture(const ParticleSet& particles, double time) {
+  HOOKE_ASSERT(scene_ != nullptr);
   const double aspect = static_cast<double>(arguments_.width) / arguments_.height;
   const Frame frame = make_frame(*scene_, particles, time, look_, aspect);
   auto image = renderer_->render(frame);

@@ -24,7 +24,7 @@ class Studio {
   /// `first`: the first snapshot of the run, from which scales and camera follow. `scene` must live on.
   void set_scene(const Scene& scene, const ParticleSet& first);
 
-  /// The picture at `time` (s), with its legend.
+  /// The picture at `time` (s), with its legend. After set_scene().
   Expected<Image> picture(const ParticleSet& particles, double time);
 
   const RenderFigures& figures() const { return figures_; }

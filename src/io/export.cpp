@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "hooke/base/ascending.h"
+#include "hooke/base/assert.h"
 #include "hooke/io/export_format.h"
 #include "hooke/io/failure.h"
 
@@ -72,6 +74,7 @@ std::vector<ExportFormatInfo> export_formats() {
 }
 
 std::filesystem::path numbered_file(const std::filesystem::path& file, std::size_t k, std::size_t count) {
+  HOOKE_ASSERT(k < count, k, count);
   const std::size_t digits = std::max<std::size_t>(4, std::to_string(count - 1).size());
   return file.parent_path() / fmt::format("{}_{:0{}}{}", file.stem().string(), k, digits, file.extension().string());
 }
@@ -107,6 +110,8 @@ const char* to_string(ExportContent content) {
 Expected<std::vector<std::filesystem::path>> export_run(const RunReader& run, std::span<const std::size_t> indices,
                                                         const std::filesystem::path& file,
                                                         const ExportOptions& options) {
+  HOOKE_ASSERT(is_ascending(indices), indices.size());
+  HOOKE_ASSERT(indices.empty() || run.size() == 0 || indices.back() < run.size(), indices.back(), run.size());
   return guarded(file, [&] {
     const std::string extension = lower_case(file.extension().string());
     const auto* format = std::find_if(std::begin(kFormats), std::end(kFormats), [&](const Format& f) {

@@ -49,9 +49,9 @@ struct ExportFormatInfo {
 };
 std::vector<ExportFormatInfo> export_formats();
 
-/// Writes snapshots (indices into `run`, ascending, at least one) in the format that the extension of `file` names for
-/// what the options ask for, and returns the files that were written, the one to open first. Each is written beside
-/// and renamed. A format that holds one instant a file numbers several: FILE_0000.ply, FILE_0001.ply.
+/// Writes snapshots (indices into `run`, each < run.size(), ascending, at least one) in the format that the extension
+/// of `file` names for what the options ask for, and returns the files that were written, the one to open first. Each
+/// is written beside and renamed. A format that holds one instant a file numbers several: FILE_0000.ply, FILE_0001.ply.
 Expected<std::vector<std::filesystem::path>> export_run(const RunReader& run, std::span<const std::size_t> indices,
                                                         const std::filesystem::path& file,
                                                         const ExportOptions& options = {});

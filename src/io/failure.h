@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/expected.h"
 
 namespace hooke {
@@ -17,7 +18,7 @@ class Failure : public std::exception {
  public:
   Failure(Error::Kind kind, const std::filesystem::path& file, std::string message)
       : error_{kind, {{file.string(), std::move(message)}}} {}
-  explicit Failure(Error error) : error_(std::move(error)) {}
+  explicit Failure(Error error) : error_(std::move(error)) { HOOKE_ASSERT(!error_.findings.empty()); }
 
   const Error& error() const { return error_; }
   const char* what() const noexcept override { return error_.findings.front().message.c_str(); }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "hooke/base/assert.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/hdf5_driver.h"
 #include "hooke/io/shuffle_deflate.h"
@@ -163,6 +164,7 @@ hid_t file_type<std::uint8_t>() {
 }
 
 Column Column::create(hid_t parent, const char* name, hid_t type, hsize_t width, hsize_t chunk_rows, bool compressed) {
+  HOOKE_ASSERT(width > 0 && chunk_rows > 0, name, width, chunk_rows);
   const int rank = width == 1 ? 1 : 2;
   const hsize_t size[2] = {0, width};
   const hsize_t most[2] = {H5S_UNLIMITED, width};
@@ -226,11 +228,13 @@ void with_rows(hid_t dataset, hsize_t start, hsize_t count, hsize_t width, Trans
 }  // namespace
 
 void Column::write(hsize_t start, hsize_t count, hid_t type, const void* data) {
+  HOOKE_ASSERT(start + count <= rows_, start, count, rows_);
   with_rows(dataset_.get(), start, count, width_,
             [&](hid_t memory, hid_t file) { return H5Dwrite(dataset_.get(), type, memory, file, H5P_DEFAULT, data); });
 }
 
 void Column::read(hsize_t start, hsize_t count, hid_t type, void* data) const {
+  HOOKE_ASSERT(start + count <= rows_, start, count, rows_);
   with_rows(dataset_.get(), start, count, width_,
             [&](hid_t memory, hid_t file) { return H5Dread(dataset_.get(), type, memory, file, H5P_DEFAULT, data); });
 }

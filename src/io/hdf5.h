@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/vec3.h"
 #include "hooke/io/journaled_file.h"
 
@@ -96,6 +97,7 @@ class Column {
 
   template <class T>
   void append(const std::vector<T>& values) {
+    HOOKE_ASSERT(values.size() % width_ == 0, values.size(), width_);
     const hsize_t start = rows_;
     const hsize_t count = values.size() / width_;
     resize(start + count);

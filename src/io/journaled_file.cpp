@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/hash.h"
 #include "hooke/io/failure.h"
 
@@ -153,6 +154,7 @@ int JournaledFile::read(std::uint64_t offset, void* data, std::size_t size) {
 }
 
 void JournaledFile::write(std::uint64_t offset, const void* data, std::size_t size) {
+  HOOKE_ASSERT(writable(), file_.string());
   const auto* in = static_cast<const std::byte*>(data);
   const std::uint64_t border = committed_pages_ * kPageBytes;
   while (size > 0 && error_ == 0 && offset < border) {
@@ -166,6 +168,7 @@ void JournaledFile::write(std::uint64_t offset, const void* data, std::size_t si
 }
 
 void JournaledFile::commit() {
+  HOOKE_ASSERT(writable(), file_.string());
   const auto give_up = [&](int error_number) {
     error_ = error_number;
     throw Failure(Error::Kind::io, file_, "can't be written: " + system_message(error_number));

@@ -40,7 +40,8 @@ class JournaledFile {
 
   /// Past the end there are zeros. 0, or errno.
   int read(std::uint64_t offset, void* data, std::size_t size);
-  /// The first error stays: from then on writes do nothing, and commit() fails.
+  /// Of a file that is writable(), like commit(). The first error stays: from then on writes do nothing, and commit()
+  /// fails.
   void write(std::uint64_t offset, const void* data, std::size_t size);
   int write_error() const { return error_; }
 

@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "hooke/base/assert.h"
 #include "hooke/io/failure.h"
 
 namespace hooke {
@@ -111,11 +112,13 @@ void OutputFile::flush() {
 }
 
 void OutputFile::write(std::string_view bytes) {
+  HOOKE_ASSERT(fd_, file_.string());
   buffer_ += bytes;
   if (buffer_.size() >= kBufferBytes) flush();
 }
 
 void OutputFile::finish() {
+  HOOKE_ASSERT(fd_, file_.string());
   flush();
   publish(file_);
   fd_ = Descriptor();

@@ -49,7 +49,7 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
 
   void write(std::string_view bytes);
-  void finish();
+  void finish();  ///< nothing may be written after it
 
  private:
   void flush();

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 
+#include "hooke/base/assert.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/run_info_json.h"
 #include "hooke/io/vtkhdf_columns.h"
@@ -234,6 +235,8 @@ void ParticlesFile::cut(std::size_t snapshots) {
 }
 
 void ParticlesFile::append(const Snapshot& snapshot) {
+  HOOKE_ASSERT(!last_step_ || snapshot.step > *last_step_, snapshot.step, *last_step_);
+  HOOKE_ASSERT(snapshot.particles.columns_fit(), snapshot.particles.size());
   try {
     write_snapshot(snapshot);
     file_.commit();

@@ -40,6 +40,7 @@ class ParticlesFile {
   ParticlesFile(ParticlesFile&&) noexcept;
   ParticlesFile& operator=(ParticlesFile&&) noexcept;
 
+  /// Steps ascend.
   void append(const Snapshot& snapshot);
   std::optional<std::int64_t> last_step() const { return last_step_; }
 

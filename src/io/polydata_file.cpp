@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "hooke/base/assert.h"
 #include "hooke/io/output_file.h"
 
 namespace hooke {
@@ -75,7 +76,9 @@ std::string number(double value) {
 PolyDataFile::PolyDataFile(Cells cells, std::size_t point_count, double time)
     : cells_(cells),
       point_count_(point_count),
-      time_(time) {}
+      time_(time) {
+  HOOKE_ASSERT(cells == Cells::vertices || point_count % 2 == 0, point_count);
+}
 
 template <class T>
 std::string PolyDataFile::array(const char* name, const std::vector<T>& values, int components) {
@@ -95,6 +98,7 @@ template std::string PolyDataFile::array(const char*, const std::vector<std::uin
 template std::string PolyDataFile::array(const char*, const std::vector<std::uint8_t>&, int);
 
 void PolyDataFile::write(const fs::path& file) {
+  HOOKE_ASSERT(!points_.empty());
   const std::size_t corners = cells_ == Cells::lines ? 2 : 1;
   std::vector<std::int64_t> connectivity(point_count_), ends(point_count_ / corners);
   std::iota(connectivity.begin(), connectivity.end(), 0);

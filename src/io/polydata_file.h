@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/vec3.h"
 #include "hooke/io/export_format.h"
 
@@ -26,16 +27,22 @@ class PolyDataFile {
   /// float, double, std::int64_t, std::uint16_t, std::uint8_t.
   template <class T>
   void add_point_data(const char* name, const std::vector<T>& values, int components = 1) {
+    HOOKE_ASSERT(values.size() == point_count_ * static_cast<std::size_t>(components), name, values.size(),
+                 point_count_, components);
     point_data_ += array(name, values, components);
     if (components == 3) vectors_ = name;
   }
   template <class T>
   void add_cell_data(const char* name, const std::vector<T>& values, int components = 1) {
+    const std::size_t cell_count = point_count_ / (cells_ == Cells::lines ? 2 : 1);
+    HOOKE_ASSERT(values.size() == cell_count * static_cast<std::size_t>(components), name, values.size(), cell_count,
+                 components);
     cell_data_ += array(name, values, components);
   }
-  /// Three numbers a point, m. Float or double.
+  /// Three numbers a point, m. Float or double. Before write().
   template <class T>
   void set_points(const std::vector<T>& values) {
+    HOOKE_ASSERT(values.size() == 3 * point_count_, values.size(), point_count_);
     points_ = array("Points", values, 3);
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/base/assert.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/particles_file.h"
 #include "hooke/io/run_folder.h"
@@ -60,6 +61,7 @@ std::optional<std::size_t> RunReader::find_time(double seconds) const {
 
 // The file is opened anew each time: a run that still goes on changes it meanwhile.
 Expected<Snapshot> RunReader::read(std::size_t index) const {
+  HOOKE_ASSERT(index < size(), index, size());
   return guarded(impl_->file, [&] {
     const auto held = hdf5::lock();
     return read_particles(impl_->file, index);

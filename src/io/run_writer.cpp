@@ -6,6 +6,7 @@
 #include <thread>
 #include <variant>
 
+#include "hooke/base/assert.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/particles_file.h"
 #include "hooke/io/run_folder.h"
@@ -124,6 +125,11 @@ struct RunWriter::Impl {
     return {};
   }
 
+  bool is_finished() {
+    const std::lock_guard lock(mutex);
+    return stopping;
+  }
+
   void stop() {
     {
       const std::lock_guard lock(mutex);
@@ -192,6 +198,7 @@ Expected<RunWriter> RunWriter::create(const fs::path& folder, const RunInfo& inf
 
 Expected<RunWriter> RunWriter::resume(const fs::path& folder, const RunInfo& info, const std::string& scene_json,
                                       std::int64_t step, const OutputCadence& cadence) {
+  HOOKE_ASSERT(step >= 0, step);
   return guarded(folder, [&]() -> RunWriter {
     const std::int64_t end_step = cadence.is_due(step, info.time_step) ? step + 1 : step;
     const auto held = hdf5::lock();
@@ -219,10 +226,12 @@ Expected<void> RunWriter::write_snapshot(Snapshot snapshot) {
 Expected<void> RunWriter::write_checkpoint(SimulationState state) { return impl_->push(std::move(state)); }
 
 Expected<void> RunWriter::write_series(const SeriesRow& row) {
+  HOOKE_ASSERT(!impl_->is_finished(), row.step);
   return guarded(impl_->folder / kSeriesFile, [&] { impl_->series.append(row); });
 }
 
 Expected<void> RunWriter::write_report(const RunReport& report) {
+  HOOKE_ASSERT(!impl_->is_finished(), report.step);
   return write_text_file(impl_->folder / kReportFile, to_json(report));
 }
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 
+#include "hooke/base/assert.h"
 #include "hooke/io/failure.h"
 
 namespace hooke {
@@ -64,6 +65,7 @@ SeriesFile SeriesFile::update(const std::filesystem::path& path, const std::stri
 }
 
 void SeriesFile::append(const SeriesRow& row) {
+  HOOKE_ASSERT(!last_step_ || row.step >= *last_step_, row.step, *last_step_);
   if (last_step_ && row.step == *last_step_) return;
   const std::string line = to_csv(row) + '\n';
   if (const int error = write_at(fd_.get(), line.data(), line.size(), size_)) {

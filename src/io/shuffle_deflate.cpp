@@ -8,6 +8,8 @@
 #include <cmath>
 #include <new>
 
+#include "hooke/base/assert.h"
+
 namespace hooke {
 
 namespace {
@@ -44,6 +46,7 @@ class Deflate {
 }  // namespace
 
 std::string shuffle_deflate(const void* data, std::size_t count, std::size_t element_size) {
+  HOOKE_ASSERT(element_size > 0 && (data != nullptr || count == 0), count, element_size);
   const char* elements = static_cast<const char*>(data);
   std::string planes(count * element_size, '\0');
   for (std::size_t k = 0; k < element_size; ++k) {

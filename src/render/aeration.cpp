@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
 
 namespace hooke {
@@ -75,6 +76,7 @@ double room(const Cells& cells, const Domain& domain, int axis, std::size_t cell
 }  // namespace
 
 std::vector<float> aeration(const Scene& scene, const ParticleSet& particles, double radius) {
+  HOOKE_ASSERT(radius > 0, radius);
   std::vector<float> air(particles.size());
   if (particles.empty()) return air;
   const Cells cells = make_cells(particles, radius);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "hooke/base/assert.h"
+
 namespace hooke {
 
 namespace {
@@ -15,6 +17,8 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 double norm(const Vec3d& v) { return std::sqrt(dot(v, v)); }
 Vec3d normalized(const Vec3d& v) { return (1 / norm(v)) * v; }
+// But for what rounding makes of it.
+bool is_unit(const Vec3d& v) { return std::abs(dot(v, v) - 1) < 1e-6; }
 // `v` turned about the unit vector `axis` (Rodrigues' formula).
 Vec3d rotated(const Vec3d& v, const Vec3d& axis, double angle) {
   return std::cos(angle) * v + std::sin(angle) * cross(axis, v) + ((1 - std::cos(angle)) * dot(axis, v)) * axis;
@@ -31,6 +35,9 @@ std::array<Vec3d, 8> corners(const Box& box) {
 }  // namespace
 
 CameraAxes axes(const Camera& camera) {
+  HOOKE_ASSERT(norm(camera.eye - camera.target) > 0, camera.eye, camera.target);
+  HOOKE_ASSERT(is_unit(camera.up), camera.up);
+  HOOKE_ASSERT(norm(cross(camera.up, camera.eye - camera.target)) > 0, camera.up, camera.eye, camera.target);
   const Vec3d back = normalized(camera.eye - camera.target);
   const Vec3d right = normalized(cross(camera.up, back));
   return {right, cross(back, right), back};
@@ -42,11 +49,13 @@ Vec3d up_of(const Scene& scene) {
 }
 
 double extent_along(const Box& box, const Vec3d& direction) {
+  HOOKE_ASSERT(is_unit(direction), direction);
   const Vec3d size = box.max - box.min;
   return std::abs(size.x * direction.x) + std::abs(size.y * direction.y) + std::abs(size.z * direction.z);
 }
 
 Box action_box(const Scene& scene, const ParticleSet& first) {
+  HOOKE_ASSERT(are_particles_of(first, scene), first.size(), scene.materials.size());
   constexpr double kHeadroom = 1.15;
   Box box{scene.domain.min, scene.domain.max};
   if (first.empty()) return box;
@@ -68,6 +77,7 @@ Box action_box(const Scene& scene, const ParticleSet& first) {
 }
 
 LevelAxes level_axes(const Box& box, const Vec3d& up) {
+  HOOKE_ASSERT(is_unit(up), up);
   Vec3d longest{0, 0, 0};
   double most = -1;
   for (const Vec3d& axis : {Vec3d{1, 0, 0}, Vec3d{0, 0, 1}, Vec3d{0, 1, 0}}) {
@@ -87,6 +97,8 @@ Vec3d direction_to_sun(const Box& box, const Vec3d& up) {
 }
 
 Camera default_camera(const Box& box, const Vec3d& up, double field_of_view, double aspect) {
+  HOOKE_ASSERT(aspect > 0, aspect);
+  HOOKE_ASSERT(field_of_view > 0 && field_of_view < 180, field_of_view);
   constexpr double kElevation = 20 * kDegree, kAzimuth = -24 * kDegree;
   constexpr double kFilled = 0.92;  // of the picture's width or height
   const auto [across, front] = level_axes(box, up);

@@ -40,8 +40,8 @@ double extent_along(const Box& box, const Vec3d& direction);
 /// bit.
 Box action_box(const Scene& scene, const ParticleSet& first);
 
-/// Level unit vectors of `box`, at right angles: along its longer level side, which pictures show from left to right,
-/// and from it to the viewer.
+/// Level unit vectors of `box`, at right angles, where the unit vector `up` points up: along its longer level side,
+/// which pictures show from left to right, and from it to the viewer.
 struct LevelAxes {
   Vec3d across, front;
 };
@@ -51,7 +51,7 @@ LevelAxes level_axes(const Box& box, const Vec3d& up);
 Vec3d direction_to_sun(const Box& box, const Vec3d& up);
 
 /// A camera that shows all of `box`, from in front and a little above, its long side across the picture.
-/// `aspect`: width of the picture over its height, > 0.
+/// `field_of_view` in degrees, in (0, 180); `aspect`: width of the picture over its height, > 0.
 Camera default_camera(const Box& box, const Vec3d& up, double field_of_view, double aspect);
 
 /// The camera of a picture at `time` (s): the scene's, or the default one for what it leaves out, carried around the

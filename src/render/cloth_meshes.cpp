@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/base/assert.h"
 #include "hooke/core/torn_edges.h"
 
 namespace hooke {
@@ -59,6 +60,8 @@ ShadedMesh make_mesh(const Surface& surface, const Scene& scene, const TornEdges
 
 std::vector<ShadedMesh> cloth_meshes(const Scene& scene, const ParticleSet& particles, const Vec3d& origin,
                                      const std::function<Color(std::size_t)>& color_of, std::vector<char>& covered) {
+  HOOKE_ASSERT(scene.structure != nullptr);
+  HOOKE_ASSERT(covered.size() == particles.size(), covered.size(), particles.size());
   std::vector<ShadedMesh> meshes;
   const TornEdges torn(scene);
   for (const Surface& surface : scene.structure->surfaces) {

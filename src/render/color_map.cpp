@@ -9,6 +9,8 @@
 #include <cstring>
 #include <numbers>
 
+#include "hooke/base/assert.h"
+
 namespace hooke {
 
 namespace {
@@ -67,6 +69,7 @@ std::array<Color, kColors> make_map() {
 }  // namespace
 
 Color parse_color(const char* text) {
+  HOOKE_ASSERT(text != nullptr);
   unsigned value = 0;
   if (std::strlen(text) != 7 || text[0] != '#') return kGrey;
   if (const auto read = std::from_chars(text + 1, text + 7, value, 16); read.ptr != text + 7) return kGrey;

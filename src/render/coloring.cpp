@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/base/assert.h"
 #include "hooke/core/contacts.h"
 
 namespace hooke {
@@ -78,6 +79,7 @@ ColorScale default_scale(const Scene& scene, const ParticleSet& first, ColorBy b
 
 std::vector<double> color_values(const Scene& scene, const ParticleSet& particles, double time, const Box& action,
                                  ColorBy by) {
+  HOOKE_ASSERT(are_particles_of(particles, scene), particles.size(), scene.materials.size());
   std::vector<double> values;
   if (by == ColorBy::material) return values;
   if (by == ColorBy::pressure) return contact_figures(scene, particles, {time, {}}).pressure;

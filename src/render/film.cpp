@@ -19,6 +19,8 @@
 #include <system_error>
 #include <utility>
 
+#include "hooke/base/assert.h"
+
 namespace hooke {
 
 namespace {
@@ -164,6 +166,7 @@ struct FilmWriter::Impl {
   FilmSettings settings;
   Ffmpeg ffmpeg;
   std::int64_t frames = 0;
+  bool finished = false;
 
   ~Impl() {
     ffmpeg.wait();
@@ -186,6 +189,7 @@ std::string film_extensions() {
 }
 
 Expected<void> check_film(const std::filesystem::path& file, const FilmSettings& settings) {
+  HOOKE_ASSERT(settings.frames_per_second > 0, settings.frames_per_second);
   if (!is_film(file)) {
     return fail(Error::Kind::bad_input, file.string(), "has no extension of a film; known are " + film_extensions());
   }
@@ -231,6 +235,7 @@ Expected<FilmWriter> FilmWriter::create(const std::filesystem::path& file, const
 }
 
 Expected<void> FilmWriter::add(const Image& image) {
+  HOOKE_ASSERT(!impl_->finished);
   if (image.width != impl_->settings.width || image.height != impl_->settings.height) {
     return fail(Error::Kind::bad_input, impl_->file.string(), "an image is not of the film's size");
   }
@@ -240,6 +245,8 @@ Expected<void> FilmWriter::add(const Image& image) {
 }
 
 Expected<void> FilmWriter::finish() {
+  HOOKE_ASSERT(!impl_->finished);
+  impl_->finished = true;
   if (impl_->frames == 0) return fail(Error::Kind::bad_input, impl_->file.string(), "would be a film of no frame");
   if (!impl_->ffmpeg.wait()) return impl_->stopped();
   const std::string extension = extension_of(impl_->file);

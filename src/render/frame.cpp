@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
 #include "hooke/render/aeration.h"
 #include "hooke/render/cloth_meshes.h"
@@ -65,6 +66,7 @@ Look make_look(const Scene& scene, const ParticleSet& first, ColorBy by,
   Look look{action_box(scene, first), default_scale(scene, first, by), 0};
   look.foam_speed = default_scale(scene, first, ColorBy::speed).high;
   if (range) {
+    HOOKE_ASSERT((*range)[1] > (*range)[0], (*range)[0], (*range)[1]);
     look.scale.low = (*range)[0];
     look.scale.high = (*range)[1];
   }
@@ -72,6 +74,9 @@ Look make_look(const Scene& scene, const ParticleSet& first, ColorBy by,
 }
 
 Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, const Look& look, double aspect) {
+  HOOKE_ASSERT(are_particles_of(particles, scene), particles.size(), scene.materials.size());
+  HOOKE_ASSERT(aspect > 0, aspect);
+  HOOKE_ASSERT(look.scale.high > look.scale.low, look.scale.low, look.scale.high);
   Frame frame;
   frame.up = up_of(scene);
   const LevelAxes level = level_axes(look.action, frame.up);

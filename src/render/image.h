@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/expected.h"
 
 namespace hooke {
@@ -23,9 +24,13 @@ struct Image {
   Image(int w, int h)
       : width(w),
         height(h),
-        pixels(kChannels * static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
+        pixels(kChannels * static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {
+    HOOKE_ASSERT(w >= 0 && h >= 0, w, h);
+  }
 
+  /// The pixel in column x (< width) of row y (< height).
   std::uint8_t* at(int x, int y) {
+    HOOKE_ASSERT(x >= 0 && x < width && y >= 0 && y < height, x, y, width, height);
     return pixels.data() +
            kChannels * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
   }

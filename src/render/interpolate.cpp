@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "hooke/base/ascending.h"
+#include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
 #include "hooke/physics/periodic.h"
 
@@ -45,6 +47,8 @@ Vec3d wrapped(Vec3d position, const Domain& domain) {
 }  // namespace
 
 ParticleSet interpolate(const Scene& scene, const Moment& before, const Moment& after, double time) {
+  HOOKE_ASSERT(before.time <= time && time <= after.time, before.time, time, after.time);
+  HOOKE_ASSERT(is_ascending(before.particles.id) && is_ascending(after.particles.id));
   ParticleSet now = before.particles;
   const double span = after.time - before.time;
   if (!(span > 0) || time <= before.time) return now;
@@ -71,6 +75,7 @@ ParticleSet interpolate(const Scene& scene, const Moment& before, const Moment& 
 }
 
 ParticleSet drawn_back(const Scene& scene, const ParticleSet& particles, double seconds) {
+  HOOKE_ASSERT(seconds >= 0, seconds);
   ParticleSet then = particles;
   for (std::size_t i = 0; i < then.size(); ++i) {
     then.position[i] = wrapped(then.position[i] - seconds * then.velocity[i], scene.domain);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <string>
 
+#include "hooke/base/assert.h"
 #include "hooke/render/color_map.h"
 
 namespace hooke {
@@ -104,6 +105,7 @@ std::string title_text(ColorBy by, int power) {
 }  // namespace
 
 void draw_legend(Image& image, const ColorScale& scale) {
+  HOOKE_ASSERT(scale.high > scale.low, scale.low, scale.high);
   const Canvas canvas(image);
   cairo_t* const c = canvas.context();
   const double unit = canvas.unit();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <png.h>
 
+#include "hooke/base/assert.h"
 #include "hooke/render/image.h"
 
 namespace hooke {
@@ -28,6 +29,8 @@ std::vector<std::uint8_t> without_fourth_byte(const std::vector<std::uint8_t>& p
 }  // namespace
 
 Expected<std::string> encode_png(const Image& image) {
+  HOOKE_ASSERT(image.pixels.size() == Image(image.width, image.height).pixels.size(), image.width, image.height,
+               image.pixels.size());
   png_image png = describe(image);
   const std::vector<std::uint8_t> rgb = without_fourth_byte(image.pixels);
   // Asked for the size alone first, libpng would compress twice; its own upper bound is cheaper.

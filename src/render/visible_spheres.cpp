@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
 
 namespace hooke {
@@ -222,6 +223,8 @@ void mark_seen(const Buckets& buckets, Coverage& coverage, float low, float high
 }  // namespace
 
 Projection project(const Camera& camera, int width, int height) {
+  HOOKE_ASSERT(width > 0 && height > 0, width, height);
+  HOOKE_ASSERT(camera.field_of_view > 0 && camera.field_of_view < 180, camera.field_of_view);
   const CameraAxes own = axes(camera);
   const double half_angle = 0.5 * camera.field_of_view * std::numbers::pi / 180;
   Projection view;
@@ -237,6 +240,8 @@ Projection project(const Camera& camera, int width, int height) {
 }
 
 std::vector<std::uint32_t> visible_spheres(std::span<const Sphere> spheres, const Projection& view) {
+  HOOKE_ASSERT(view.width > 0 && view.height > 0 && view.scale > 0, view.width, view.height, view.scale);
+  HOOKE_ASSERT(view.parallel || view.nearest > 0, view.nearest);
   std::vector<Disc> discs(spheres.size());
   parallel_ranges(spheres.size(), kGrain, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) discs[i] = project(spheres[i], static_cast<std::uint32_t>(i), view);
@@ -269,6 +274,7 @@ PixelRectangle bounds_on_picture(std::span<const Sphere> spheres, std::span<cons
                                  const Projection& view) {
   float left = view.width, right = 0, low = view.height, high = 0;
   for (const std::uint32_t i : chosen) {
+    HOOKE_ASSERT(i < spheres.size(), i, spheres.size());
     const Disc disc = project(spheres[i], i, view);
     left = std::min(left, disc.x - disc.outer);
     right = std::max(right, disc.x + disc.outer);

@@ -19,7 +19,7 @@ struct Projection {
   float nearest = 0.01f;        ///< depth below which nothing is seen, m, > 0 unless parallel
 };
 
-/// The projection of a camera onto a picture of this size.
+/// The projection of a camera onto a picture of this size, > 0.
 Projection project(const Camera& camera, int width, int height);
 
 /// Indices, ascending, of the spheres of which any pixel may be seen: those in the picture that are not wholly behind

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
 
 namespace hooke {
@@ -41,6 +42,7 @@ void filter(WaterThickness& thickness, const Combine& combine) {
 }  // namespace
 
 WaterThickness water_thickness(std::span<const Sphere> spheres, const Projection& view) {
+  HOOKE_ASSERT(view.width > 0 && view.height > 0, view.width, view.height);
   WaterThickness thickness;
   thickness.columns = static_cast<int>(std::ceil(view.width / WaterThickness::kCell));
   thickness.rows = static_cast<int>(std::ceil(view.height / WaterThickness::kCell));

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/random.h"
 #include "hooke/scene/json_path.h"
 #include "hooke/scene/random_packing.h"
@@ -84,12 +85,14 @@ std::optional<BlockSource> read_block(const Json& json, const std::string& path,
 }
 
 double expected_count(const BlockSource& block) {
+  HOOKE_ASSERT(block.spacing > 0, block.path, block.spacing);
   if (block.count) return static_cast<double>(*block.count);
   if (block.lattice == "random") return random_packing_bound(block.box, block.spacing) / 2;
   return static_cast<double>(lattice_of(block).site_count());
 }
 
 std::vector<Vec3d> block_centres(const BlockSource& block, const Domain& domain, Findings& findings) {
+  HOOKE_ASSERT(block.spacing > 0 && block.jitter >= 0, block.path, block.spacing, block.jitter);
   std::vector<Vec3d> centres;
   std::uint64_t room = 0;
   if (block.lattice == "random") {

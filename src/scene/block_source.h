@@ -19,9 +19,9 @@ struct BlockSource {
   std::string path;    ///< in the scene: "particles[0].block"
   std::string lattice;  ///< "cubic", "hcp", "random"
   CentreBox box;
-  double spacing = 1;  ///< m
+  double spacing = 1;  ///< m, > 0
   std::optional<std::uint64_t> count;
-  double jitter = 0;  ///< m
+  double jitter = 0;  ///< m, >= 0
   std::uint64_t seed = 1;
   UpDirection up;
 };

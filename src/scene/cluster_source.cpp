@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/random.h"
 #include "hooke/scene/scene_builder.h"
 
@@ -105,6 +106,8 @@ ClusterSource read_cluster(const Json& json) {
 }
 
 ClusterParticles make_cluster(const ClusterSource& cluster, double mass, const std::optional<Attraction>& attraction) {
+  HOOKE_ASSERT(cluster.scale > 0 && cluster.companion >= 0 && mass > 0, cluster.scale, cluster.companion, mass);
+  HOOKE_ASSERT(dot(cluster.normal, cluster.normal) > 0, cluster.normal);
   const double total = static_cast<double>(cluster.count) * mass + cluster.companion;
   const double speed = std::sqrt((attraction ? attraction->constant : 0) * total / cluster.scale);
   const Vec3d normal = unit(cluster.normal);

@@ -31,8 +31,8 @@ struct ClusterSource {
 /// A source's "cluster" from its JSON, which has passed the schema and has its defaults.
 ClusterSource read_cluster(const Json& json);
 
-/// Its particles, each of `mass` (kg): positions, and velocities in equilibrium under `attraction`, softened not at
-/// all; at rest where there is none.
+/// Its particles, each of `mass` (kg, > 0): positions, and velocities in equilibrium under `attraction`, softened not
+/// at all; at rest where there is none.
 struct ClusterParticles {
   std::vector<Vec3d> position;  ///< m
   std::vector<Vec3d> velocity;  ///< m/s

@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "hooke/base/assert.h"
+
 namespace hooke {
 
 FileScanner::FileScanner(const std::filesystem::path& file) : buffer_(kLongestLine + 2) {
@@ -65,6 +67,7 @@ bool FileScanner::skip_lines(std::uint64_t count) {
 }
 
 const char* FileScanner::bytes(std::size_t count) {
+  HOOKE_ASSERT(count <= kLongestLine, count);
   if (!fetch(count)) return nullptr;
   const char* start = buffer_.data() + begin_;
   pass(count);

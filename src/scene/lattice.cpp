@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/base/assert.h"
+
 namespace hooke {
 namespace {
 
@@ -49,6 +51,8 @@ Lattice::Lattice(LatticeKind kind, const CentreBox& box, double spacing, UpDirec
       up_(up),
       row_axis_((up.axis + 1) % 3),
       third_axis_((up.axis + 2) % 3) {
+  HOOKE_ASSERT(spacing > 0, spacing);
+  HOOKE_ASSERT(up.axis >= 0 && up.axis < 3, up.axis);
   // Hexagonal close packing: touching rows shifted by half a spacing, layers sqrt(2/3) spacings apart.
   const bool hcp = kind == LatticeKind::hcp;
   row_distance_ = hcp ? spacing * std::sqrt(3.0) / 2 : spacing;

@@ -17,7 +17,7 @@ struct CentreBox {
 
 /// Which way is up: against gravity along its largest component; +y without gravity.
 struct UpDirection {
-  int axis = 1;
+  int axis = 1;  ///< 0, 1, 2 for x, y, z
   bool positive = true;
 };
 UpDirection up_against(const Vec3d& gravity);

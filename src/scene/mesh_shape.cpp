@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hooke/base/assert.h"
 #include "hooke/core/colliders.h"
 #include "hooke/scene/json_path.h"
 #include "hooke/scene/mesh_field.h"
@@ -36,6 +37,7 @@ void place(TriangleMesh& mesh, double scale, const Vec3d& rotation, const Vec3d&
 
 std::optional<MeshShape> read_mesh_shape(const Json& json, const std::string& where, const ShapeFiles& files,
                                          Findings& findings) {
+  HOOKE_ASSERT(files.smallest_radius > 0 && files.reach > 0, where, files.smallest_radius, files.reach);
   const std::string file_at = join_path(where, "file");
   const auto file = find_scene_file(files.folder, json.at("file").get<std::string>(), files.allow_outside);
   const auto refuse = [&](const Error& error) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "hooke/base/assert.h"
 #include "hooke/scene/particle_format.h"
 
 namespace hooke {
@@ -39,6 +40,12 @@ const Format* format_of(const std::filesystem::path& file) {
     if (std::find(known.begin(), known.end(), extension) != known.end()) return &format;
   }
   return nullptr;
+}
+
+bool are_indices_of_materials(const ParticleFileRules& rules) {
+  const auto is_known = [&](std::uint16_t material) { return material < rules.materials.size(); };
+  return (!rules.material || is_known(*rules.material)) &&
+         std::all_of(rules.types.begin(), rules.types.end(), [&](const auto& type) { return is_known(type.second); });
 }
 
 void read(const std::filesystem::path& file, ParticleRows& rows) {
@@ -76,6 +83,7 @@ std::uint64_t count_particles(const std::filesystem::path& file, const ParticleF
 
 FileParticles read_particle_file(const std::filesystem::path& file, const std::string& name,
                                  const ParticleFileRules& rules, Findings& findings, std::vector<Finding>& warnings) {
+  HOOKE_ASSERT(are_indices_of_materials(rules), rules.materials.size());
   ParticleRows rows(rules, name, false, findings, warnings);
   read(file, rows);
   return rows.finish();

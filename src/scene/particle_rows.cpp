@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hooke/base/assert.h"
 #include "hooke/scene/json_reader.h"
 #include "hooke/scene/nearest.h"
 #include "hooke/scene/words.h"
@@ -161,6 +162,7 @@ bool ParticleRows::read(std::span<const std::string_view> texts, Row& row, std::
 
 void ParticleRows::add(const Row& row, std::uint64_t place) {
   const auto& [x, y, z, vx, vy, vz, radius, mass] = row.number;
+  HOOKE_ASSERT(row.material < rules_.materials.size(), row.material, rules_.materials.size(), place);
   const Material& material = rules_.materials[row.material];
   compare(radius, material.radius, row, place, radius_);
   compare(mass, material.mass, row, place, mass_);

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hooke/base/assert.h"
 #include "hooke/scene/file_scanner.h"
 #include "hooke/scene/particle_file.h"
 
@@ -52,7 +53,11 @@ struct Row {
   std::uint64_t id;
   std::uint16_t material;
 
-  double& operator[](Field field) { return number[static_cast<std::size_t>(field)]; }
+  /// Of a field that is a number.
+  double& operator[](Field field) {
+    HOOKE_ASSERT(field < Field::id, field);
+    return number[static_cast<std::size_t>(field)];
+  }
 };
 
 /// Makes particles from the columns of a file, the same way for every format: checks values, finds materials, notes
@@ -65,7 +70,10 @@ class ParticleRows {
   const ParticleFileRules& rules() const { return rules_; }
 
   /// What the file calls materials; by name alone if this is not called. Before set_columns.
-  void set_labels(MaterialLabels labels) { labels_ = std::move(labels); }
+  void set_labels(MaterialLabels labels) {
+    HOOKE_ASSERT(columns_.empty(), columns_.size());
+    labels_ = std::move(labels);
+  }
   /// Places from now on are bytes, not lines.
   void set_binary() { out_.binary = true; }
   /// The columns of every row. False, with findings at `place`, where they can't make particles.
@@ -83,6 +91,7 @@ class ParticleRows {
   bool read(Field field, std::string_view title, double value, Row& row, std::uint64_t place);
   /// Reads a row of as many texts as there are columns. False, with findings, where it is not good.
   bool read(std::span<const std::string_view> texts, Row& row, std::uint64_t place);
+  /// A row in which every column has been read.
   void add(const Row& row, std::uint64_t place);
   /// Velocities of particles that are known by their ids, where they follow later.
   void set_velocity(std::uint64_t id, const Vec3d& velocity, std::uint64_t place);

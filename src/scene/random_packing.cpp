@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/random.h"
 
 namespace hooke {
@@ -191,6 +192,7 @@ class Packing {
 }  // namespace
 
 double random_packing_bound(const CentreBox& box, double spacing) {
+  HOOKE_ASSERT(spacing > 0, spacing);
   // Spheres of one spacing across, in the box grown by half a spacing all around, fill at most 0.74 of it.
   constexpr double kDensestPacking = 1.4142135623730951;  // centres a cubed spacing
   double bound = kDensestPacking;
@@ -199,6 +201,7 @@ double random_packing_bound(const CentreBox& box, double spacing) {
 }
 
 std::vector<Vec3d> random_packing(const CentreBox& box, double spacing, std::uint64_t count, std::uint64_t seed) {
+  HOOKE_ASSERT(spacing > 0, spacing);
   if (count == 0) return {};
   for (int axis = 0; axis < 3; ++axis) {
     if (component(box.max, axis) < component(box.min, axis)) return {};

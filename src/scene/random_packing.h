@@ -13,9 +13,9 @@ namespace hooke {
 /// As many centres as will go in.
 inline constexpr std::uint64_t kAsManyAsFit = std::numeric_limits<std::uint64_t>::max();
 
-/// Centres drawn at random in a box, each kept where it is at least `spacing` (m) from all before: random sequential
-/// addition. Draws go to what is still free, so that it ends: with `count` centres, or when next to no room is
-/// left (about 0.7 centres a cubed spacing). The same seed gives the same centres on every machine.
+/// Centres drawn at random in a box, each kept where it is at least `spacing` (m, > 0) from all before: random
+/// sequential addition. Draws go to what is still free, so that it ends: with `count` centres, or when next to no room
+/// is left (about 0.7 centres a cubed spacing). The same seed gives the same centres on every machine.
 std::vector<Vec3d> random_packing(const CentreBox& box, double spacing, std::uint64_t count, std::uint64_t seed);
 
 /// Upper bound of what random_packing can find room for.

@@ -18,8 +18,8 @@ namespace hooke {
 struct ShapeFiles {
   std::filesystem::path folder;  ///< of the scene
   bool allow_outside = false;    ///< files may lie elsewhere
-  double smallest_radius = 1;    ///< of particles, m: features of this size are kept
-  double reach = 1;              ///< m: as far from surfaces as distances are needed
+  double smallest_radius = 1;    ///< of particles, m, > 0: features of this size are kept
+  double reach = 1;              ///< m, > 0: as far from surfaces as distances are needed
   std::vector<Finding>* warnings = nullptr;
   std::vector<SceneFile>* used = nullptr;  ///< gets every file that is read
 };

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hooke/base/assert.h"
 #include "hooke/physics/periodic.h"
 #include "hooke/scene/available_memory.h"
 #include "hooke/scene/json_path.h"
@@ -41,6 +42,7 @@ bool StructureMaker::fits(double particle_count, double spring_count, const std:
 
 std::uint64_t StructureMaker::add_particles(const std::vector<Vec3d>& positions, std::uint16_t material,
                                             const Vec3d& velocity, const std::string& path) {
+  HOOKE_ASSERT(material < scene.materials.size(), material, scene.materials.size(), path);
   const std::uint64_t first = particles.empty() ? 1 : particles.id.back() + 1;
   std::uint64_t next = first;
   std::size_t outside = 0;
@@ -73,8 +75,9 @@ void StructureMaker::end_group(const std::string& path) {
 }
 
 double StructureMaker::distance(std::uint64_t a, std::uint64_t b) const {
-  const Vec3d d = nearest_displacement(particles.position[particles.find(a)], particles.position[particles.find(b)],
-                                       scene.domain.period());
+  const std::size_t i = particles.find(a), k = particles.find(b);
+  HOOKE_ASSERT(i < particles.size() && k < particles.size(), a, b, particles.size());
+  const Vec3d d = nearest_displacement(particles.position[i], particles.position[k], scene.domain.period());
   return std::sqrt(dot(d, d));
 }
 

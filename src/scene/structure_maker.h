@@ -39,7 +39,7 @@ struct StructureMaker {
   /// The springs that were added since the last call are those of the entry at `path`.
   void end_group(const std::string& path);
 
-  /// Distance of two particles, by the nearest image, m.
+  /// Distance of two particles (ids) that there are, by the nearest image, m.
   double distance(std::uint64_t a, std::uint64_t b) const;
 
   // The sections, one file each. Nothing is made where findings touch an entry, or of what options.with_particles

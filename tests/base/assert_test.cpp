@@ -92,7 +92,7 @@ TEST(Assert, HandlerGetsExpressionPlaceAndValues) {
 
 TEST(Assert, WhatHoldsDoesNothing) {
   int evaluated = 0;
-  EXPECT_EQ(testing::failed_assertion([&] { HOOKE_ASSERT(++evaluated == 1); }), "");
+  EXPECT_EQ(test::failed_assertion([&] { HOOKE_ASSERT(++evaluated == 1); }), "");
   EXPECT_EQ(evaluated, HOOKE_ASSERTIONS);
 }
 

@@ -13,14 +13,14 @@
 /// Expects that an assertion fails in `statement`, whose text, as in "index < count; index = 7, count = 5", has `part`
 /// in it. The handler of the tests throws, so a statement must be able to let exceptions pass or turn them into errors:
 /// one that does neither (noexcept) wants EXPECT_DEATH. Skips the test where assertions are off.
-#define EXPECT_ASSERTS(statement, part)                                                             \
-  do {                                                                                              \
-    if (HOOKE_ASSERTIONS == 0) GTEST_SKIP() << "built without assertions";                          \
-    const std::string text = ::hooke::testing::failed_assertion([&] { statement; });                \
-    EXPECT_NE(text.find(part), std::string::npos) << (text.empty() ? "no assertion failed" : text); \
+#define EXPECT_ASSERTS(statement, part)                                                                         \
+  do {                                                                                                          \
+    if (HOOKE_ASSERTIONS == 0) GTEST_SKIP() << "built without assertions";                                      \
+    const std::string asserted = ::hooke::test::failed_assertion([&] { statement; });                           \
+    EXPECT_NE(asserted.find(part), std::string::npos) << (asserted.empty() ? "no assertion failed" : asserted); \
   } while (false)
 
-namespace hooke::testing {
+namespace hooke::test {
 
 struct FailedAssertion : std::exception {
   const char* what() const noexcept override { return "an assertion failed"; }
@@ -46,4 +46,4 @@ std::string failed_assertion(const Statement& statement) {
   return text;
 }
 
-}  // namespace hooke::testing
+}  // namespace hooke::test

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "hooke/base/assert.h"
 #include "hooke/render/frame.h"
 #include "hooke/render/gl/gl_objects.h"
 
@@ -94,6 +95,7 @@ class MeshBuffer {
       glEnable(GL_CULL_FACE);
       glCullFace(GL_FRONT);
     }
+    HOOKE_ASSERT(k + 1 < first_.size(), k, first_.size());
     glDrawArrays(GL_TRIANGLES, first_[k], first_[k + 1] - first_[k]);
     glDisable(GL_CULL_FACE);
   }

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "hooke/base/assert.h"
+
 namespace hooke::gl {
 
 namespace {
@@ -26,6 +28,8 @@ GLuint compile(GLenum kind, const char* source) {
 }  // namespace
 
 Texture make_texture(int width, int height, GLenum format, GLenum filter) {
+  HOOKE_ASSERT(width > 0 && height > 0, width, height);
+  HOOKE_ASSERT(filter == GL_NEAREST || filter == GL_LINEAR, filter);
   GLuint name = 0;
   glGenTextures(1, &name);
   Texture texture(name);

@@ -52,7 +52,7 @@ struct Texture : Object<delete_texture> {
   GLenum format = GL_NONE;
 };
 
-/// Without a first content; `filter` is GL_NEAREST or GL_LINEAR.
+/// Of a size > 0, without a first content; `filter` is GL_NEAREST or GL_LINEAR.
 Texture make_texture(int width, int height, GLenum format, GLenum filter);
 /// Draws into `colors`, in this order, and `depth` (null: none), with its stencil where it has one.
 Framebuffer make_framebuffer(std::initializer_list<const Texture*> colors, const Texture* depth);

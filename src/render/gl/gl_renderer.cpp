@@ -10,8 +10,10 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
 #include "hooke/render/gl/egl_context.h"
 #include "hooke/render/gl/gl_buffers.h"
@@ -49,6 +51,7 @@ class GlRenderer final : public Renderer {
   ~GlRenderer() override { context_.make_current(); }
 
   Expected<Image> render(const Frame& frame) override {
+    HOOKE_ASSERT(std::this_thread::get_id() == thread_);
     const Clock::time_point start = Clock::now();
     context_.make_current();
     const Projection view = project(frame.camera, targets_.samples_across, targets_.samples_down);
@@ -294,6 +297,7 @@ class GlRenderer final : public Renderer {
     return flipped;
   }
 
+  std::thread::id thread_ = std::this_thread::get_id();  // whose it is
   EglContext context_;  // outlives all that is in it
   RenderSettings settings_;
   RenderFigures figures_;

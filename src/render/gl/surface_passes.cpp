@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "hooke/render/gl/surface_passes.h"
 
+#include "hooke/base/assert.h"
 #include "hooke/render/gl/sun.h"
 
 namespace hooke {
@@ -17,6 +18,7 @@ void restrict_to(const PixelRectangle& box) {
 
 void SurfacePasses::run(const Frame& frame, const Projection& pixels, const PixelRectangle& box, float sphere_size,
                         bool water) const {
+  HOOKE_ASSERT(sphere_size > 0, sphere_size);
   clear();
   glEnable(GL_SCISSOR_TEST);
   restrict_to(box);

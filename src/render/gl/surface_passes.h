@@ -20,7 +20,7 @@ class SurfacePasses {
         programs_(programs),
         samples_(samples) {}
 
-  /// `sphere_size` is the radius of a typical sphere, m.
+  /// `sphere_size` is the radius of a typical sphere, m, > 0.
   void run(const Frame& frame, const Projection& pixels, const PixelRectangle& box, float sphere_size,
            bool water) const;
 

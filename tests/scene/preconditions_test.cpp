@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+//
+// What programmers must not do is seen where they do it: of each kind of precondition that headers state, one.
+
+#include <gtest/gtest.h>
+
+#include "hooke/scene/block_source.h"
+#include "hooke/scene/cluster_source.h"
+#include "hooke/scene/file_scanner.h"
+#include "hooke/scene/lattice.h"
+#include "hooke/scene/random_packing.h"
+#include "scratch_folder.h"
+#include "support/assertions.h"
+
+namespace hooke {
+namespace {
+
+const CentreBox kBox{{0, 0, 0}, {1, 1, 1}};
+
+TEST(ScenePreconditions, CentresAreApart) {
+  EXPECT_ASSERTS(Lattice(LatticeKind::cubic, kBox, 0, {}), "spacing = 0");
+  EXPECT_ASSERTS(Lattice(LatticeKind::cubic, kBox, 1, {3, true}), "up.axis = 3");
+  EXPECT_ASSERTS((void)random_packing(kBox, -1, 10, 1), "spacing = -1");
+  EXPECT_ASSERTS((void)random_packing_bound(kBox, 0), "spacing = 0");
+  BlockSource block;
+  block.path = "particles[0].block";
+  block.spacing = 0;
+  EXPECT_ASSERTS((void)expected_count(block), "block.path = \"particles[0].block\", block.spacing = 0");
+}
+
+TEST(ScenePreconditions, ClustersAreValid) {
+  ClusterSource cluster;
+  EXPECT_ASSERTS((void)make_cluster(cluster, 0, {}), "mass = 0");
+  cluster.normal = {0, 0, 0};
+  EXPECT_ASSERTS((void)make_cluster(cluster, 1, {}), "cluster.normal = (0, 0, 0)");
+}
+
+TEST(ScenePreconditions, PiecesOfFilesAreBounded) {
+  const ScratchFolder folder;
+  FileScanner scanner(folder.write("some.csv", "x,y,z\n"));
+  EXPECT_ASSERTS((void)scanner.bytes(FileScanner::kLongestLine + 1), "count = 1048577");
+}
+
+}  // namespace
+}  // namespace hooke

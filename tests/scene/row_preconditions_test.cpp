@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+//
+// As preconditions_test.cpp, of what makes particles out of the rows of files.
+
+#include <gtest/gtest.h>
+
+#include <span>
+#include <vector>
+
+#include "hooke/scene/findings.h"
+#include "hooke/scene/particle_file.h"
+#include "hooke/scene/particle_rows.h"
+#include "support/assertions.h"
+
+namespace hooke {
+namespace {
+
+TEST(ScenePreconditions, RowsAreOfTheScenesMaterials) {
+  const Material water;
+  Findings findings("");
+  std::vector<Finding> warnings;
+  ParticleFileRules rules;
+  rules.materials = std::span(&water, 1);
+  ParticleRows rows(rules, "some.csv", false, findings, warnings);
+  Row row = rows.blank();
+  row.material = 4;
+  EXPECT_ASSERTS(rows.add(row, 12), "row.material = 4, rules_.materials.size() = 1, place = 12");
+  EXPECT_ASSERTS((void)row[Field::id], "field = 8");
+  EXPECT_TRUE(rows.set_columns({{Field::x, "x"}, {Field::y, "y"}, {Field::z, "z"}, {Field::material, "m"}}, 1));
+  EXPECT_ASSERTS(rows.set_labels({}), "columns_.size() = 4");
+  rules.material = 1;
+  EXPECT_ASSERTS((void)read_particle_file("some.csv", "some.csv", rules, findings, warnings),
+                 "rules.materials.size() = 1");
+}
+
+}  // namespace
+}  // namespace hooke
