@@ -2,49 +2,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <cstddef>
 
-#if defined(HOOKE_SANITIZE_THREAD)
-#include <tbb/task_arena.h>
-
-#include <atomic>
-#include <thread>
-#include <vector>
-#endif
-
-#include "hooke/base/assert.h"
-#include "hooke/base/floating_point.h"
-
 namespace hooke {
+
+/// What parallel_ranges() comes to, whatever the body's type: so that files that ask for threads needn't compile
+/// oneTBB's templates, which takes a second and more each.
+using RangeFunction = void (*)(const void* body, std::size_t first, std::size_t last);
+void run_ranges(std::size_t count, std::size_t grain, const void* body, RangeFunction call);
 
 /// body(first, last) on disjoint ranges that cover [0, count), each but the last a whole number of `grain`, > 0. Ranges
 /// run on the threads of the task arena that this is called in, in no order; what they compute must not depend on the
 /// split.
 template <class Body>
 void parallel_ranges(std::size_t count, std::size_t grain, const Body& body) {
-  HOOKE_ASSERT(grain > 0, count);
-  const std::size_t blocks = (count + grain - 1) / grain;
-  const auto run_blocks = [&](std::size_t first, std::size_t last) {
-    const FloatingPointGuard guard;
-    body(first * grain, last * grain < count ? last * grain : count);
-  };
-#if defined(HOOKE_SANITIZE_THREAD)
-  // The thread sanitizer can't see how an uninstrumented oneTBB hands work over, and takes all of it for races.
-  std::atomic<std::size_t> next{0};
-  std::vector<std::thread> threads(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
-  for (std::thread& thread : threads) {
-    thread = std::thread([&] {
-      for (std::size_t block = next++; block < blocks; block = next++) run_blocks(block, block + 1);
-    });
-  }
-  for (std::thread& thread : threads) thread.join();
-#else
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks),
-                    [&](const tbb::blocked_range<std::size_t>& r) { run_blocks(r.begin(), r.end()); });
-#endif
+  run_ranges(count, grain, &body,
+             [](const void* of, std::size_t first, std::size_t last) { (*static_cast<const Body*>(of))(first, last); });
 }
 
 }  // namespace hooke

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -18,58 +17,17 @@ namespace hooke {
 /// pair by its own limit. `rows` are those of its group in the neighbour list.
 template <class Real>
 Condition approach_too_fast(const ContactScan<Real>& scan, std::size_t i, std::span<const std::uint32_t> rows,
-                            const ParticleRecord<Real>* records, const Scene& scene, const IdTable& ids) {
-  const auto radius_of = [&](std::size_t k) { return scene.materials[scan.material_of(k)].radius; };
-  const auto id_of = [&](std::size_t k) { return ids[rank_of(records[k].rank)]; };
-  const Vec3d v = vec_cast<double>(records[i].v);
-  const double radius = radius_of(i);
-  Condition found;
-  const auto look = [&](Condition::Kind kind, std::uint64_t partner, double overlap, double approach, double limit) {
-    if (overlap > 0 && approach > limit / scene.time_step) {
-      found = Condition::first(found, {kind, id_of(i), partner, approach});
-    }
-  };
-  scan.for_each_contact(i, rows, [&](std::size_t p, const Vec3d& normal, double overlap) {
-    look(Condition::Kind::approach_too_fast, id_of(p), overlap, dot(vec_cast<double>(records[p].v) - v, normal),
-         std::min(radius, radius_of(p)));
-  });
-  scan.for_each_wall(i, [&](const Vec3d& normal, double overlap) {
-    look(Condition::Kind::wall_approach_too_fast, 0, overlap, dot(-v, normal), radius);
-  });
-  scan.for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double overlap) {
-    look(Condition::Kind::collider_approach_too_fast, c, overlap, dot(face.velocity - v, face.normal), radius);
-  });
-  return found;
-}
+                            const ParticleRecord<Real>* records, const Scene& scene, const IdTable& ids);
 
 /// Adds particle i, which is `p`, and its contacts to what is measured.
 template <class Real>
 void measure_particle(const ContactScan<Real>& scan, std::size_t i, std::span<const std::uint32_t> rows,
-                      const ParticleRecord<Real>& p, const Scene& scene, MeasurementSums& sums) {
-  const Vec3d v = vec_cast<double>(p.v);
-  sums.add_particle(scene.materials[scan.material_of(i)].mass, vec_cast<double>(p.x), v, scene.gravity);
-  scan.for_each_contact(i, rows, [&](std::size_t q, const Vec3d&, double overlap) {
-    sums.add_contact_side(law_of(scan.pair(i, q)), overlap, scan.pair(i, q).reach);
-  });
-  scan.for_each_wall(i, [&](const Vec3d& normal, double overlap) {
-    const ContactLaw<double> law = law_of(scan.wall(i));
-    sums.add_wall_contact(law, overlap, contact_force(overlap, normal, -v, law));
-  });
-  scan.for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double overlap) {
-    const ContactLaw<double> law = law_of(scan.collider(i, c));
-    const Vec3d force = contact_force(overlap, face.normal, face.velocity - v, law);
-    sums.add_collider_contact(c, face.point, law, overlap, force);
-  });
-}
+                      const ParticleRecord<Real>& p, const Scene& scene, MeasurementSums& sums);
 
-/// Adds the energy (J) of the contacts of particle i with others; half of it where among(other) says that the other
-/// adds it too.
-template <class Real, class Among>
+/// Adds the energy (J) of the contacts of particle i with others; half of it where the other is one of `among`
+/// (indices, ascending), and adds it too.
+template <class Real>
 void add_contact_energy(const ContactScan<Real>& scan, std::size_t i, std::span<const std::uint32_t> rows,
-                        const Among& among, ExactSum& sum) {
-  scan.for_each_contact(i, rows, [&](std::size_t p, const Vec3d&, double overlap) {
-    sum.add((among(p) ? 0.5 : 1.0) * contact_energy(overlap, law_of(scan.pair(i, p))));
-  });
-}
+                        std::span<const std::uint32_t> among, ExactSum& sum);
 
 }  // namespace hooke

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// The force pass, written once and compiled once for each instruction set (HOOKE_ISA): a pack of particles at a time,
-// their contacts row by row, walls, drag, gravity and the integrator, all in registers. What each lane computes is
-// exactly what ReferenceBackend spells out for one particle.
+// The force pass, written once and compiled once for each instruction set (HOOKE_ISA) and precision (HOOKE_REAL): a
+// pack of particles at a time, their contacts row by row, walls, drag, gravity and the integrator, all in registers.
+// What each lane computes is exactly what ReferenceBackend spells out for one particle.
 
 #include <type_traits>
 
@@ -476,7 +476,8 @@ void choose_materials(const ForcePass<Real>& pass, const SegmentWork<Real>& work
 
 }  // namespace
 
-void force_pass(const ForcePass<float>& pass, const SegmentWork<float>& work) { choose_materials(pass, work); }
-void force_pass(const ForcePass<double>& pass, const SegmentWork<double>& work) { choose_materials(pass, work); }
+void force_pass(const ForcePass<HOOKE_REAL>& pass, const SegmentWork<HOOKE_REAL>& work) {
+  choose_materials(pass, work);
+}
 
 }  // namespace hooke::HOOKE_ISA

@@ -2,25 +2,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "hooke/backends/cpu/boundaries.h"
 #include "hooke/backends/cpu/id_table.h"
 #include "hooke/backends/cpu/particle_record.h"
 #include "hooke/backends/cpu/particle_slots.h"
 #include "hooke/backends/cpu/pass_rules.h"
-#include "hooke/base/assert.h"
 #include "hooke/base/huge_pages.h"
-#include "hooke/base/parallel.h"
-#include "hooke/core/emitters.h"
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
-#include "hooke/core/state_hash.h"
 
 namespace hooke {
 
@@ -52,28 +45,7 @@ class ParticleState {
 
   /// Lays out these, of the scene, and no others, in order of their ids, with room for those that may be born, for
   /// `births` at least.
-  void place(const ParticleSet& particles, std::size_t births = 0) {
-    HOOKE_ASSERT(are_particles_of(particles, *scene_), particles.size(), scene_->materials.size());
-    ids = IdTable(particles.id, !scene_->emitters.empty());
-    count_of_.assign(scene_->materials.size(), 0);
-    for (const std::uint16_t m : particles.material) ++count_of_[m];
-    recount();
-    const bool tied = scene_->structure != nullptr;  // to slots, until all are laid out again
-    slots.lay_out(count_ - loose_count_, room_for_births(true) + births, loose_count_, room_for_births(false) + births,
-                  tied);
-    records.resize(slots.room() + ParticleSlots::kLanes);  // a pack more, for searches to read; the last is the dummy
-    next.resize(records.size());
-    acceleration.assign(verlet() ? records.size() : 0, {Real(0), Real(0), Real(0)});
-    std::size_t next_listed = 0, next_loose = slots.first_loose();
-    for (std::size_t k = 0; k < particles.size(); ++k) {
-      const std::size_t slot = scene_->materials[particles.material[k]].interacts ? next_listed++ : next_loose++;
-      const std::size_t rank = scene_->emitters.empty() ? k : ids.find(particles.id[k]);
-      put(slot, rank, particles, k);
-      if (verlet() && !particles.acceleration.empty()) acceleration[slot] = vec_cast<Real>(particles.acceleration[k]);
-    }
-    fill_unused(records);
-    fill_unused(next);
-  }
+  void place(const ParticleSet& particles, std::size_t births = 0);
 
   /// The buffer of the next state, to work in until a pass needs it: then end_scratch() first. Reordering works in it
   /// too.
@@ -81,136 +53,31 @@ class ParticleState {
   void end_scratch() { fill_unused(next); }
 
   /// All particles, by id.
-  void download(ParticleSet& out) const {
-    constexpr std::uint32_t kGone = ~std::uint32_t{0};
-    std::vector<std::uint32_t> at(ids.size(), kGone);  // by rank, so by id
-    for (std::size_t i = 0; i < slots.end(); ++i) {
-      if (!is_nowhere(records[i])) at[rank_of(records[i].rank)] = static_cast<std::uint32_t>(i);
-    }
-    out.clear();
-    out.resize(count_);
-    if (verlet()) out.acceleration.resize(count_);
-    std::size_t k = 0;
-    for (std::size_t rank = 0; rank < at.size(); ++rank) {
-      if (at[rank] == kGone) continue;
-      const Record& record = records[at[rank]];
-      out.id[k] = ids[rank];
-      out.material[k] = static_cast<std::uint16_t>(record.material);
-      out.position[k] = vec_cast<double>(record.x);
-      out.velocity[k] = vec_cast<double>(record.v);
-      if (verlet()) out.acceleration[k] = vec_cast<double>(acceleration[at[rank]]);
-      ++k;
-    }
-  }
+  void download(ParticleSet& out) const;
 
   /// Puts into listed slot k what was in slot order[k], those that are nowhere last. Loose ones stay.
-  void reorder(std::span<const std::uint32_t> order) {
-    HOOKE_ASSERT(order.size() >= count_ - loose_count_, order.size(), count_, loose_count_);
-    slots.set_listed(count_ - loose_count_);
-    permute(records, next, order);
-    fill_unused(records);
-    if (verlet()) {
-      LargeVector<Vec3<Real>> scratch(acceleration.size());
-      permute(acceleration, scratch, order);
-    }
-  }
+  void reorder(std::span<const std::uint32_t> order);
 
   /// How many more particles of a kind there should be slots for: what may be born is what is expected, and half as
   /// many as there are, so that it is seldom that all are laid out anew.
-  std::size_t room_for_births(bool listed) const {
-    constexpr double kMost = 1U << 21U;  // ahead: more takes a while to fill
-    double expected = 0;
-    bool any = false;
-    for (const Emitter& e : scene_->emitters) {
-      if (scene_->materials[e.material].interacts != listed) continue;
-      any = true;
-      expected += expected_population(e, static_cast<double>(scene_->steps) * scene_->time_step);
-    }
-    if (!any) return 0;
-    const std::size_t there = listed ? count_ - loose_count_ : loose_count_;
-    const auto wanted = static_cast<std::size_t>(std::min(kMost, 1.1 * expected)) + kSegment;
-    return std::max(there / 2, wanted - std::min(wanted, there)) + kSegment;
-  }
-
-  bool has_room_for(const ParticleSet& newborn) const {
-    std::size_t loose = 0;
-    for (const std::uint16_t m : newborn.material) loose += scene_->materials[m].interacts ? 0 : 1;
-    // Ids of those that are gone stay in the table until it is mostly theirs.
-    const bool many_gone = ids.size() + newborn.size() > 4 * count_ + 65536;
-    return !many_gone && slots.has_room(newborn.size() - loose, loose);
-  }
+  std::size_t room_for_births(bool listed) const;
+  bool has_room_for(const ParticleSet& newborn) const;
 
   /// Puts the k-th newborn into a slot that was taken for it; recount() when all are in. Returns its rank.
-  std::size_t add(std::size_t slot, const ParticleSet& newborn, std::size_t k) {
-    ids.append(newborn.id[k]);
-    const std::size_t rank = ids.size() - 1;
-    put(slot, rank, newborn, k);
-    if (verlet()) acceleration[slot] = {Real(0), Real(0), Real(0)};
-    ++count_of_[newborn.material[k]];
-    return rank;
-  }
+  std::size_t add(std::size_t slot, const ParticleSet& newborn, std::size_t k);
   /// Sends who is in a slot nowhere; recount() when all are gone.
-  void remove(std::size_t slot) {
-    Record& p = records[slot];
-    HOOKE_ASSERT(!is_nowhere(p), slot);
-    --count_of_[static_cast<std::size_t>(p.material)];
-    p = nowhere_record<Real>(p.rank);
-    slots.leave(slot);
-  }
-  void recount() {
-    count_ = loose_count_ = 0;
-    mass_ = 0;
-    for (std::size_t m = 0; m < count_of_.size(); ++m) {
-      count_ += count_of_[m];
-      if (!scene_->materials[m].interacts) loose_count_ += count_of_[m];
-      mass_ += static_cast<double>(count_of_[m]) * scene_->materials[m].mass;
-    }
-  }
+  void remove(std::size_t slot);
+  void recount();
 
   /// Backend::particles_hash().
-  std::uint64_t hash() const {
-    std::atomic<std::uint64_t> hash{0};
-    parallel_ranges(slots.end(), kSegment, [&](std::size_t first, std::size_t last) {
-      std::uint64_t sum = 0;
-      for (std::size_t i = first; i < last; ++i) {
-        const Record& p = records[i];
-        if (!is_nowhere(p)) sum += particle_hash(ids[rank_of(p.rank)], p.x, p.v);
-      }
-      hash += sum;
-    });
-    return hash;
-  }
+  std::uint64_t hash() const;
 
  private:
-  void put(std::size_t slot, std::size_t rank, const ParticleSet& particles, std::size_t k) {
-    records[slot] = {vec_cast<Real>(particles.position[k]), static_cast<Real>(particles.material[k]),
-                     vec_cast<Real>(particles.velocity[k]), rank_code<Real>(static_cast<std::uint32_t>(rank))};
-    wrap_periodic(rules_->pass, records[slot]);  // a coordinate may have been rounded up to the upper face
-  }
-
-  void fill_unused(LargeVector<Record>& all) const {
-    const auto fill = [&](std::size_t first, std::size_t last) {
-      std::fill(all.begin() + static_cast<std::ptrdiff_t>(first), all.begin() + static_cast<std::ptrdiff_t>(last),
-                nowhere_record<Real>(Real(0)));
-    };
-    fill(slots.listed_end(), slots.first_loose());
-    fill(slots.loose_end(), all.size() - 1);
-    all.back() = filling_record<Real>();
-  }
+  void put(std::size_t slot, std::size_t rank, const ParticleSet& particles, std::size_t k);
+  void fill_unused(LargeVector<Record>& all) const;
 
   template <class T>
-  void permute(LargeVector<T>& column, LargeVector<T>& scratch, std::span<const std::uint32_t> order) const {
-    parallel_ranges(slots.listed_end(), kSegment, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) scratch[i] = column[order[i]];
-    });
-    parallel_ranges(slots.loose_end() - slots.first_loose(), kSegment, [&](std::size_t first, std::size_t last) {
-      const auto at = [&](auto& of, std::size_t i) {
-        return of.begin() + static_cast<std::ptrdiff_t>(slots.first_loose() + i);
-      };
-      std::copy(at(column, first), at(column, last), at(scratch, first));
-    });
-    column.swap(scratch);
-  }
+  void permute(LargeVector<T>& column, LargeVector<T>& scratch, std::span<const std::uint32_t> order) const;
 
   const Scene* scene_ = nullptr;
   const PassRules<Real>* rules_ = nullptr;
@@ -218,5 +85,8 @@ class ParticleState {
   std::size_t count_ = 0, loose_count_ = 0;
   double mass_ = 0;  // kg
 };
+
+extern template class ParticleState<float>;
+extern template class ParticleState<double>;
 
 }  // namespace hooke

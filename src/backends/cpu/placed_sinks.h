@@ -7,7 +7,6 @@
 
 #include "hooke/core/scene.h"
 #include "hooke/core/shapes.h"
-#include "hooke/physics/enclosure.h"
 
 namespace hooke {
 
@@ -15,14 +14,12 @@ namespace hooke {
 class PlacedSinks {
  public:
   PlacedSinks() = default;
-  explicit PlacedSinks(const std::vector<Sink>& sinks) {
-    for (const Sink& sink : sinks) sinks_.push_back({bounds_of(sink.shape), geometry_of(sink.shape, false, {0, 0, 0})});
-  }
+  explicit PlacedSinks(const std::vector<Sink>& sinks);
 
   /// Whether a particle with its centre at x (m) is taken away.
   bool take(const Vec3d& x) const {
     return std::any_of(sinks_.begin(), sinks_.end(),
-                       [&](const Placed& sink) { return is_inside(sink.box, x) && encloses(sink.shape, x); });
+                       [&](const Placed& sink) { return is_inside(sink.box, x) && encloses(sink, x); });
   }
 
  private:
@@ -30,6 +27,8 @@ class PlacedSinks {
     ShapeBounds box;
     ShapeGeometry<double> shape;
   };
+  static bool encloses(const Placed& sink, const Vec3d& x);
+
   std::vector<Placed> sinks_;
 };
 

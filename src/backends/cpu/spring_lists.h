@@ -2,16 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <map>
 #include <memory>
 #include <mutex>
-#include <tuple>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,14 +14,9 @@
 #include "hooke/backends/cpu/force_pass.h"
 #include "hooke/backends/cpu/id_table.h"
 #include "hooke/backends/cpu/spring_pass.h"
-#include "hooke/base/ascending.h"
-#include "hooke/base/assert.h"
 #include "hooke/base/huge_pages.h"
-#include "hooke/base/parallel.h"
 #include "hooke/core/scene.h"
 #include "hooke/core/sums.h"
-#include "hooke/physics/periodic.h"
-#include "hooke/physics/spring.h"
 
 namespace hooke {
 
@@ -41,116 +31,26 @@ class SpringLists {
  public:
   static constexpr std::uint32_t kNowherePlace = ~std::uint32_t{0};
 
-  void configure(const Scene& scene, const ForcePass<Real>& rules, SpringPassFunction<Real> run) {
-    run_ = run;
-    pass_.length = rules.length;
-    pass_.any_periodic = false;
-    for (int axis = 0; axis < 3; ++axis) {
-      pass_.periodic[axis] = rules.periodic[axis];
-      pass_.any_periodic = pass_.any_periodic || rules.periodic[axis];
-    }
-    if (scene.structure != structure_) take(scene.structure);
-    break_springs({});
-  }
+  void configure(const Scene& scene, const ForcePass<Real>& rules, SpringPassFunction<Real> run);
 
   bool empty() const { return kind_.empty(); }
 
   /// Indices, ascending: these and no others.
-  void break_springs(const std::vector<std::uint64_t>& broken) {
-    HOOKE_ASSERT(is_ascending(broken), broken.size());
-    HOOKE_ASSERT(broken.empty() || broken.back() < kind_.size(), broken.back(), kind_.size());
-    broken_.assign(kind_.size(), 0);
-    for (const std::uint64_t s : broken) broken_[s] = 1;
-  }
-  std::vector<std::uint64_t> broken() const {
-    std::vector<std::uint64_t> all;
-    for (std::size_t s = 0; s < broken_.size(); ++s) {
-      if (broken_[s] != 0) all.push_back(s);
-    }
-    return all;
-  }
+  void break_springs(const std::vector<std::uint64_t>& broken);
+  std::vector<std::uint64_t> broken() const;
 
   /// Ties the particles of these ids.
-  void bind(const IdTable& ids) {
-    if (empty()) return;
-    const SpringSet& springs = structure_->springs;
-    first_side_.assign(ids.size() + 1, 0);
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> apart;
-    const auto each = [&](const auto& visit) {
-      for (std::size_t s = 0; s < springs.size(); ++s) {
-        const std::size_t a = ids.find(springs.a[s]), b = ids.find(springs.b[s]);
-        if (a < ids.size() && b < ids.size()) {
-          visit(static_cast<std::uint32_t>(s), static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
-        }
-      }
-    };
-    each([&](std::uint32_t s, std::uint32_t a, std::uint32_t b) {
-      ++first_side_[a + 1];
-      ++first_side_[b + 1];
-      if (springs.contact[s] == 0 && broken_[s] == 0) apart.emplace_back(a, b);
-    });
-    for (std::size_t rank = 0; rank < ids.size(); ++rank) first_side_[rank + 1] += first_side_[rank];
-    sides_.resize(first_side_.back());
-    std::vector<std::uint32_t> next(first_side_.begin(), first_side_.end() - 1);
-    each([&](std::uint32_t s, std::uint32_t a, std::uint32_t b) {
-      sides_[next[a]++] = {s, b};
-      sides_[next[b]++] = {s, a};
-    });
-    apart_ = ApartPairs(ids.size(), apart);
-  }
+  void bind(const IdTable& ids);
 
   /// There are more particles than those bound: nothing ties them.
-  void grow(std::size_t ranks) {
-    if (empty()) return;
-    HOOKE_ASSERT(ranks + 1 >= first_side_.size(), ranks, first_side_.size());
-    first_side_.resize(ranks + 1, first_side_.back());
-    apart_.grow(ranks);
-  }
+  void grow(std::size_t ranks);
 
   /// Pairs that springs keep from touching.
   const ApartPairs& apart() const { return apart_; }
 
   /// Lays the springs out for `count` particles in their order of now; `place` is that of each rank, kNowherePlace
   /// where a particle is gone. The last of `size` records fills short rows.
-  void lay_out(const Record* records, std::size_t count, std::size_t size, const std::vector<std::uint32_t>& place) {
-    HOOKE_ASSERT(count < size, count, size);
-    const std::size_t groups = (count + kLanes - 1) / kLanes;
-    count_ = count;
-    first_row_.resize(groups + 1);
-    force_.resize(size);
-    parallel_ranges(groups, kGroups, [&](std::size_t first, std::size_t last) {
-      for (std::size_t g = first; g < last; ++g) {
-        std::uint32_t most = 0;
-        for (std::size_t i = g * kLanes; i < std::min(count, (g + 1) * kLanes); ++i) {
-          const std::uint32_t rank = rank_of(records[i].rank);
-          if (!is_nowhere(records[i])) most = std::max(most, first_side_[rank + 1] - first_side_[rank]);
-        }
-        first_row_[g + 1] = most;
-      }
-    });
-    first_row_[0] = 0;
-    for (std::size_t g = 0; g < groups; ++g) first_row_[g + 1] += first_row_[g];
-    rows_.resize(first_row_.back());
-    const auto filling = record_offset<Real>(static_cast<std::uint32_t>(size - 1));
-    parallel_ranges(groups, kGroups, [&](std::size_t first, std::size_t last) {
-      for (std::size_t g = first; g < last; ++g) {
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
-          const std::size_t i = g * kLanes + lane;
-          const bool here = i < count && !is_nowhere(records[i]);
-          const std::uint32_t rank = here ? rank_of(records[i].rank) : 0;
-          const std::uint32_t from = here ? first_side_[rank] : 0, to = here ? first_side_[rank + 1] : 0;
-          for (std::uint32_t r = first_row_[g]; r < first_row_[g + 1]; ++r) {
-            SpringRow<Real>& row = rows_[r];
-            const std::uint32_t k = from + (r - first_row_[g]);
-            const bool ties = k < to && broken_[sides_[k].spring] == 0 && place[sides_[k].partner] != kNowherePlace;
-            row.partner[lane] = ties ? record_offset<Real>(place[sides_[k].partner]) : filling;
-            row.kind[lane] = ties ? kind_[sides_[k].spring] : kNoSpring;
-            row.rest_length[lane] = ties ? rest_length_[sides_[k].spring] : Real(1);
-          }
-        }
-      }
-    });
-  }
+  void lay_out(const Record* records, std::size_t count, std::size_t size, const std::vector<std::uint32_t>& place);
 
   /// Forces on every particle, N: the column that apply() fills.
   const Vec3<Real>* forces() const { return force_.data(); }
@@ -158,156 +58,27 @@ class SpringLists {
   /// Sums up the springs of every particle where `records` are. With `may_tear`, those that are stretched too far
   /// break. Returns the pairs (indices) that were kept apart and may touch from now on.
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& apply(const Record* records, bool may_tear,
-                                                                    SpringSums& sums) {
-    pass_.records = records;
-    pass_.kinds = kinds_.data();
-    pass_.force = force_.data();
-    pass_.may_tear = may_tear && tearable_;
-    released_.clear();
-    parallel_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
-      SpringSums part;
-      for (std::size_t at = first; at < last; at += kSegment) {
-        std::array<Real, kSegment> power;
-        std::array<unsigned char, kGroups> torn{};
-        SpringWork<Real> work;
-        work.first = at;
-        work.group_count = (std::min(kSegment, last - at) + kLanes - 1) / kLanes;
-        work.rows = rows_.data();
-        work.first_row = first_row_.data() + at / kLanes;
-        work.power = power.data();
-        work.torn = torn.data();
-        run_(pass_, work);
-        part.dissipation.add(power.data(), std::min(kSegment, last - at));
-        for (std::size_t g = 0; g < work.group_count; ++g) {
-          if (torn[g] != 0) settle_torn(records, at / kLanes + g, part);
-        }
-      }
-      const std::lock_guard lock(mutex_);
-      sums.add(part);
-    });
-    return released_;
-  }
+                                                                    SpringSums& sums);
 
   /// Counts the springs that hold, and their energy.
-  void measure(const Record* records, const std::vector<std::uint32_t>& place, Measurements& m) const {
-    if (empty()) return;
-    ExactSum energy;
-    std::atomic<std::uint64_t> holding{0};
-    parallel_ranges(first_side_.size() - 1, kSegment, [&](std::size_t first, std::size_t last) {
-      ExactSum part;
-      std::uint64_t count = 0;
-      for (std::size_t rank = first; rank < last; ++rank) {
-        for_each_side(records, place, rank, [&](const Side& side, std::size_t i, std::size_t p) {
-          if (side.partner < rank) return;
-          ++count;
-          part.add(energy_of(side.spring, records[i], records[p]));
-        });
-      }
-      holding += count;
-      const std::lock_guard lock(mutex_);
-      energy.add(part);
-    });
-    m.springs = holding;
-    m.spring_energy = energy.value();
-  }
+  void measure(const Record* records, const std::vector<std::uint32_t>& place, Measurements& m) const;
 
-  /// Adds the energy (J) of the springs that tie the particle of a rank; half of it where among(index of the other
-  /// end).
-  template <class Among>
-  void add_energy(const Record* records, const std::vector<std::uint32_t>& place, std::size_t rank, const Among& among,
-                  ExactSum& sum) const {
-    if (empty()) return;
-    for_each_side(records, place, rank, [&](const Side& side, std::size_t i, std::size_t p) {
-      sum.add((among(p) ? 0.5 : 1.0) * energy_of(side.spring, records[i], records[p]));
-    });
-  }
+  /// Adds the energy (J) of the springs that tie the particle of a rank; half of it where the other end is one of
+  /// `among` (indices, ascending).
+  void add_energy(const Record* records, const std::vector<std::uint32_t>& place, std::size_t rank,
+                  std::span<const std::uint32_t> among, ExactSum& sum) const;
 
  private:
   struct Side {
     std::uint32_t spring, partner;  // index, rank
   };
 
-  // visit(side, i, p) for each spring of a rank that holds, between records i and p.
   template <class Visit>
   void for_each_side(const Record* records, const std::vector<std::uint32_t>& place, std::size_t rank,
-                     const Visit& visit) const {
-    const std::uint32_t i = place[rank];
-    if (i == kNowherePlace || is_nowhere(records[i])) return;
-    for (std::uint32_t k = first_side_[rank]; k < first_side_[rank + 1]; ++k) {
-      const Side& side = sides_[k];
-      const std::uint32_t p = place[side.partner];
-      if (broken_[side.spring] == 0 && p != kNowherePlace && !is_nowhere(records[p])) visit(side, i, p);
-    }
-  }
-
-  void take(const std::shared_ptr<const Structure>& structure) {
-    structure_ = structure;
-    constexpr Real kInfinite = std::numeric_limits<Real>::infinity(), kNever = std::numeric_limits<Real>::quiet_NaN();
-    kinds_.assign(kFirstSpringKind, {Real(0), Real(0), kInfinite, kNever});
-    kind_.clear();
-    rest_length_.clear();
-    sides_.clear();
-    first_side_.clear();
-    apart_ = {};
-    tearable_ = false;
-    if (!structure) return;
-    const SpringSet& springs = structure->springs;
-    std::map<std::tuple<double, double, double, SpringMode>, std::uint32_t> known;
-    kind_.reserve(springs.size());
-    rest_length_.reserve(springs.size());
-    for (std::size_t s = 0; s < springs.size(); ++s) {
-      const auto [kind, is_new] =
-          known.try_emplace({springs.stiffness[s], springs.damping[s], springs.break_strain[s], springs.mode[s]},
-                            static_cast<std::uint32_t>(kinds_.size()));
-      if (is_new) {
-        const SpringMode mode = springs.mode[s];
-        kinds_.push_back({static_cast<Real>(springs.stiffness[s]), static_cast<Real>(springs.damping[s]),
-                          static_cast<Real>(springs.break_strain[s]),
-                          Real(mode == SpringMode::compression ? -1
-                               : mode == SpringMode::extension ? 1
-                                                               : 0)});
-        tearable_ = tearable_ || kinds_.back().break_strain < kInfinite;
-      }
-      kind_.push_back(kind->second);
-      rest_length_.push_back(static_cast<Real>(springs.rest_length[s]));
-    }
-  }
-
-  // Takes the springs that tore in a group out of its rows. Each of its two ends does so; the lower one counts it.
-  void settle_torn(const Record* records, std::size_t g, SpringSums& sums) {
-    for (std::uint32_t r = first_row_[g]; r < first_row_[g + 1]; ++r) {
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        if (rows_[r].kind[lane] != kTornSpring) continue;
-        rows_[r].kind[lane] = kNoSpring;
-        const Record& own = records[g * kLanes + lane];
-        const std::uint32_t partner = rows_[r].partner[lane] / record_offset<Real>(1);
-        const Record& other = records[partner];
-        const std::uint32_t rank = rank_of(own.rank);
-        const Side& side = sides_[first_side_[rank] + (r - first_row_[g])];
-        if (side.partner < rank) continue;
-        broken_[side.spring] = 1;
-        ++sums.broken;
-        sums.broken_energy.add(energy_of(side.spring, own, other));
-        if (structure_->springs.contact[side.spring] == 0) {
-          const std::lock_guard lock(mutex_);
-          apart_.release(rank, side.partner);
-          released_.emplace_back(static_cast<std::uint32_t>(g * kLanes + lane), partner);
-        }
-      }
-    }
-  }
-
-  double energy_of(std::uint32_t spring, const Record& i, const Record& p) const {
-    const SpringKind<Real>& kind = kinds_[kind_[spring]];
-    Vec3<Real> x_ip = i.x - p.x;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!pass_.periodic[axis]) continue;
-      const Real x_i = component(i.x, axis), x_p = component(p.x, axis), length = component(pass_.length, axis);
-      component(x_ip, axis) = image_displacement(x_i, x_p, nearest_image(x_i, x_p, length), length);
-    }
-    const Real extension = sqrt_of(dot(x_ip, x_ip)) - rest_length_[spring];
-    return spring_acts(extension, kind.side) ? static_cast<double>(spring_energy(extension, kind.stiffness)) : 0.0;
-  }
+                     const Visit& visit) const;
+  void take(const std::shared_ptr<const Structure>& structure);
+  void settle_torn(const Record* records, std::size_t g, SpringSums& sums);
+  double energy_of(std::uint32_t spring, const Record& i, const Record& p) const;
 
   SpringPassFunction<Real> run_ = nullptr;
   SpringPass<Real> pass_;
@@ -329,5 +100,8 @@ class SpringLists {
   LargeVector<Vec3<Real>> force_;  // by place, N
   mutable std::mutex mutex_;  // around totals
 };
+
+extern template class SpringLists<float>;
+extern template class SpringLists<double>;
 
 }  // namespace hooke

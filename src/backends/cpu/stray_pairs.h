@@ -2,20 +2,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
-#include <numeric>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "hooke/backends/cpu/apart_pairs.h"
+#include "hooke/backends/cpu/mended_rows.h"
 #include "hooke/backends/cpu/pass_rules.h"
-#include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
 #include "hooke/neighbours/cell_list.h"
 #include "hooke/neighbours/neighbour_list.h"
@@ -23,93 +20,6 @@
 #include "hooke/physics/periodic.h"
 
 namespace hooke {
-
-/// Whether a lane of a group's rows holds an entry.
-inline bool is_in_lane(std::span<const std::uint32_t> rows, std::size_t lane, std::uint32_t entry) {
-  for (std::size_t at = lane; at < rows.size(); at += NeighbourList::kLanes) {
-    if (rows[at] == entry) return true;
-  }
-  return false;
-}
-
-/// Rows of the groups whose rows in the list lack a pair.
-class MendedRows {
-  static constexpr std::size_t kLanes = NeighbourList::kLanes;
-
- public:
-  /// One neighbour that particle `of` lacks.
-  struct Lack {
-    std::uint32_t of, rank, entry;  // the neighbour's rank and entry
-
-    friend auto operator<=>(const Lack&, const Lack&) = default;
-  };
-
-  void clear(std::size_t groups) {
-    for (const Mended& m : mended_) at_[m.group] = kNone;
-    mended_.clear();
-    entries_.clear();
-    if (at_.size() != groups) at_.assign(groups, kNone);
-  }
-  std::size_t count() const { return mended_.size(); }
-  void reserve(std::size_t groups) {
-    mended_.reserve(groups);
-    entries_.reserve(groups * 24 * kLanes);
-  }
-  bool holds(std::size_t group) const { return at_[group] != kNone; }
-  /// Of a group that it holds.
-  std::span<const std::uint32_t> rows(std::size_t group) const {
-    HOOKE_ASSERT(holds(group), group);
-    const Mended& m = mended_[at_[group]];
-    return std::span(entries_).subspan(m.first, m.count);
-  }
-
-  /// Adds what is lacking to rows of the list. `rank_of_entry` is that of a neighbour; `filling` stands for none.
-  template <class RankOfEntry>
-  void mend(std::vector<Lack>& lacks, const NeighbourList& list, std::uint32_t filling,
-            const RankOfEntry& rank_of_entry) {
-    std::sort(lacks.begin(), lacks.end());
-    lacks.erase(std::unique(lacks.begin(), lacks.end()), lacks.end());
-    for (std::size_t k = 0; k < lacks.size();) {
-      const std::size_t group = lacks[k].of / kLanes;
-      std::size_t end = k, most = 0;  // of one lane
-      for (std::size_t lane_start = k; end < lacks.size() && lacks[end].of / kLanes == group; ++end) {
-        if (lacks[end].of != lacks[lane_start].of) lane_start = end;
-        most = std::max(most, end + 1 - lane_start);
-      }
-      const auto rows = list.rows(group / NeighbourList::kGroups, group % NeighbourList::kGroups);
-      // Over what is behind the rows before.
-      const std::size_t first = entries_.empty() ? 0 : entries_.size() - kBehind, count = rows.size() + most * kLanes;
-      entries_.resize(first + count + kBehind, filling);
-      std::copy(rows.begin(), rows.end(), entries_.begin() + static_cast<std::ptrdiff_t>(first));
-      for (; k < end; ++k) insert(lacks[k], entries_.data() + first, count, filling, rank_of_entry);
-      at_[group] = static_cast<std::uint32_t>(mended_.size());
-      mended_.push_back({group, first, count});
-    }
-  }
-
- private:
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  static constexpr std::size_t kBehind = kRowsAhead * kLanes;
-  struct Mended {
-    std::size_t group, first, count;  // its entries
-  };
-
-  // Puts one in its place by rank; the last entry of its lane is free.
-  template <class RankOfEntry>
-  static void insert(const Lack& lack, std::uint32_t* rows, std::size_t count, std::uint32_t filling,
-                     const RankOfEntry& rank_of_entry) {
-    std::size_t at = lack.of % kLanes;
-    while (at < count && rows[at] != filling && rank_of_entry(rows[at]) < lack.rank) at += kLanes;
-    for (std::uint32_t carried = lack.entry; at < count; at += kLanes) {
-      std::swap(carried, rows[at]);
-      if (carried == filling) break;
-    }
-  }
-
-  std::vector<std::uint32_t> at_;  // by group: index into mended_
-  std::vector<Mended> mended_;
-  std::vector<std::uint32_t> entries_;  // kRowsAhead rows of `filling` behind the last
-};
 
 /// Finds who touches particles that are no longer near where they were listed.
 template <class Real>
@@ -167,22 +77,16 @@ class StrayPairs {
     parallel_ranges(strays.size(), kGrain, [&](std::size_t first, std::size_t last) {
       for (const std::uint32_t i : strays.subspan(first, last - first)) {
         if (is_nowhere(records_[i])) continue;
-        if (!is_somewhere(records_[i])) {
+        if (is_somewhere(records_[i])) {
+          find_around(i, place_of(i), strayed, room.lacks);
+        } else {
           lost = true;
-          continue;
         }
-        const Place place = place_of(i);
-        cells_.for_points_near(place.at, place.range + reach_of(i) + margin(), [&](std::size_t k) {
-          const std::size_t p = slots_.slot_of(k);
-          const bool other_strays = (strayed[p / kLanes] >> p % kLanes & 1U) != 0;
-          if (!other_strays && touch(i, p)) note_lacks(i, p, room.lacks);
-        });
       }
     });
     if (lost) return false;
     find_among(strays, room);
-    mended.mend(room.lacks, list_, filling,
-                [this](std::uint32_t entry) { return ranks_[entry / record_offset<Real>(1)]; });
+    mended.mend<Real>(room.lacks, list_, filling, ranks_);
     return true;
   }
 
@@ -210,73 +114,18 @@ class StrayPairs {
     return dot(d, d) < static_cast<Real>(reach) * static_cast<Real>(reach);
   }
 
-  bool is_listed(std::size_t i, std::size_t p) const {
-    const auto rows = list_.rows(i / NeighbourList::kSegment, i % NeighbourList::kSegment / kLanes);
-    return is_in_lane(rows, i % kLanes, record_offset<Real>(static_cast<std::uint32_t>(p)));
-  }
-  // Where one of two lacks the other, so does the other.
-  void note_lacks(std::size_t i, std::size_t p, std::vector<Lack>& lacks) const {
-    if (is_listed(i, p) || apart_.hold(ranks_[i], ranks_[p])) return;
-    const std::lock_guard lock(mutex_);
-    for (const auto& [of, other] : {std::pair{i, p}, std::pair{p, i}}) {
-      lacks.push_back(
-          {static_cast<std::uint32_t>(of), ranks_[other], record_offset<Real>(static_cast<std::uint32_t>(other))});
-    }
-  }
+  bool is_listed(std::size_t i, std::size_t p) const;
+  void note_lacks(std::size_t i, std::size_t p, std::vector<Lack>& lacks) const;
 
-  // Pairs of two strays: they are sorted into rows along x, as wide as two can touch, and each meets those that follow
-  // it in its row and those at its height in half of the rows around. At periodic faces, those behind the lower one
-  // follow beyond the upper one once more.
-  void find_among(std::span<const std::uint32_t> strays, Room& room) const {
-    using Stray = typename Room::Stray;
-    std::vector<Stray>& sorted = room.sorted;
-    sorted.clear();
-    const auto reach = static_cast<Real>(2 * rules_.largest_reach() + margin());
-    for (const std::uint32_t i : strays) {
-      if (!is_nowhere(records_[i])) add_with_images(i, records_[i].x, 0, reach, sorted);
-    }
-    std::sort(sorted.begin(), sorted.end(), [](const Stray& a, const Stray& b) { return a.is_before(b.row, b.x.x); });
-    parallel_ranges(sorted.size(), 256, [&](std::size_t first, std::size_t last) {
-      for (std::size_t a = first; a < last; ++a) {
-        const Stray& stray = sorted[a];
-        const auto meet = [&](auto other, std::uint64_t row) {
-          for (; other != sorted.end() && other->row == row && other->x.x - stray.x.x < reach; ++other) {
-            if (other->i != stray.i && touch(stray.i, other->i)) note_lacks(stray.i, other->i, room.lacks);
-          }
-        };
-        meet(sorted.begin() + static_cast<std::ptrdiff_t>(a) + 1, stray.row);
-        for (const std::uint64_t row :
-             {stray.row + 1, stray.row + kNextY - 1, stray.row + kNextY, stray.row + kNextY + 1}) {
-          meet(std::partition_point(sorted.begin(), sorted.end(),
-                                    [&](const Stray& s) { return s.is_before(row, stray.x.x - reach); }),
-               row);
-        }
-      }
-    });
-  }
+  void find_around(std::uint32_t i, const Place& place, std::span<const std::uint16_t> strayed,
+                   std::vector<Lack>& lacks) const;
+  void find_among(std::span<const std::uint32_t> strays, Room& room) const;
 
-  static constexpr std::uint64_t kNextY = std::uint64_t{1}
-                                          << 32U;  // from a row to the one beside it along y; 1 along z
+  // From a row to the one beside it along y; along z it is 1.
+  static constexpr std::uint64_t kNextY = std::uint64_t{1} << 32U;
 
-  // Adds a place, and its images across periodic faces from `axis` on.
   void add_with_images(std::uint32_t i, const Vec3<Real>& x, int axis, Real reach,
-                       std::vector<typename Room::Stray>& to) const {
-    if (axis == 3) {
-      constexpr double kMost = 1 << 30;  // further away, rows are shared
-      const auto index = [&](Real c) {
-        return static_cast<std::uint64_t>(
-            std::clamp(std::floor(static_cast<double>(c) / static_cast<double>(reach)), -kMost, kMost) + 2 * kMost);
-      };
-      to.push_back({index(x.y) * kNextY + index(x.z), x, i});
-      return;
-    }
-    add_with_images(i, x, axis + 1, reach, to);
-    const ForcePass<Real>& pass = rules_.pass;
-    if (!pass.periodic[axis] || component(x, axis) >= component(pass.min, axis) + reach) return;
-    Vec3<Real> image = x;
-    component(image, axis) += component(pass.length, axis);
-    add_with_images(i, image, axis + 1, reach, to);
-  }
+                       std::vector<typename Room::Stray>& to) const;
 
   const PassRules<Real>& rules_;
   const Record* records_;
@@ -287,5 +136,8 @@ class StrayPairs {
   const ApartPairs& apart_;
   mutable std::mutex mutex_;  // around what is lacking
 };
+
+extern template class StrayPairs<float>;
+extern template class StrayPairs<double>;
 
 }  // namespace hooke

@@ -1,4 +1,5 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
-#define HOOKE_ISA avx2
+#define HOOKE_ISA avx512
+#define HOOKE_REAL double
 #include "hooke/backends/cpu/force_pass.inl"

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/backends/cpu/cpu_backend_impl.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "hooke/backends/cpu/contact_reports.h"
+
+namespace hooke {
+
+template <class Real>
+Expected<Measurements> CpuBackend<Real>::measure() {
+  if (!list_.good()) {
+    if (const Condition found = build_neighbours(); !found.good()) {
+      return fail(Error::Kind::run_failed, fmt::format("particle {}", found.particle), "is at no finite position");
+    }
+  }
+  MeasurementSums total;
+  for_ranges(particles_.slots.end(), kSegment, [&](std::size_t first, std::size_t last) {
+    const ContactScan<Real> scan(pass_, particles_.records.data());
+    MeasurementSums part;
+    for (std::size_t i = first; i < last; ++i) {
+      if (is_nowhere(particles_.records[i])) continue;
+      measure_particle(scan, i, rows_of(i / kSegment, i % kSegment / kLanes), particles_.records[i], scene_, part);
+    }
+    const std::lock_guard lock(mutex_);
+    total.add(part);
+  });
+  Measurements result = total.result(scene_.colliders.size());
+  threads_.run([&] {
+    applied_.measure(particles_.records, particles_.slots.end(), particles_.count(), particles_.ids, result);
+  });
+  return result;
+}
+
+template <class Real>
+std::uint64_t CpuBackend<Real>::particles_hash() const {
+  std::uint64_t hash = 0;
+  threads_.run([&] { hash = particles_.hash(); });
+  return hash;
+}
+
+template <class Real>
+NeighbourStatistics CpuBackend<Real>::neighbour_statistics() const {
+  const auto n = static_cast<double>(std::max<std::size_t>(particles_.slots.end(), 1));
+  return {list_.build_count(), static_cast<double>(list_.entry_count()) / n, missed_contacts_};
+}
+
+template Expected<Measurements> CpuBackend<float>::measure();
+template Expected<Measurements> CpuBackend<double>::measure();
+template std::uint64_t CpuBackend<float>::particles_hash() const;
+template std::uint64_t CpuBackend<double>::particles_hash() const;
+template NeighbourStatistics CpuBackend<float>::neighbour_statistics() const;
+template NeighbourStatistics CpuBackend<double>::neighbour_statistics() const;
+
+}  // namespace hooke

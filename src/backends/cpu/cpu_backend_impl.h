@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hooke/backends/cpu/applied_forces.h"
+#include "hooke/backends/cpu/boundaries.h"
+#include "hooke/backends/cpu/collider_rules.h"
+#include "hooke/backends/cpu/departures.h"
+#include "hooke/backends/cpu/isa.h"
+#include "hooke/backends/cpu/particle_state.h"
+#include "hooke/backends/cpu/pass_rules.h"
+#include "hooke/backends/cpu/placed_sinks.h"
+#include "hooke/backends/cpu/segment_report.h"
+#include "hooke/backends/cpu/threads.h"
+#include "hooke/backends/cpu/verlet_list.h"
+#include "hooke/base/parallel.h"
+#include "hooke/core/backend.h"
+#include "hooke/core/sums.h"
+#include "hooke/neighbours/neighbour_list.h"
+
+namespace hooke {
+
+/// The step of one precision: who does what, in which order. What they do it with is in the files that this one
+/// includes. Members are defined by subject: cpu_backend.cpp (what scene, which particles), cpu_backend_motion.cpp
+/// (motion and neighbours), cpu_backend_pass.cpp (forces), cpu_backend_population.cpp (who comes and goes) and
+/// cpu_backend_figures.cpp (what is measured).
+template <class Real>
+class CpuBackend final : public Backend {
+  using Record = ParticleRecord<Real>;
+  static constexpr std::size_t kLanes = NeighbourList::kLanes;
+  static constexpr std::size_t kGroups = NeighbourList::kGroups;
+  static constexpr std::size_t kSegment = NeighbourList::kSegment;
+
+ public:
+  CpuBackend(const Isa& isa, const Loops<Real>& loops, int threads, bool check_list)
+      : isa_name_(isa.name),
+        loops_(loops),
+        threads_(threads),
+        check_list_(check_list) {}
+
+  BackendInfo info() const override {
+    const auto precision = sizeof(Real) == 4 ? Precision::single_precision : Precision::double_precision;
+    return {"cpu", isa_name_, precision, threads_.count()};
+  }
+
+  void configure(const Scene& scene) override;
+  void break_springs(const std::vector<std::uint64_t>& broken) override { applied_.springs().break_springs(broken); }
+  std::vector<std::uint64_t> broken_springs() const override { return applied_.springs().broken(); }
+
+  Condition upload(const ParticleSet& particles, std::uint64_t first_new_id, const Ledger& ledger) override;
+  void download(ParticleSet& out) const override { particles_.download(out); }
+
+  void set_time(double seconds) override { applied_.set_time(seconds); }
+  void place_colliders(std::span<const ColliderPose> poses) override;
+  void half_kick_and_drift() override;
+  bool neighbours_stale() const override { return !list_.good(); }
+  Condition build_neighbours() override;
+  Condition apply_forces() override;
+
+  void sink_particles() override;
+  void expire(std::span<const std::uint64_t> ids, std::vector<std::uint8_t>& was_there) override;
+  void give_birth(const ParticleSet& newborn) override;
+  void find_inside(const ShapeBounds& box, std::vector<Occupant>& out) const override;
+
+  std::uint64_t particle_count() const override { return particles_.count(); }
+  const Ledger& ledger() const override { return ledger_; }
+
+  std::uint64_t particles_hash() const override;
+  Expected<Measurements> measure() override;
+  NeighbourStatistics neighbour_statistics() const override;
+  StageTimes stage_times() const override { return times_; }
+
+ private:
+  bool verlet() const { return particles_.verlet(); }
+
+  template <class Body>
+  void for_ranges(std::size_t count, std::size_t grain, const Body& body) const {
+    threads_.run([&] { parallel_ranges(count, grain, body); });
+  }
+
+  void take(const ParticleSet& particles, std::size_t births = 0);
+  void make_room(std::size_t births);
+
+  // Neighbours -------------------------------------------------------------------------------------------------------
+
+  Condition sort_by_cell();
+  void list_neighbours();
+  void follow_motion();
+
+  // Springs, fields, attraction, and what is held --------------------------------------------------------------------
+
+  void lay_out_structure();
+  bool apply_others(bool may_tear, SpringSums& sums);
+  void settle_segment(std::size_t s, AppliedSums& sums);
+
+  // The force pass and what it reports -------------------------------------------------------------------------------
+
+  void aim_pass(Vec3<Real>* acceleration);
+  template <class Look>
+  void run_pass(StepSums& sums, AppliedSums& applied, const Look& look);
+  void run_segment(std::size_t s, SegmentReport& report) const;
+  void run_groups(std::size_t s, std::size_t g, std::size_t end, const std::uint32_t* rows,
+                  const std::uint32_t* first_row, SegmentReport& report) const;
+
+  // Of a group in the neighbour list; loose ones have none.
+  std::span<const std::uint32_t> rows_of(std::size_t s, std::size_t g) const {
+    if (particles_.slots.is_loose(s * kSegment)) return {};
+    return list_.rows(s, g);
+  }
+
+  Condition look_closely(std::size_t s, std::size_t g) const;
+  Condition evaluate_accelerations(std::uint64_t first_new_id);
+
+  // Who comes and goes ----------------------------------------------------------------------------------------------
+
+  // Wraps periodic coordinates; a particle outside an open face leaves.
+  void apply_boundaries(Record& p, std::size_t slot, Departures& left) const {
+    wrap_periodic(pass_, p);
+    if (is_outside_open_face(pass_, p)) leave(p, slot, p.v, left);
+  }
+
+  void apply_boundaries_to_group(std::size_t s, std::size_t g, Departures& left);
+
+  // Particle p is to leave, with a velocity v; it is there until let_go().
+  void leave(const Record& p, std::size_t slot, const Vec3<Real>& v, Departures& left) const {
+    left.add(slot, particles_.material_of(p).mass, vec_cast<double>(p.x), vec_cast<double>(v), scene_.gravity);
+  }
+
+  void leave_at_end_of_step(std::size_t slot, Departures& left) const;
+  void collect(Departures& total, const Departures& part) const;
+  void let_go(Departures& leaving, std::uint64_t& tally);
+  void add_elastic(std::vector<std::uint32_t>& slots, ExactSum& sum);
+  bool rebuild_under(std::vector<std::uint32_t>& slots);
+
+  std::string isa_name_;
+  Loops<Real> loops_;
+  mutable Threads threads_;
+  bool check_list_;
+  mutable std::mutex mutex_;  // around the totals of a pass
+
+  Scene scene_;
+  PassRules<Real> rules_;
+  ColliderRules<Real> colliders_;
+  ForcePass<Real> pass_;  // the rules', aimed at the buffers of the moment
+
+  ParticleState<Real> particles_;
+  Ledger ledger_;
+
+  PlacedSinks sinks_;
+  AppliedForces<Real> applied_;
+  VerletList<Real> list_;
+  std::uint64_t missed_contacts_ = 0;
+  StageTimes times_;
+};
+
+}  // namespace hooke

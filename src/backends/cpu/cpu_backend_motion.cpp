@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include <algorithm>
+
+#include "hooke/backends/cpu/bounding_box.h"
+#include "hooke/backends/cpu/cpu_backend_impl.h"
+#include "hooke/base/stopwatch.h"
+#include "hooke/physics/integrate.h"
+
+namespace hooke {
+
+template <class Real>
+void CpuBackend<Real>::half_kick_and_drift() {
+  Stopwatch drifting(times_.drift);
+  Departures removed;
+  for_ranges(particles_.slots.end(), kSegment, [&](std::size_t first, std::size_t last) {
+    Departures left;
+    for (std::size_t start = first; start < last; start += kLanes) {
+      unsigned far = 0;
+      for (std::size_t i = start; i < std::min(start + kLanes, last); ++i) {
+        Record& p = particles_.records[i];
+        if (is_nowhere(p)) continue;
+        const bool held = applied_.held().holds(i);
+        if (!held) {
+          p.v = kick(p.v, particles_.acceleration[i], Real(0.5) * pass_.dt);
+          p.x = drift(p.x, p.v, pass_.dt);
+        }
+        if (list_.good() && !particles_.slots.is_loose(i) && list_.is_far(p, i))
+          far |= 1U << i % kLanes;  // asked of all: a removal must not hide a NaN
+        if (!held) apply_boundaries(p, i, left);
+      }
+      if (far != 0) list_.note_far(start / kLanes, far);
+    }
+    collect(removed, left);
+  });
+  drifting.stop();
+  follow_motion();
+  let_go(removed, ledger_.removed);
+}
+
+template <class Real>
+Condition CpuBackend<Real>::build_neighbours() {
+  Condition condition;
+  threads_.run([&] {
+    condition = sort_by_cell();
+    if (!condition.good()) return;
+    lay_out_structure();
+    list_neighbours();
+  });
+  return condition;
+}
+
+template <class Real>
+Condition CpuBackend<Real>::sort_by_cell() {
+  const Stopwatch sorting(times_.sort);
+  Vec3d min, max;
+  const Condition condition =
+      bounding_box(particles_.records.data(), particles_.slots.listed_end(), particles_.ids, min, max);
+  if (!condition.good()) return condition;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (particles_.count() > particles_.loose_count() && !pass_.periodic[axis]) continue;
+    component(min, axis) = component(pass_.min, axis);
+    component(max, axis) = component(pass_.max, axis);
+  }
+  particles_.reorder(
+      list_.sort(particles_.records.data(), particles_.slots.listed_end(), min, max, particles_.scratch()));
+  return {};
+}
+
+template <class Real>
+void CpuBackend<Real>::list_neighbours() {
+  const Stopwatch listing(times_.list);
+  const std::size_t count = particles_.slots.listed_end();
+  const bool births = particles_.room_for_births(true) > 0;
+  const std::size_t end = births ? std::min(particles_.slots.first_loose(), count + count / 16 + 256) : count;
+  list_.build(particles_.records.data(), count, end / kLanes * kLanes, particles_.records.size(), particles_.scratch());
+  particles_.end_scratch();
+}
+
+template <class Real>
+void CpuBackend<Real>::follow_motion() {
+  const Stopwatch following(times_.motion);
+  threads_.run([&] { list_.moved(particles_.records.data()); });
+  if (check_list_ && list_.good()) missed_contacts_ += list_.count_missed(particles_.records.data());
+}
+
+template <class Real>
+void CpuBackend<Real>::lay_out_structure() {
+  if (!applied_.needs_layout()) return;
+  const Stopwatch sorting(times_.sort);
+  applied_.lay_out(particles_.records, particles_.slots.room(), particles_.ids.size());
+  particles_.slots.recycle();
+}
+
+template void CpuBackend<float>::half_kick_and_drift();
+template void CpuBackend<double>::half_kick_and_drift();
+template Condition CpuBackend<float>::build_neighbours();
+template Condition CpuBackend<double>::build_neighbours();
+template void CpuBackend<float>::follow_motion();
+template void CpuBackend<double>::follow_motion();
+
+}  // namespace hooke

@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/backends/cpu/cpu_backend_impl.h"
+
+#include <algorithm>
+
+#include "hooke/backends/cpu/contact_reports.h"
+#include "hooke/core/sums.h"
+#include "hooke/physics/integrate.h"
+
+namespace hooke {
+
+template <class Real>
+void CpuBackend<Real>::sink_particles() {
+  Departures sunk;
+  for_ranges(particles_.slots.end(), kSegment, [&](std::size_t first, std::size_t last) {
+    Departures part;
+    for (std::size_t i = first; i < last; ++i) {
+      if (!is_nowhere(particles_.records[i]) && sinks_.take(vec_cast<double>(particles_.records[i].x)))
+        leave_at_end_of_step(i, part);
+    }
+    collect(sunk, part);
+  });
+  let_go(sunk, ledger_.population.sunk);
+}
+
+template <class Real>
+void CpuBackend<Real>::expire(std::span<const std::uint64_t> ids, std::vector<std::uint8_t>& was_there) {
+  was_there.assign(ids.size(), 0);
+  Departures expired;
+  for_ranges(ids.size(), 256, [&](std::size_t first, std::size_t last) {
+    Departures part;
+    for (std::size_t k = first; k < last; ++k) {
+      const std::size_t rank = particles_.ids.find(ids[k]);
+      if (rank == particles_.ids.size()) continue;
+      const std::size_t slot = applied_.place(rank);
+      if (slot == SpringLists<Real>::kNowherePlace || is_nowhere(particles_.records[slot]) ||
+          rank_of(particles_.records[slot].rank) != rank)
+        continue;
+      was_there[k] = 1;
+      leave_at_end_of_step(slot, part);
+    }
+    collect(expired, part);
+  });
+  let_go(expired, ledger_.population.expired);
+}
+
+template <class Real>
+void CpuBackend<Real>::give_birth(const ParticleSet& newborn) {
+  if (!particles_.has_room_for(newborn)) make_room(newborn.size());
+  RemovalSums born;
+  std::vector<std::uint32_t> touching;
+  for (std::size_t k = 0; k < newborn.size(); ++k) {
+    const Material& m = scene_.materials[newborn.material[k]];
+    const std::size_t slot = !m.interacts ? particles_.slots.take_loose()
+                                          : particles_.slots.take_listed(list_.good() ? list_.first_free() : 0);
+    const std::size_t rank = particles_.add(slot, newborn, k);
+    applied_.add(slot, particles_.ids.size());
+    if (m.interacts) {
+      list_.add(slot, static_cast<std::uint32_t>(rank));
+      touching.push_back(static_cast<std::uint32_t>(slot));
+    }
+    born.add_particle(m.mass, vec_cast<double>(particles_.records[slot].x),
+                      vec_cast<double>(particles_.records[slot].v), scene_.gravity);
+  }
+  if (!touching.empty()) threads_.run([&] { list_.mend_released(particles_.records.data()); });
+  particles_.recount();
+  // They are born into no overlap, but perhaps to where cohesion reaches.
+  if (rules_.widest_range > 0) add_elastic(touching, born.elastic);
+  born.book_born(ledger_);
+}
+
+template <class Real>
+void CpuBackend<Real>::find_inside(const ShapeBounds& box, std::vector<Occupant>& out) const {
+  for_ranges(particles_.slots.listed_end(), kSegment, [&](std::size_t first, std::size_t last) {
+    std::vector<Occupant> found;
+    for (std::size_t i = first; i < last; ++i) {
+      const Record& p = particles_.records[i];
+      const Vec3d x = vec_cast<double>(p.x);
+      if (!is_nowhere(p) && is_inside(box, x)) found.push_back({x, particles_.material_of(p).radius});
+    }
+    const std::lock_guard lock(mutex_);
+    out.insert(out.end(), found.begin(), found.end());
+  });
+}
+
+template <class Real>
+void CpuBackend<Real>::make_room(std::size_t births) {
+  ParticleSet all;
+  particles_.download(all);
+  take(all, births);
+}
+
+// Under velocity Verlet with what the half kick to come would have given it.
+template <class Real>
+void CpuBackend<Real>::leave_at_end_of_step(std::size_t slot, Departures& left) const {
+  const Record& p = particles_.records[slot];
+  leave(p, slot, verlet() ? kick(p.v, particles_.acceleration[slot], Real(0.5) * pass_.dt) : p.v, left);
+}
+
+template <class Real>
+void CpuBackend<Real>::collect(Departures& total, const Departures& part) const {
+  if (part.slots.empty()) return;
+  const std::lock_guard lock(mutex_);
+  total.add(part);
+}
+
+// Those that leave go nowhere. `tally` is the ledger's count of those that go that way.
+template <class Real>
+void CpuBackend<Real>::let_go(Departures& leaving, std::uint64_t& tally) {
+  if (leaving.slots.empty()) return;
+  add_elastic(leaving.slots, leaving.sums.elastic);
+  leaving.sums.book_gone(ledger_, tally);
+  for (const std::uint32_t slot : leaving.slots) particles_.remove(slot);
+  particles_.recount();
+}
+
+// Energy of the contacts between particles and of the springs that end at one of some particles. It takes a list that
+// is good: where a new one is built for it, `slots` are where they lie then.
+template <class Real>
+void CpuBackend<Real>::add_elastic(std::vector<std::uint32_t>& slots, ExactSum& sum) {
+  const auto is_listed = [&](std::uint32_t slot) { return !particles_.slots.is_loose(slot); };
+  if (applied_.springs().empty() && std::none_of(slots.begin(), slots.end(), is_listed)) return;
+  if (!list_.good() && !rebuild_under(slots)) return;
+  std::sort(slots.begin(), slots.end());
+  for_ranges(slots.size(), 64, [&](std::size_t first, std::size_t last) {
+    const ContactScan<Real> scan(pass_, particles_.records.data());
+    ExactSum part;
+    for (std::size_t k = first; k < last; ++k) {
+      const std::size_t i = slots[k];
+      add_contact_energy(scan, i, rows_of(i / kSegment, i % kSegment / kLanes), slots, part);
+      applied_.add_spring_energy(particles_.records, i, slots, part);
+    }
+    const std::lock_guard lock(mutex_);
+    sum.add(part);
+  });
+}
+
+// Builds a list, and puts those of `slots` to where it has put their particles. Returns whether there is one.
+template <class Real>
+bool CpuBackend<Real>::rebuild_under(std::vector<std::uint32_t>& slots) {
+  std::vector<std::uint32_t> ranks;
+  for (const std::uint32_t slot : slots) ranks.push_back(rank_of(particles_.records[slot].rank));
+  std::sort(ranks.begin(), ranks.end());
+  if (!build_neighbours().good()) return false;
+  slots.clear();
+  for (std::size_t i = 0; i < particles_.slots.end(); ++i) {
+    if (!is_nowhere(particles_.records[i]) &&
+        std::binary_search(ranks.begin(), ranks.end(), rank_of(particles_.records[i].rank))) {
+      slots.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+  return true;
+}
+
+template void CpuBackend<float>::sink_particles();
+template void CpuBackend<double>::sink_particles();
+template void CpuBackend<float>::expire(std::span<const std::uint64_t> ids, std::vector<std::uint8_t>& was_there);
+template void CpuBackend<double>::expire(std::span<const std::uint64_t> ids, std::vector<std::uint8_t>& was_there);
+template void CpuBackend<float>::give_birth(const ParticleSet& newborn);
+template void CpuBackend<double>::give_birth(const ParticleSet& newborn);
+template void CpuBackend<float>::find_inside(const ShapeBounds& box, std::vector<Occupant>& out) const;
+template void CpuBackend<double>::find_inside(const ShapeBounds& box, std::vector<Occupant>& out) const;
+template void CpuBackend<float>::collect(Departures& total, const Departures& part) const;
+template void CpuBackend<double>::collect(Departures& total, const Departures& part) const;
+template void CpuBackend<float>::let_go(Departures& leaving, std::uint64_t& tally);
+template void CpuBackend<double>::let_go(Departures& leaving, std::uint64_t& tally);
+
+}  // namespace hooke

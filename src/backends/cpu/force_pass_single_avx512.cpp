@@ -1,0 +1,5 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#define HOOKE_ISA avx512
+#define HOOKE_REAL float
+#include "hooke/backends/cpu/force_pass.inl"

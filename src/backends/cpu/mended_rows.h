@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hooke/base/assert.h"
+#include "hooke/neighbours/neighbour_list.h"
+
+namespace hooke {
+
+/// Whether a lane of a group's rows holds an entry.
+inline bool is_in_lane(std::span<const std::uint32_t> rows, std::size_t lane, std::uint32_t entry) {
+  for (std::size_t at = lane; at < rows.size(); at += NeighbourList::kLanes) {
+    if (rows[at] == entry) return true;
+  }
+  return false;
+}
+
+/// Rows of the groups whose rows in the list lack a pair.
+class MendedRows {
+  static constexpr std::size_t kLanes = NeighbourList::kLanes;
+
+ public:
+  /// One neighbour that particle `of` lacks.
+  struct Lack {
+    std::uint32_t of, rank, entry;  // the neighbour's rank and entry
+
+    friend auto operator<=>(const Lack&, const Lack&) = default;
+  };
+
+  void clear(std::size_t groups);
+  std::size_t count() const { return mended_.size(); }
+  void reserve(std::size_t groups);
+  bool holds(std::size_t group) const { return at_[group] != kNone; }
+  std::span<const std::uint32_t> rows(std::size_t group) const {
+    HOOKE_ASSERT(holds(group), group);
+    const Mended& m = mended_[at_[group]];
+    return std::span(entries_).subspan(m.first, m.count);
+  }
+
+  /// Adds what is lacking to rows of the list, whose entries are offsets of records. `ranks` are by record; `filling`
+  /// stands for none.
+  template <class Real>
+  void mend(std::vector<Lack>& lacks, const NeighbourList& list, std::uint32_t filling, const std::uint32_t* ranks);
+
+ private:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  static constexpr std::size_t kBehind = kRowsAhead * kLanes;
+  struct Mended {
+    std::size_t group, first, count;  // its entries
+  };
+
+  template <class RankOfEntry>
+  static void insert(const Lack& lack, std::uint32_t* rows, std::size_t count, std::uint32_t filling,
+                     const RankOfEntry& rank_of_entry);
+
+  std::vector<std::uint32_t> at_;  // by group: index into mended_
+  std::vector<Mended> mended_;
+  std::vector<std::uint32_t> entries_;  // kRowsAhead rows of `filling` behind the last
+};
+
+}  // namespace hooke

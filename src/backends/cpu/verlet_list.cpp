@@ -1,0 +1,286 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/backends/cpu/verlet_list.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <iterator>
+
+#include "hooke/base/assert.h"
+#include "hooke/base/parallel.h"
+
+namespace hooke {
+
+template <class Real>
+auto VerletList<Real>::key_of(const CellList& cells, const Record* records) const {
+  return [&cells, records, &level_of = rules_->level_of](std::size_t i) {
+    const Record& p = records[i];
+    if (is_nowhere(p)) return cells.key_end();
+    return cells.key_of(vec_cast<double>(p.x), level_of[static_cast<std::size_t>(p.material)]);
+  };
+}
+
+template <class Real>
+std::span<const std::uint32_t> VerletList<Real>::sort(const Record* records, std::size_t count, Vec3d min, Vec3d max,
+                                                      std::span<std::byte> scratch) {
+  choose_skin();
+  limits_.min = min;
+  limits_.max = max;
+  lay_out_cells(cells_, skin_, count);
+  cells_.sort(count, key_of(cells_, records), order_, scratch);
+  slots_.lay_out(std::span(order_).first(cells_.point_count()));
+  return order_;
+}
+
+template <class Real>
+void VerletList<Real>::build(const Record* records, std::size_t count, std::size_t end, std::size_t size,
+                             std::span<std::byte> scratch) {
+  HOOKE_ASSERT(std::max(count, end) < size, count, end, size);
+  HOOKE_ASSERT(scratch.size() >= size * sizeof(Record), scratch.size(), size);
+  count_ = count;
+  end_ = std::max(count, end);
+  filling_ = record_offset<Real>(static_cast<std::uint32_t>(size - 1));
+  const std::size_t room = (end_ + kLanes - 1) / kLanes * kLanes;
+  listed_at_.resize(room);
+  std::vector<std::uint32_t>& ranks = order_;  // of no use any more as the order of the sort
+  ranks.reserve(room);  // a growing vector would take twice that
+  ranks.resize(room);
+  const SearchColumns columns(scratch, count + kLanes, rules_->largest_touching > rules_->smallest_radius);
+  parallel_ranges(count, NeighbourList::kSegment, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      listed_at_.put(i, records[i].x);
+      ranks[i] = rank_of(records[i].rank);
+    }
+    columns.fill(slots_, first, last, listed_at_, ranks.data());
+    if (columns.radius == nullptr) return;
+    for (std::size_t p = first; p < last; ++p) {
+      columns.radius[p] = static_cast<Real>(reach_of(records[slots_.slot_of(p)]));
+    }
+  });
+  build_neighbour_list(cells_, neighbour_rule(columns), search_, list_);
+  strike_apart();
+  list_.add_empty_segments((end_ + NeighbourList::kSegment - 1) / NeighbourList::kSegment);
+
+  limits_.diameter = 2 * rules_->largest_reach();
+  find_coarseness();
+  // A thousandth covers what rounding takes of displacements.
+  limits_.skin = std::max(0.0, 0.999 * skin_ - 2 * rules_->rounding - coarseness_);
+  std::copy(std::begin(rules_->pass.periodic), std::end(rules_->pass.periodic), limits_.periodic);
+  // Within a window it does not matter in which order.
+  motion_.lay_out({columns.x, columns.y, columns.z}, count, kWindow, limits_);
+  // Those without a place are always far from it.
+  anchors_.assign((end_ + kWindow - 1) / kWindow, Anchor{{}, {}, Real(-1), {}});
+  moved_.resize(anchors_.size());
+  strayed_.assign(room / kLanes, 0);
+  mended_.clear(strayed_.size());
+  released_.clear();
+  const std::size_t many = count / kStrayCost + kLanes;  // a list with more strays does not last
+  strays_.reserve(many);
+  room_.reserve(many);
+  mended_.reserve(many);
+  age_ = 0;
+  spent_ = 0;
+  if (builds_ % kFollowTrial == 0) follow_helps_ = true;
+  listed_ = true;
+  ++builds_;
+  follow(records);
+}
+
+template <class Real>
+void VerletList<Real>::note_far(std::size_t group, unsigned far) {
+  HOOKE_ASSERT(group < strayed_.size() && far >> kLanes == 0, group, strayed_.size(), far);
+  const unsigned news = far & ~unsigned{strayed_[group]};
+  if (news == 0) return;
+  strayed_[group] = static_cast<std::uint16_t>(strayed_[group] | far);
+  const std::lock_guard lock(mutex_);
+  for (unsigned left = news; left != 0; left &= left - 1) {
+    strays_.push_back(static_cast<std::uint32_t>(group * kLanes) + static_cast<std::uint32_t>(std::countr_zero(left)));
+  }
+}
+
+template <class Real>
+void VerletList<Real>::moved(const Record* records) {
+  if (!listed_) return;
+  ++steps_;
+  ++age_;
+  if (rules_->pass.periodic_kind == PeriodicKind::images && !strays_.empty()) return forget();
+  since_followed_ += kStrayCost * strays_.size();
+  if (steps_ > horizon_ || (follow_helps_ && since_followed_ * kFollowShare > count_)) {
+    const std::size_t before = strays_.size();
+    follow(records);
+    follow_helps_ = 2 * strays_.size() < before;
+  }
+  const std::size_t cost = kStrayCost * (strays_.size() + released_.size());
+  spent_ += cost;
+  // What a step costs falls with the age of a list and rises with its strays: where both meet it has served best.
+  if (cost * age_ > count_ + spent_ || is_too_thick()) return forget();
+  mend(records);
+}
+
+template <class Real>
+std::uint64_t VerletList<Real>::count_missed(const Record* records) const {
+  CellList cells;
+  std::vector<std::uint32_t> order;
+  lay_out_cells(cells, 0, end_);
+  cells.sort(end_, key_of(cells, records), order);
+  const StrayPairs<Real> pairs = stray_pairs(records);
+  std::atomic<std::uint64_t> missed{0};
+  parallel_ranges(end_, kLanes, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      if (is_nowhere(records[i])) continue;
+      const auto rows = this->rows(i / NeighbourList::kSegment, i % NeighbourList::kSegment / kLanes);
+      cells.for_points_near(vec_cast<double>(records[i].x), reach_of(records[i]), [&](std::size_t k) {
+        const std::uint32_t p = order[k];
+        if (p != i && pairs.overlap(i, p) && !apart_->hold(rank_of(records[i].rank), rank_of(records[p].rank)) &&
+            !is_in_lane(rows, i % kLanes, record_offset<Real>(p)))
+          ++missed;
+      });
+    }
+  });
+  return missed;
+}
+
+// Takes pairs that springs keep apart out of the rows.
+template <class Real>
+void VerletList<Real>::strike_apart() {
+  if (apart_->empty()) return;
+  parallel_ranges(count_, kLanes, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const std::span<std::uint32_t> rows = list_.rows_to_edit(i / NeighbourList::kSegment, i / kLanes % kGroups);
+      apart_->strike(order_[i], rows.data() + i % kLanes, rows.size() / kLanes, kLanes, filling_,
+                     [this](std::uint32_t entry) { return order_[entry / record_offset<Real>(1)]; });
+    }
+  });
+}
+
+// The wider the skin, the longer a list lasts, and the longer are its rows: a step costs a s + b r / s, with a what a
+// skin of one diameter adds to a pass, b the cost of a build, s the skin in diameters and r the part of a diameter
+// that neighbours move away from each other in a step. That is least here, with r from what the last list's skin
+// allowed for as long as it lasted.
+template <class Real>
+double VerletList<Real>::best_skin() const {
+  return std::clamp(std::sqrt(kBuildOverSkin * skin_ratio_ / static_cast<double>(age_)), kThinnestSkin, kThickestSkin);
+}
+
+template <class Real>
+void VerletList<Real>::choose_skin() {
+  if (age_ > 0) {
+    skin_ratio_ = 0.5 * (skin_ratio_ + best_skin());
+    age_ = 0;
+  }
+  skin_ = skin_ratio_ * 2 * rules_->smallest_radius;
+}
+
+template <class Real>
+void VerletList<Real>::lay_out_cells(CellList& cells, double skin, std::size_t count) const {
+  std::vector<CellList::Level> levels;
+  for (const double radius : rules_->level_radius) levels.push_back({radius, 2 * radius + skin});
+  cells.lay_out(limits_.min, limits_.max, rules_->pass.periodic, levels, count);
+}
+
+template <class Real>
+NeighbourRule<Real> VerletList<Real>::neighbour_rule(const SearchColumns& columns) {
+  constexpr double kRounding = 1e-3;
+  NeighbourRule<Real> rule;
+  rule.at = {columns.x, columns.y, columns.z};
+  rule.radius = columns.radius;
+  rule.rank = columns.rank;
+  rule.place = slots_.places();
+  rule.neighbour_count = slots_.neighbour_counts();
+  rule.reach = static_cast<Real>(kRounding * rules_->smallest_radius +
+                                 (columns.radius == nullptr ? 2 * rules_->largest_reach() : 0) + skin_);
+  std::copy(std::begin(rules_->pass.periodic), std::end(rules_->pass.periodic), rule.periodic);
+  rule.length = rules_->pass.length;
+  rule.list_self = rules_->pass.periodic_kind == PeriodicKind::images;
+  rule.stride = record_offset<Real>(1);
+  rule.dummy = filling_ / rule.stride;
+  return rule;
+}
+
+// What the rounding of places may take of the motion of two particles: some spacings of numbers as far out as they
+// are.
+template <class Real>
+void VerletList<Real>::find_coarseness() {
+  double furthest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    furthest = std::max({furthest, std::abs(component(limits_.min, axis)), std::abs(component(limits_.max, axis))});
+  }
+  coarseness_ = 8 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * furthest;
+}
+
+// Makes anchors follow the particles, and finds out who strays from where they are now.
+template <class Real>
+void VerletList<Real>::follow(const Record* records) {
+  using GroupMotion = typename MotionBounds<Real>::GroupMotion;
+  const Real dt = rules_->pass.dt;
+  horizon_ = motion_.follow(
+      [&](std::size_t w) {
+        GroupMotion motion;
+        Extent extent;
+        for (std::size_t i = w * kWindow; i < std::min((w + 1) * kWindow, count_); ++i) {
+          if (is_nowhere(records[i])) continue;
+          const Vec3<Real> u = displacement(records[i], i, {Real(0), Real(0), Real(0)});
+          extent.add(u);
+          motion.moved += u;
+          motion.step += dt * records[i].v;
+          motion.count = motion.count + Real(1);
+        }
+        moved_[w] = extent;
+        return motion;
+      },
+      anchors_);
+  steps_ = 0;
+  since_followed_ = 0;
+  strays_.clear();
+  if (horizon_ < 0) return forget();
+  parallel_ranges(strayed_.size(), kGroups, [&](std::size_t first, std::size_t last) {
+    for (std::size_t g = first; g < last; ++g) {
+      strayed_[g] = 0;
+      note_far(g, strays_of_group(records, g));
+    }
+  });
+}
+
+// Those that stray from where their anchor is now, and those born since, a bit a lane.
+template <class Real>
+unsigned VerletList<Real>::strays_of_group(const Record* records, std::size_t g) const {
+  const std::size_t window = g * kLanes / kWindow;
+  const Anchor& anchor = anchors_[window];
+  const bool born = g * kLanes >= first_free();
+  unsigned far = 0;
+  if (!born && moved_[window].furthest2(anchor.offset) <= anchor.limit2(Real(0))) return far;
+  const std::size_t end = born ? (g + 1) * kLanes : std::min((g + 1) * kLanes, count_);
+  for (std::size_t i = g * kLanes; i < end; ++i) {
+    if (!is_nowhere(records[i]) && (born || is_off(records[i], i, anchor, Real(0)))) far |= 1U << i % kLanes;
+  }
+  return far;
+}
+
+// Finds the pairs of strays that touch and rows that lack them.
+template <class Real>
+void VerletList<Real>::mend(const Record* records) {
+  mended_.clear(strayed_.size());
+  if (strays_.empty() && released_.empty()) return;
+  const auto steps = static_cast<Real>(steps_);
+  const double mild = MotionBounds<Real>::kMild * limits_.skin, half = 0.5 * skin_ + coarseness_;
+  const Vec3<Real> middle = motion_.middle(steps);
+  const double anywhere = half + motion_.furthest_from_middle(static_cast<double>(steps_));
+  const auto place_of = [&](std::size_t i) -> typename StrayPairs<Real>::Place {
+    if (i >= count_) return {vec_cast<double>(records[i].x - middle), anywhere};
+    const Anchor& anchor = anchors_[i / kWindow];
+    const Vec3<Real> off = displacement(records[i], i, anchor.at(steps));
+    if (static_cast<double>(dot(off, off)) < mild * mild) {
+      return {vec_cast<double>(records[i].x - anchor.at(steps)), half + motion_.anchors_apart(anchor, steps)};
+    }
+    return {vec_cast<double>(records[i].x - middle), anywhere};
+  };
+  if (!stray_pairs(records).find(strays_, strayed_, place_of, filling_, released_, room_, mended_)) forget();
+}
+
+template class VerletList<float>;
+template class VerletList<double>;
+
+}  // namespace hooke
