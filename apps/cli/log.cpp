@@ -12,7 +12,7 @@
 namespace hooke::cli {
 
 void start_log(bool quiet) {
-  auto console = std::make_shared<spdlog::sinks::stderr_color_sink_st>();
+  auto console = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
   console->set_level(quiet ? spdlog::level::err : spdlog::level::warn);
   console->set_pattern("%^%l:%$ %v");
   auto logger = std::make_shared<spdlog::logger>("hooke", std::move(console));
@@ -23,7 +23,7 @@ void start_log(bool quiet) {
 
 Expected<void> log_to_file(const std::filesystem::path& file) {
   try {
-    auto sink = std::make_shared<spdlog::sinks::basic_file_sink_st>(file.string());
+    auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string());
     sink->set_pattern("%Y-%m-%d %H:%M:%S.%e %l: %v");
     spdlog::default_logger()->sinks().push_back(std::move(sink));
     spdlog::default_logger()->flush_on(spdlog::level::info);

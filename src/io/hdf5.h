@@ -16,8 +16,8 @@
 #include "hooke/base/vec3.h"
 #include "hooke/io/journaled_file.h"
 
-// What this library needs of HDF5's C interface. Everything throws Failure; callers hold hdf5::lock() throughout,
-// because the library of the distribution may not be used by two threads at once.
+// What this library needs of HDF5's C interface. Everything throws Failure; callers hold hdf5::lock() throughout: a
+// run's writer has a thread of its own, and a build of HDF5 need not be one that several threads may use (Debian's is).
 namespace hooke::hdf5 {
 
 /// Sole use of the HDF5 library until it goes out of scope; turns off the library's own printing of errors.
