@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "hooke/core/shapes.h"
-#include "hooke/scene/mesh_field.h"
 #include "hooke/scene/mesh_file.h"
+#include "hooke/volumes/mesh_field.h"
 
 namespace hooke::test {
 
@@ -95,8 +95,8 @@ inline std::string obj_text(const TriangleMesh& mesh) {
 inline MeshShape shape_of(const TriangleMesh& mesh, double cell, double reach) {
   MeshShape shape;
   shape.surface = std::make_shared<const TriangleMesh>(mesh);
-  shape.field =
-      std::make_shared<const DistanceField>(make_distance_field(mesh, {cell, reach, count_open_edges(mesh) == 0}));
+  shape.field = std::make_shared<const DistanceField>(
+      make_distance_field(mesh, {cell, reach, count_open_edges(mesh) == 0}).value());
   return shape;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 
+#include "hooke/volumes/openvdb_support.h"
 #include "scene/made_meshes.h"
 
 namespace hooke::test {
@@ -65,7 +66,7 @@ void add_every_collider(Scene& scene, const Vec3d& middle, double size) {
   double reach = 0;
   for (const Material& m : scene.materials) reach = std::max(reach, 1.1 * m.radius);
   for (const bool closed : {true, false}) {
-    if (!kHasMeshes) break;
+    if (!kHasMeshes || !has_openvdb()) break;
     Collider c;
     c.name = closed ? "mesh" : "open mesh";
     c.shape = mesh_around(closed ? at(-0.5, -0.3, -0.6) : at(0.6, 0.6, -0.6), r, closed, reach);
