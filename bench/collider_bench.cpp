@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "block_of_balls.h"
-#include "hooke/scene/mesh_field.h"
 #include "hooke/scene/mesh_file.h"
+#include "hooke/volumes/mesh_field.h"
 #include "measured_steps.h"
 
 namespace hooke::bench {
@@ -35,9 +35,10 @@ Expected<Shape> boulder(double reach) {
   auto mesh = read_mesh(HOOKE_SOURCE_DIR "/scenes/meshes/rock.obj");
   if (!mesh) return fail(mesh.error());
   for (Vec3d& x : mesh->vertices) x = kMiddle + kSize * x;
+  auto field = make_distance_field(*mesh, {kBallRadius / 3, reach, count_open_edges(*mesh) == 0});
+  if (!field) return fail(field.error());
   MeshShape shape;
-  shape.field = std::make_shared<const DistanceField>(
-      make_distance_field(*mesh, {kBallRadius / 3, reach, count_open_edges(*mesh) == 0}));
+  shape.field = std::make_shared<const DistanceField>(std::move(*field));
   shape.surface = std::make_shared<const TriangleMesh>(std::move(*mesh));
   return Shape(std::move(shape));
 }

@@ -11,6 +11,7 @@
 #include "hooke/base/expected.h"
 #include "hooke/core/scene.h"
 #include "hooke/io/run_folder.h"
+#include "hooke/volumes/surface_options.h"
 
 namespace hooke {
 
@@ -19,18 +20,6 @@ enum class ExportContent { particles, contacts, surface, volume, cloths, springs
 
 /// "particles", "contacts", "surface", "volume", "cloths", "springs".
 const char* to_string(ExportContent content);
-
-/// How the surface of a fluid is drawn around its particles: a smooth skin around spheres. A lone particle's is exactly
-/// its sphere.
-struct SurfaceOptions {
-  /// Of the sphere that a particle stands for, in its own radii, 0.1 to 10. More makes the fluid fatter.
-  double radius = 1;
-  /// How far beyond its sphere a particle's influence reaches, where it blends with that of others, in its own radii,
-  /// from `resolution` to 10. More closes wider gaps and flattens bumps; little leaves the single spheres.
-  double smoothing = 1.5;
-  /// Edge of a voxel, in radii of the smallest particle, from 0.1 to `radius`. Half of it takes eight times as long.
-  double resolution = 0.5;
-};
 
 struct ExportOptions {
   ExportContent content = ExportContent::particles;

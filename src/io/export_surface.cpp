@@ -5,7 +5,7 @@
 #include "hooke/io/export_format.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/mesh_file.h"
-#include "hooke/io/surface_mesh.h"
+#include "hooke/volumes/surface_mesh.h"
 
 namespace hooke {
 
@@ -18,7 +18,8 @@ std::vector<fs::path> export_meshes(const ExportJob& job, const Write& write) {
   return export_each(job, [&](std::size_t index, const fs::path& file) {
     const Snapshot snapshot = take(job.run.read(index));
     OutputFile out(file);
-    write(out, snapshot, surface_mesh(snapshot, job.run.info().materials, job.options.surface, file));
+    write(out, snapshot,
+          take(make_surface_mesh(snapshot.particles, radii(job.run.info().materials), job.options.surface), file));
     out.finish();
   });
 }

@@ -53,4 +53,11 @@ T take(Expected<T> expected) {
   if constexpr (!std::is_void_v<T>) return std::move(*expected);
 }
 
+/// The same for an error that names no place: thrown, it names `file`.
+template <class T>
+T take(Expected<T> expected, const std::filesystem::path& file) {
+  if (!expected) expected.error().findings.front().where = file.string();
+  return take(std::move(expected));
+}
+
 }  // namespace hooke

@@ -9,6 +9,12 @@
 
 namespace hooke {
 
+std::vector<double> radii(const std::vector<MaterialInfo>& materials) {
+  std::vector<double> all;
+  for (const MaterialInfo& m : materials) all.push_back(m.radius);
+  return all;
+}
+
 RunInfo describe_run(const Scene& scene, Precision precision) {
   RunInfo info{scene.name, scene.time_step, scene.integrator, precision, {}};
   info.materials.reserve(scene.materials.size());

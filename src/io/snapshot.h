@@ -21,6 +21,9 @@ struct MaterialInfo {
   friend bool operator==(const MaterialInfo&, const MaterialInfo&) = default;
 };
 
+/// The radius of each, m.
+std::vector<double> radii(const std::vector<MaterialInfo>& materials);
+
 /// What every file of a run says about the run it belongs to.
 struct RunInfo {
   std::string scene;      ///< Scene::name

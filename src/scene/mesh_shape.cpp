@@ -11,10 +11,10 @@
 #include "hooke/base/assert.h"
 #include "hooke/core/colliders.h"
 #include "hooke/scene/json_path.h"
-#include "hooke/scene/mesh_field.h"
 #include "hooke/scene/mesh_file.h"
 #include "hooke/scene/scene_builder.h"
 #include "hooke/scene/scene_path.h"
+#include "hooke/volumes/mesh_field.h"
 
 namespace hooke {
 namespace {
@@ -79,8 +79,13 @@ std::optional<MeshShape> read_mesh_shape(const Json& json, const std::string& wh
                                                     "shell that is touched from both sides",
                                                     open_edges)});
   }
+  auto field = make_distance_field(*mesh, options);
+  if (!field) {
+    findings.add(where, std::move(field.error().findings.front().message));
+    return {};
+  }
   MeshShape shape;
-  shape.field = std::make_shared<const DistanceField>(make_distance_field(*mesh, options));
+  shape.field = std::make_shared<const DistanceField>(std::move(*field));
   shape.surface = std::make_shared<const TriangleMesh>(std::move(*mesh));
   return shape;
 }

@@ -4,12 +4,16 @@
 
 #include "program.h"
 #include "support/bundled_scenes.h"
+#include "support/openvdb.h"
 
 namespace hooke::test {
 
 /// A scene that comes with Hooke, by its name.
 class BundledScene : public ProgramTest, public testing::WithParamInterface<std::string> {
  protected:
+  void SetUp() override {
+    if (has_mesh(file())) HOOKE_NEEDS_OPENVDB();
+  }
   std::string file() const { return (bundled_folder() / (GetParam() + ".json")).string(); }
 };
 

@@ -7,6 +7,7 @@
 
 #include "hooke/io/export.h"
 #include "program.h"
+#include "support/openvdb.h"
 
 namespace hooke::test {
 namespace {
@@ -87,6 +88,7 @@ TEST_F(ExportCommand, AsAndTheSurfaceAreChecked) {
   EXPECT_EQ(unknown.status, 2);
   EXPECT_THAT(unknown.err, HasSubstr("no extension that names a format for surface"));
   EXPECT_EQ(hooke({"export", "s", "--as", "foam", "-o", "q.csv"}).status, 2);
+  HOOKE_NEEDS_OPENVDB();
   for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{
            {"radius", "0"}, {"smoothing", "-1"}, {"resolution", "0"}, {"radius", "big"}}) {
     const Outcome outcome = hooke({"export", "s", "--as", "surface", "-o", "q.obj", "--surface-" + wrong[0], wrong[1]});

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "hooke/io/export.h"
+#include "hooke/volumes/openvdb_support.h"
 #include "samples.h"
 #include "source_dir.h"
 
@@ -26,6 +27,9 @@ struct Measures {
 
 class ExportSurface : public testing::TestWithParam<const char*> {
  protected:
+  void SetUp() override {
+    if (!has_openvdb()) GTEST_SKIP() << "needs OpenVDB, which is not in this build";
+  }
   void add(const Vec3d& x) {
     ParticleSet& p = snapshot_.particles;
     p.id.push_back(p.size());

@@ -21,12 +21,15 @@ MAY_USE = {
 for upper in ("backends/reference", "backends/cpu", "scene", "io", "render/gl", "render"):
     MAY_USE[upper] = {"base", "physics", "neighbours", "core"}
 MAY_USE["render/gl"] |= {"render"}
+MAY_USE["volumes"] = {"base", "physics", "neighbours", "core"}
+for user in ("scene", "io"):
+    MAY_USE[user].add("volumes")
 MAY_USE["apps"] = set(MAY_USE)
 
 # Libraries of others that only some of ours may see: the border where they can be exchanged.
 KEPT_TO = {
     r"hdf5|H5\w+\.h": {"io"},
-    r"openvdb/": {"io", "scene"},
+    r"openvdb/": {"volumes"},
     r"assimp/": {"scene"},
     r"valijson/": {"scene"},
     r"nlohmann/": {"scene", "io", "apps"},
@@ -113,12 +116,18 @@ PLANTED = [  # file, text, a part of the line expected for it (None: no violatio
      "backends/cpu must not use backends/reference"),
     ("src/scene/f.cpp", '#include "hooke/io/format.h"\n', "scene must not use io"),
     ("src/core/g.cpp", "  #  include <hdf5.h>\n", "kept to io"),
+    ("src/io/u.cpp", '#include "hooke/volumes/vdb_file.h"\n', None),
+    ("src/io/v.cpp", "#include <openvdb/openvdb.h>\n", "kept to volumes"),
+    ("src/volumes/w.cpp", '#include "hooke/io/snapshot.h"\n', "volumes must not use io"),
+    ("src/core/x.cpp", '#include "hooke/volumes/mesh_field.h"\n', "core must not use volumes"),
     ("src/render/r.cpp", "#include <epoxy/gl.h>\n", "kept to render/gl"),
     ("src/render/gl/s.cpp", '#include "hooke/render/frame.h"\n#include "hooke/core/scene.h"\n#include <epoxy/gl.h>\n', None),
     ("src/render/t.cpp", '#include "hooke/render/gl/gl_renderer.h"\n', "render must not use render/gl"),
     ("src/misc/h.cpp", "\n", "belongs to no library"),
     ("src/base/CMakeLists.txt", "hooke_library(base SOURCES a.cpp LINKS hooke_core)\n", "base must not link core"),
     ("src/core/CMakeLists.txt", "# hooke_library(core LINKS hooke_io)\nhooke_library(core LINKS hooke_base)\n", None),
+    ("src/render/CMakeLists.txt", "hooke_library(render LINKS hooke_core PRIVATE_LINKS hooke_volumes)\n",
+     "render must not link volumes"),
     ("src/io/CMakeLists.txt", "hooke_library(io LINKS hooke_core)\ntarget_link_libraries(hooke_io PUBLIC hooke::scene)\n",
      "io must not link scene"),
     ("apps/cli/main.cpp", '#include "hooke/backends/cpu/cpu_backend.h"\n#include <CLI/CLI.hpp>\n#include "run.h"\n', None),

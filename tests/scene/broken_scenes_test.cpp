@@ -12,6 +12,7 @@
 #include "hooke/scene/load_scene.h"
 #include "hooke/scene/text_file.h"
 #include "source_dir.h"
+#include "support/openvdb.h"
 
 namespace hooke {
 namespace {
@@ -36,6 +37,8 @@ std::string read(const fs::path& file) {
 class BrokenScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(BrokenScene, IsRefusedWithItsMessage) {
+  // Without OpenVDB what is wrong with a distance field is not found.
+  if (GetParam() == "bodies-meshes" || GetParam() == "emitters-meshes") HOOKE_NEEDS_OPENVDB();
   LoadOptions options;
   options.memory_limit = std::uint64_t{1} << 30U;
   const auto loaded = parse_scene(read(kFolder / (GetParam() + ".json")), GetParam() + ".json", kFolder, options);

@@ -14,6 +14,7 @@
 #include "mesh_shapes.h"
 #include "scratch_folder.h"
 #include "support/engines.h"
+#include "support/openvdb.h"
 #include "support/particles.h"
 
 namespace hooke::test {
@@ -31,6 +32,7 @@ double deviations(std::uint64_t count, double share) {
 MeshShape ball_of_field() { return shape_of(ball_mesh(0, 2, 128), 0.05, 0.02); }
 
 TEST(Enclosure, IsOfAllThatIsInsideHoweverDeep) {
+  HOOKE_NEEDS_OPENVDB();
   const Shape ball = ball_of_field();
   for (const Vec3d& origin : {Vec3d{0, 0, 0}, Vec3d{3, -1, 7}}) {
     const ShapeGeometry<double> geometry = geometry_of(ball, false, origin);
@@ -49,6 +51,7 @@ TEST(Enclosure, IsOfAllThatIsInsideHoweverDeep) {
 }
 
 TEST(MeshEmitter, FillsAClosedMeshEvenly) {
+  HOOKE_NEEDS_OPENVDB();
   Emitter e;
   e.shape = ball_of_field();
   e.motion = SteadyMotion{{1, 0, 0}, {0, 0, 1}, Vec3d{0, 0, 0}};
@@ -68,6 +71,7 @@ TEST(MeshEmitter, FillsAClosedMeshEvenly) {
 
 // A cone without ends: as many births as there is area.
 TEST(MeshEmitter, CoversTheFacesOfAnOpenMeshEvenly) {
+  HOOKE_NEEDS_OPENVDB();
   Emitter e;
   const double wide = 2, narrow = 0.5;  // at heights 3 and 0; the slant is straight
   e.shape = shape_of(turned({{wide, 3}, {narrow, 0}}, 400), 0.1, 0.2);
@@ -88,6 +92,7 @@ TEST(MeshEmitter, CoversTheFacesOfAnOpenMeshEvenly) {
 
 // Read from files, with a sink in the way that takes whoever comes into it.
 TEST(MeshEmitter, IsTheSameOnEveryBackEnd) {
+  HOOKE_NEEDS_OPENVDB();
   const ScratchFolder folder;
   folder.write("ball.obj", obj_text(ball_mesh(0, 1, 48)));
   folder.write("sheet.obj", obj_text(turned({{1, 0.3}, {0.2, 0}}, 24)));

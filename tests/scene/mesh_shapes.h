@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "hooke/scene/mesh_field.h"
 #include "hooke/scene/mesh_file.h"
+#include "hooke/volumes/mesh_field.h"
 #include "support/made_meshes.h"
 
 namespace hooke::test {
@@ -13,8 +13,8 @@ namespace hooke::test {
 inline MeshShape shape_of(const TriangleMesh& mesh, double cell, double reach) {
   MeshShape shape;
   shape.surface = std::make_shared<const TriangleMesh>(mesh);
-  shape.field =
-      std::make_shared<const DistanceField>(make_distance_field(mesh, {cell, reach, count_open_edges(mesh) == 0}));
+  shape.field = std::make_shared<const DistanceField>(
+      make_distance_field(mesh, {cell, reach, count_open_edges(mesh) == 0}).value());
   return shape;
 }
 

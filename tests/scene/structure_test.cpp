@@ -12,6 +12,7 @@
 #include "hooke/scene/load_scene.h"
 #include "minimal_scene.h"
 #include "scratch_folder.h"
+#include "support/openvdb.h"
 
 namespace hooke {
 namespace {
@@ -156,6 +157,7 @@ TEST(SceneStructure, FillsBodiesWithTwelveNeighboursEach) {
 }
 
 TEST(SceneStructure, FillsMeshesWithBodies) {
+  HOOKE_NEEDS_OPENVDB();
   const ScratchFolder folder;
   folder.write("cube.obj",
                "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-#include "hooke/io/surface_mesh.h"
+#include "hooke/volumes/surface_mesh.h"
 
 #include <openvdb/tools/Interpolation.h>
 #include <openvdb/tools/VolumeToMesh.h>
@@ -9,8 +9,9 @@
 #include <cmath>
 
 #include "hooke/base/parallel.h"
-#include "hooke/io/failure.h"
-#include "hooke/io/fluid_volume.h"
+#include "hooke/volumes/fluid_volume.h"
+#include "hooke/volumes/no_throw.h"
+#include "hooke/volumes/openvdb_instances.h"
 
 namespace hooke {
 
@@ -39,11 +40,7 @@ std::vector<Vec3f> vertex_normals(const SurfaceMesh& mesh) {
   return normals;
 }
 
-}  // namespace
-
-SurfaceMesh surface_mesh(const Snapshot& snapshot, const std::vector<MaterialInfo>& materials,
-                         const SurfaceOptions& options, const std::filesystem::path& file) {
-  const FluidVolume fluid(snapshot, materials, options, file);
+SurfaceMesh mesh_of(const FluidVolume& fluid) {
   std::vector<openvdb::Vec3s> points;
   std::vector<openvdb::Vec4I> quads;
   openvdb::tools::volumeToMesh(*fluid.surface_field(), points, quads);
@@ -65,6 +62,13 @@ SurfaceMesh surface_mesh(const Snapshot& snapshot, const std::vector<MaterialInf
   });
   mesh.normal = vertex_normals(mesh);
   return mesh;
+}
+
+}  // namespace
+
+Expected<SurfaceMesh> make_surface_mesh(const ParticleSet& particles, std::span<const double> radius,
+                                        const SurfaceOptions& options) {
+  return no_throw([&] { return FluidVolume::create(particles, radius, options).map(mesh_of); });
 }
 
 }  // namespace hooke

@@ -4,12 +4,13 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
+#include <span>
 #include <vector>
 
+#include "hooke/base/expected.h"
 #include "hooke/base/vec3.h"
-#include "hooke/io/export.h"
-#include "hooke/io/snapshot.h"
+#include "hooke/core/particles.h"
+#include "hooke/volumes/surface_options.h"
 
 namespace hooke {
 
@@ -21,8 +22,9 @@ struct SurfaceMesh {
   std::vector<std::array<std::uint32_t, 4>> face;  ///< its corners, counterclockwise from outside
 };
 
-/// The surface around the particles of a snapshot, as the options draw it. Throws Failure, naming `file`.
-SurfaceMesh surface_mesh(const Snapshot& snapshot, const std::vector<MaterialInfo>& materials,
-                         const SurfaceOptions& options, const std::filesystem::path& file);
+/// The surface around particles, as the options draw it; `radius` (m) is that of each material. An error, which names
+/// no place, where the options are out of range or particles too far away.
+Expected<SurfaceMesh> make_surface_mesh(const ParticleSet& particles, std::span<const double> radius,
+                                        const SurfaceOptions& options);
 
 }  // namespace hooke

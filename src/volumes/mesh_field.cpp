@@ -1,15 +1,24 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-#include "hooke/scene/mesh_field.h"
+#include "hooke/volumes/mesh_field.h"
 
 #include <openvdb/tools/MeshToVolume.h>
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "hooke/base/parallel.h"
 #include "hooke/physics/enclosure.h"
+#include "hooke/volumes/no_throw.h"
+#include "hooke/volumes/openvdb_instances.h"
+#include "hooke/volumes/openvdb_support.h"
+
+#if OPENVDB_LIBRARY_MAJOR_VERSION_NUMBER == 10 && defined(__OPTIMIZE__)
+// The one member of this tree that OpenVDB's library lacks.
+template void openvdb::FloatTree::ValueConverter<unsigned char>::Type::releaseAllAccessors();
+#endif
 
 namespace hooke {
 namespace {
@@ -118,20 +127,7 @@ void fill_samples(const openvdb::FloatGrid& grid, const BrickLayout& layout, con
   });
 }
 
-}  // namespace
-
-double expected_samples(const TriangleMesh& mesh, const FieldOptions& options) {
-  double area = 0;
-  for (const auto& t : mesh.triangles) {
-    const Vec3d n = cross(mesh.vertices[t[1]] - mesh.vertices[t[0]], mesh.vertices[t[2]] - mesh.vertices[t[0]]);
-    area += 0.5 * std::sqrt(dot(n, n));
-  }
-  // Bricks that the band only touches are as many again as half a brick on either side.
-  const double band = (options.closed ? 4 : 2) * options.reach + (4 + kCells) * options.cell;
-  return area * band / (options.cell * options.cell * options.cell);
-}
-
-DistanceField make_distance_field(const TriangleMesh& mesh, const FieldOptions& options) {
+DistanceField field_around(const TriangleMesh& mesh, const FieldOptions& options) {
   const CellMesh cells(mesh, options.cell);
   // Distances in cells; three more than asked for, so that all corners of a cell that reaches so far, and of those
   // around it, are there.
@@ -162,6 +158,14 @@ DistanceField make_distance_field(const TriangleMesh& mesh, const FieldOptions& 
     }
   }
   return field;
+}
+
+}  // namespace
+
+bool has_openvdb() { return true; }
+
+Expected<DistanceField> make_distance_field(const TriangleMesh& mesh, const FieldOptions& options) {
+  return no_throw([&]() -> Expected<DistanceField> { return field_around(mesh, options); });
 }
 
 }  // namespace hooke

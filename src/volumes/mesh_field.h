@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "hooke/base/expected.h"
 #include "hooke/core/distance_field.h"
 #include "hooke/core/triangle_mesh.h"
 
@@ -17,7 +18,8 @@ struct FieldOptions {
 /// How many samples the field will hold, about.
 double expected_samples(const TriangleMesh& mesh, const FieldOptions& options);
 
-/// The distance from `mesh`, sampled around it: the same bits every time.
-DistanceField make_distance_field(const TriangleMesh& mesh, const FieldOptions& options);
+/// The distance from `mesh`, sampled around it: the same bits every time. An error, which names no place, where there
+/// is too little memory.
+Expected<DistanceField> make_distance_field(const TriangleMesh& mesh, const FieldOptions& options);
 
 }  // namespace hooke

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-#include "hooke/io/fluid_volume.h"
+#include "hooke/volumes/fluid_volume.h"
 
 #include <fmt/format.h>
 #include <openvdb/tools/ChangeBackground.h>
@@ -15,8 +15,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "hooke/io/failure.h"
-#include "hooke/io/field_blocks.h"
+#include "hooke/volumes/field_blocks.h"
+#include "hooke/volumes/openvdb_instances.h"
 
 namespace hooke {
 
@@ -24,15 +24,15 @@ namespace {
 
 constexpr float kBand = 3;  // voxels, half-width of a level set
 
-void check(const SurfaceOptions& options, const std::filesystem::path& file) {
-  const auto check_range = [&](const char* name, double value, double min, double max) {
-    if (value >= min && value <= max) return;
-    throw Failure(Error::Kind::bad_input, file,
-                  fmt::format("can't draw a surface: {} {} is not from {} to {}", name, value, min, max));
+std::string out_of_range(const SurfaceOptions& options) {
+  const auto unless = [](const char* name, double value, double min, double max) {
+    if (value >= min && value <= max) return std::string();
+    return fmt::format("can't draw a surface: {} {} is not from {} to {}", name, value, min, max);
   };
-  check_range("radius", options.radius, 0.1, 10);
-  check_range("resolution", options.resolution, 0.1, options.radius);
-  check_range("smoothing", options.smoothing, options.resolution, 10);
+  std::string wrong = unless("radius", options.radius, 0.1, 10);
+  if (wrong.empty()) wrong = unless("resolution", options.resolution, 0.1, options.radius);
+  if (wrong.empty()) wrong = unless("smoothing", options.smoothing, options.resolution, 10);
+  return wrong;
 }
 
 openvdb::Coord corner(const FieldBlocks::Coordinates& at) {
@@ -75,30 +75,30 @@ std::vector<std::size_t> surface_blocks(const FieldBlocks& blocks, float thresho
 
 }  // namespace
 
-FluidVolume::FluidVolume(const Snapshot& snapshot, const std::vector<MaterialInfo>& materials,
-                         const SurfaceOptions& options, const std::filesystem::path& file)
-    : particles_(snapshot.particles) {
+Expected<FluidVolume> FluidVolume::create(const ParticleSet& particles, std::span<const double> radius,
+                                          const SurfaceOptions& options) {
   openvdb::initialize();
-  check(options, file);
-  smallest_ = std::numeric_limits<double>::max();
-  for (const std::uint16_t m : particles_.material) smallest_ = std::min(smallest_, materials[m].radius);
-  if (particles_.empty()) smallest_ = 1;
-  voxel_ = options.resolution * smallest_;
-  reach_ratio_ = (options.radius + options.smoothing) / options.radius;
-  for (std::size_t i = 0; i < particles_.size(); ++i) {
-    if (!FieldBlocks::block_at(particles_.position[i], voxel_)) {
-      throw Failure(Error::Kind::bad_input, file,
-                    fmt::format("particle {} is more than {} voxels from the origin: too far for a grid",
-                                particles_.id[i], FieldBlocks::kMaxBlock * FieldBlocks::kEdge));
+  const auto refuse = [](std::string why) { return fail(Error::Kind::bad_input, "", std::move(why)); };
+  if (std::string wrong = out_of_range(options); !wrong.empty()) return refuse(std::move(wrong));
+  FluidVolume fluid(particles);
+  fluid.smallest_ = std::numeric_limits<double>::max();
+  for (const std::uint16_t m : particles.material) fluid.smallest_ = std::min(fluid.smallest_, radius[m]);
+  if (particles.empty()) fluid.smallest_ = 1;
+  fluid.voxel_ = options.resolution * fluid.smallest_;
+  fluid.reach_ratio_ = (options.radius + options.smoothing) / options.radius;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    if (!FieldBlocks::block_at(particles.position[i], fluid.voxel_)) {
+      return refuse(fmt::format("particle {} is more than {} voxels from the origin: too far for a grid",
+                                particles.id[i], FieldBlocks::kMaxBlock * FieldBlocks::kEdge));
     }
-    const double sphere = options.radius * materials[particles_.material[i]].radius;
-    sphere_.push_back({static_cast<float>(sphere)});
-    reach_.push_back(sphere * reach_ratio_);
-    if (reach_.back() > 32 * FieldBlocks::kEdge * voxel_) {
-      throw Failure(Error::Kind::bad_input, file,
-                    "can't draw a surface: the largest particle is too many voxels wide at this resolution");
+    const double sphere = options.radius * radius[particles.material[i]];
+    fluid.sphere_.push_back({static_cast<float>(sphere)});
+    fluid.reach_.push_back(sphere * fluid.reach_ratio_);
+    if (fluid.reach_.back() > 32 * FieldBlocks::kEdge * fluid.voxel_) {
+      return refuse("can't draw a surface: the largest particle is too many voxels wide at this resolution");
     }
   }
+  return fluid;
 }
 
 // A lone particle's weight is w(d) = (1 - d^2 / reach^2)^3, and d - R the distance to its sphere. So the sum S of all
@@ -148,6 +148,12 @@ openvdb::FloatGrid::Ptr FluidVolume::level_set() const {
   });
   openvdb::tools::changeLevelSetBackground(grid->tree(), background);
   openvdb::tools::pruneLevelSet(grid->tree());
+  return grid;
+}
+
+openvdb::FloatGrid::Ptr FluidVolume::fog(const openvdb::FloatGrid& level_set) {
+  openvdb::FloatGrid::Ptr grid = level_set.deepCopy();
+  openvdb::tools::sdfToFogVolume(*grid);
   return grid;
 }
 

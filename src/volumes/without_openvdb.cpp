@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+// All that needs OpenVDB, for a build that has none.
+#include "hooke/volumes/mesh_field.h"
+#include "hooke/volumes/openvdb_support.h"
+#include "hooke/volumes/surface_mesh.h"
+#include "hooke/volumes/vdb_file.h"
+
+namespace hooke {
+
+namespace {
+
+tl::unexpected<Error> refuse() {
+  return fail(Error::Kind::bad_input, "", "needs OpenVDB, which is not in this build (HOOKE_WITH_OPENVDB)");
+}
+
+}  // namespace
+
+bool has_openvdb() { return false; }
+
+Expected<DistanceField> make_distance_field(const TriangleMesh&, const FieldOptions&) { return refuse(); }
+
+Expected<SurfaceMesh> make_surface_mesh(const ParticleSet&, std::span<const double>, const SurfaceOptions&) {
+  return refuse();
+}
+
+Expected<void> write_vdb_points(const ParticleSet&, std::span<const double>, const std::string&, const VdbInstant&,
+                                const std::filesystem::path&) {
+  return refuse();
+}
+
+Expected<void> write_vdb_volume(const ParticleSet&, std::span<const double>, const SurfaceOptions&, const VdbInstant&,
+                                const std::filesystem::path&) {
+  return refuse();
+}
+
+}  // namespace hooke

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+// A build without OpenVDB: exports that need it are refused by name, and leave nothing behind.
+#include <gtest/gtest.h>
+
+#include "hooke/io/export.h"
+#include "hooke/volumes/openvdb_support.h"
+#include "samples.h"
+
+namespace hooke {
+namespace {
+
+TEST(WithoutOpenVdb, ExportsNameTheFileThatCantBe) {
+  if (has_openvdb()) GTEST_SKIP() << "OpenVDB is in this build";
+  const samples::TemporaryFolder folder;
+  const RunReader run = samples::write_run(folder / "run", samples::run_info(), {samples::snapshot(8, 10)});
+  const std::pair<ExportContent, const char*> needed[] = {{ExportContent::particles, "f.vdb"},
+                                                          {ExportContent::volume, "f.vdb"},
+                                                          {ExportContent::surface, "f.obj"},
+                                                          {ExportContent::surface, "f.ply"}};
+  for (const auto& [content, name] : needed) {
+    ExportOptions options;
+    options.content = content;
+    const auto files = export_run(run, std::vector<std::size_t>{0}, folder / name, options);
+    ASSERT_FALSE(files) << name;
+    EXPECT_EQ(files.error().kind, Error::Kind::bad_input);
+    EXPECT_EQ(files.error().text(),
+              (folder / name).string() + ": needs OpenVDB, which is not in this build (HOOKE_WITH_OPENVDB)");
+  }
+  EXPECT_EQ(samples::files_in(folder.path()), std::vector<std::string>{"run"});
+}
+
+}  // namespace
+}  // namespace hooke
