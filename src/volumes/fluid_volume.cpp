@@ -16,7 +16,6 @@
 #include <numeric>
 
 #include "hooke/volumes/field_blocks.h"
-#include "hooke/volumes/openvdb_instances.h"
 
 namespace hooke {
 

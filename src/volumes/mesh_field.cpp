@@ -12,13 +12,7 @@
 #include "hooke/base/parallel.h"
 #include "hooke/physics/enclosure.h"
 #include "hooke/volumes/no_throw.h"
-#include "hooke/volumes/openvdb_instances.h"
 #include "hooke/volumes/openvdb_support.h"
-
-#if OPENVDB_LIBRARY_MAJOR_VERSION_NUMBER == 10 && defined(__OPTIMIZE__)
-// The one member of this tree that OpenVDB's library lacks.
-template void openvdb::FloatTree::ValueConverter<unsigned char>::Type::releaseAllAccessors();
-#endif
 
 namespace hooke {
 namespace {

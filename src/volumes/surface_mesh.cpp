@@ -11,7 +11,6 @@
 #include "hooke/base/parallel.h"
 #include "hooke/volumes/fluid_volume.h"
 #include "hooke/volumes/no_throw.h"
-#include "hooke/volumes/openvdb_instances.h"
 
 namespace hooke {
 

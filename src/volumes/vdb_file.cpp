@@ -10,7 +10,6 @@
 
 #include "hooke/volumes/fluid_volume.h"
 #include "hooke/volumes/no_throw.h"
-#include "hooke/volumes/openvdb_instances.h"
 
 namespace hooke {
 
