@@ -8,7 +8,7 @@
 
 #include <numeric>
 
-#include "hooke/base/random.h"
+#include "support/particles.h"
 
 namespace hooke {
 namespace {
@@ -20,7 +20,7 @@ TEST(FieldBlocks, SumWhatReachesEachVoxel) {
   std::vector<double> reach;
   std::vector<std::array<float, 1>> value;
   for (std::uint64_t i = 0; i < 50; ++i) {
-    const auto r = random4(5, i);
+    const auto r = test::random4(5, i);
     position.push_back({3 * r[0] - 1.5, 3 * r[1] - 1.5, 3 * r[2] - 1.5});
     reach.push_back(i % 7 == 0 ? 1.1 : 0.3);  // the larger reach over a whole block
     value.push_back({static_cast<float>(r[3])});
