@@ -340,21 +340,23 @@ class ReferenceBackend final : public Backend {
   // overlap > 0, or cohesion reaches from one to the other.
   template <class Visit>
   void for_each_contact(std::size_t i, Visit&& visit) const {
+    if (!material(i).interacts) return;
     const Domain& domain = scene_.domain;
+    // Looked at no closer beyond this, m: twice as far as contacts reach, so that rounding can't matter.
+    const double far = 2 * (2 * largest_radius() + table_.widest_range());
     for (std::size_t p = 0; p < p_.size(); ++p) {
-      if (!material(i).interacts || !material(p).interacts) continue;
-      if (springs_.keep_apart(p_.id[i], p_.id[p])) continue;
       for (int sx = -images_[0]; sx <= images_[0]; ++sx) {
         for (int sy = -images_[1]; sy <= images_[1]; ++sy) {
           for (int sz = -images_[2]; sz <= images_[2]; ++sz) {
-            if (p == i && sx == 0 && sy == 0 && sz == 0) continue;
             const Vec3d x_ip{image_displacement<double>(p_.position[i].x, p_.position[p].x, sx, domain.length(0)),
                              image_displacement<double>(p_.position[i].y, p_.position[p].y, sy, domain.length(1)),
                              image_displacement<double>(p_.position[i].z, p_.position[p].z, sz, domain.length(2))};
+            if (std::abs(x_ip.x) > far || std::abs(x_ip.y) > far || std::abs(x_ip.z) > far) continue;
+            if (!material(p).interacts || (p == i && sx == 0 && sy == 0 && sz == 0)) continue;
             const double distance = sqrt_of(dot(x_ip, x_ip));
             const double overlap = (material(i).radius + material(p).radius) - distance;
-            if (overlap > -pair(i, p).surface.range)
-              visit(p, contact_normal(x_ip, distance, p_.id[i] > p_.id[p] ? 1.0 : -1.0), overlap);
+            if (!(overlap > -pair(i, p).surface.range) || springs_.keep_apart(p_.id[i], p_.id[p])) continue;
+            visit(p, contact_normal(x_ip, distance, p_.id[i] > p_.id[p] ? 1.0 : -1.0), overlap);
           }
         }
       }
