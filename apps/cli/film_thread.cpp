@@ -133,7 +133,7 @@ void FilmThread::show(const Simulation& simulation) {
     const double frame_time = impl_->time_of(impl_->next_frame);
     std::unique_lock lock(impl_->mutex);
     impl_->changed.wait(lock, [&] { return impl_->error || impl_->waiting.size() < Impl::kMostWaiting; });
-    if (impl_->error) return;
+    if (impl_->error) continue;  // it is over; the run does not wait for its frames
     impl_->waiting.push_back({simulation.particles(), std::max(0.0, time - frame_time), frame_time});
     impl_->changed.notify_all();
   }
