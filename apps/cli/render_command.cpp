@@ -174,6 +174,11 @@ Expected<ExitStatus> render(const RenderArguments& arguments) {
       std::filesystem::is_directory(arguments.run) ? arguments.run : arguments.run.parent_path();
   const auto loaded = load_kept_scene(folder, arguments.overrides);
   if (!loaded) return fail(loaded.error());
+  const auto is_same = [](const Material& a, const MaterialInfo& b) { return a.name == b.name; };
+  if (!std::equal(loaded->scene.materials.begin(), loaded->scene.materials.end(), run->info().materials.begin(),
+                  run->info().materials.end(), is_same)) {
+    return fail(Error::Kind::bad_input, arguments.run.string(), "has particles of other materials than its scene");
+  }
   auto studio = Studio::open(arguments.picture);
   if (!studio) return fail(std::move(studio).error());
   const auto first = run->read(0);

@@ -35,20 +35,6 @@ struct Touch {
   double normal_force;  // N, > 0 pushes a away
 };
 
-// Along periodic axes inside the domain, or where single precision rounds its faces to.
-bool are_inside_of_periods(const ParticleSet& particles, const Domain& domain) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (domain.boundary[static_cast<std::size_t>(axis)] != Boundary::periodic) continue;
-    const double min = component(domain.min, axis), max = component(domain.max, axis);
-    const double low = std::min<double>(min, static_cast<float>(min));
-    const double high = std::max<double>(max, static_cast<float>(max));
-    for (const Vec3d& x : particles.position) {
-      if (!(component(x, axis) >= low && component(x, axis) <= high)) return false;
-    }
-  }
-  return true;
-}
-
 // Particles in cells, and who touches whom there.
 class ContactSearch {
  public:
@@ -60,7 +46,6 @@ class ContactSearch {
         table_(scene.materials, scene.contacts),
         furthest_(furthest) {
     HOOKE_ASSERT(are_particles_of(particles, scene), particles.size(), scene.materials.size());
-    HOOKE_ASSERT(are_inside_of_periods(particles, scene.domain), scene.domain.min, scene.domain.max);
     HOOKE_ASSERT(is_ascending(now.broken_springs), now.broken_springs.size());
     if (particles.empty()) return;
     place_colliders(now.time);

@@ -15,8 +15,8 @@ namespace hooke {
 
 // Contacts of a snapshot, found afresh from positions and velocities: for files and pictures. A running back end has
 // its own list and is not asked. Pairs that a spring of the scene keeps apart are no contacts. All functions want
-// particles of the scene (are_particles_of) and, along periodic axes, positions inside the domain, as snapshots have
-// them. Their results do not depend on the number of threads.
+// particles of the scene (are_particles_of) at finite positions; along periodic axes those should be inside the domain,
+// as snapshots have them: of others not all contacts are found. Results do not depend on the number of threads.
 
 /// A face of the domain; `none` where the partner is a particle.
 enum class Face : std::uint8_t { none, x_min, x_max, y_min, y_max, z_min, z_max };

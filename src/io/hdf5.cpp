@@ -234,7 +234,6 @@ void Column::write(hsize_t start, hsize_t count, hid_t type, const void* data) {
 }
 
 void Column::read(hsize_t start, hsize_t count, hid_t type, void* data) const {
-  HOOKE_ASSERT(start + count <= rows_, start, count, rows_);
   with_rows(dataset_.get(), start, count, width_,
             [&](hid_t memory, hid_t file) { return H5Dread(dataset_.get(), type, memory, file, H5P_DEFAULT, data); });
 }

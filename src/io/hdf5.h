@@ -83,7 +83,7 @@ class Column {
   hsize_t next_chunk(hsize_t rows) const;
   void resize(hsize_t rows);
 
-  /// `count` rows from `start` on, all within rows().
+  /// `count` rows from `start` on, within rows(). Of what is to be read a damaged file may hold less: a Failure.
   void write(hsize_t start, hsize_t count, hid_t type, const void* data);
   void read(hsize_t start, hsize_t count, hid_t type, void* data) const;
 

@@ -3,9 +3,11 @@
 #include "hooke/io/particles_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <span>
 
+#include "hooke/base/ascending.h"
 #include "hooke/base/assert.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/run_info_json.h"
@@ -291,6 +293,9 @@ ParticlesContents read_particles_contents(const std::filesystem::path& path) {
   if (contents.steps.size() != n || contents.times.size() != n || parts.size() != n) {
     throw Failure(Error::Kind::bad_input, path, "is damaged: its tables of steps differ in length");
   }
+  if (!is_ascending(contents.steps) || !std::is_sorted(contents.times.begin(), contents.times.end())) {
+    throw Failure(Error::Kind::bad_input, path, "is damaged: its snapshots are out of order");
+  }
   for (const std::int64_t part : parts) {
     if (part < 0 || static_cast<std::size_t>(part) >= counts.size() || counts[static_cast<std::size_t>(part)] < 0) {
       throw Failure(Error::Kind::bad_input, path, "is damaged: a snapshot has no particle count");
@@ -307,6 +312,12 @@ Snapshot read_particles(const std::filesystem::path& path, std::size_t index) {
     throw Failure(Error::Kind::bad_input, path, "has no snapshot " + std::to_string(index));
   }
   Snapshot snapshot = read_snapshot(VtkhdfColumns::open(file.id()), index);
+  const auto is_lost = [](const Vec3d& x) { return !std::isfinite(x.x) || !std::isfinite(x.y) || !std::isfinite(x.z); };
+  const std::vector<Vec3d>& position = snapshot.particles.position;
+  if (!is_ascending(snapshot.particles.id) || std::any_of(position.begin(), position.end(), is_lost)) {
+    throw Failure(Error::Kind::bad_input, path,
+                  "is damaged: ids do not ascend, or a particle is at no finite position");
+  }
   for (const std::uint16_t material : snapshot.particles.material) {
     if (material >= info.materials.size()) {
       throw Failure(Error::Kind::bad_input, path, "is damaged: a particle is of a material that the run does not have");

@@ -43,9 +43,9 @@ class RunWriter {
   static Expected<RunWriter> create(const std::filesystem::path& folder, const RunInfo& info,
                                     const std::string& scene_json, const Options& options);
 
-  /// Goes on in a folder from a checkpoint of `step`: snapshots and rows of later steps are cut, and so are those of
-  /// this very step unless it is due by `cadence` (they were there because the run ended), so that the files become
-  /// those of a run that never stopped.
+  /// Goes on in a folder from a checkpoint of `step` (>= 0): snapshots and rows of later steps are cut, and so are
+  /// those of this very step unless it is due by `cadence` (they were there because the run ended), so that the files
+  /// become those of a run that never stopped.
   static Expected<RunWriter> resume(const std::filesystem::path& folder, const RunInfo& info,
                                     const std::string& scene_json, std::int64_t step, const OutputCadence& cadence);
 

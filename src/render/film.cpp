@@ -245,7 +245,6 @@ Expected<void> FilmWriter::add(const Image& image) {
 }
 
 Expected<void> FilmWriter::finish() {
-  HOOKE_ASSERT(!impl_->finished);
   impl_->finished = true;
   if (impl_->frames == 0) return fail(Error::Kind::bad_input, impl_->file.string(), "would be a film of no frame");
   if (!impl_->ffmpeg.wait()) return impl_->stopped();

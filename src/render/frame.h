@@ -56,8 +56,8 @@ struct Look {
   double foam_speed = 1;  ///< speed at which water is white, m/s
 };
 
-/// The look of a run, from its scene and its `first` snapshot; `range`, its second
-/// end above the first, in place of the default scale's ends.
+/// The look of a run, from its scene and its `first` snapshot; `range`, of ascending values, in place of the default
+/// scale's ends.
 Look make_look(const Scene& scene, const ParticleSet& first, ColorBy by,
                const std::optional<std::array<double, 2>>& range = {});
 

@@ -198,6 +198,7 @@ class Loader {
   }
 
   void plan_cluster(const Json& json, Source& source) {
+    if (!source.rules.material || findings_.touches(join_path("materials", names_[*source.rules.material]))) return;
     const ClusterSource cluster = read_cluster(json);
     if (dot(cluster.normal, cluster.normal) > 0) {
       source.cluster = cluster;

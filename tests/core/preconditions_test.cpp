@@ -48,14 +48,6 @@ TEST(CorePreconditions, SetsAreSearchedInOrder) {
   EXPECT_ASSERTS((void)check_ids(Structure{}, particles), "is_ascending(particles.id)");
 }
 
-TEST(CorePreconditions, PositionsLieInsideOfPeriodicFaces) {
-  Scene scene = open_scene();
-  scene.domain.boundary[0] = Boundary::periodic;
-  ParticleSet particles;
-  add(particles, {scene.domain.max.x + 1, 0, 0}, {0, 0, 0});
-  EXPECT_ASSERTS((void)find_contacts(scene, particles), "are_inside_of_periods");
-}
-
 TEST(CorePreconditions, BrokenSpringsAscend) {
   const std::vector<std::uint64_t> broken{2, 1};
   EXPECT_ASSERTS((void)find_contacts(open_scene(), {}, {0, broken}), "is_ascending(now.broken_springs)");

@@ -138,14 +138,17 @@ TEST(ExportVtp, WritesOneFileOrACollection) {
 
 TEST(Export, SaysWhatItKnowsAndLeavesNothingHalfMade) {
   const TemporaryFolder folder;
-  const RunReader run = samples::write_run(folder / "run", samples::run_info(), {samples::snapshot(0, 5)});
+  const RunReader run =
+      samples::write_run(folder / "run", samples::run_info(), {samples::snapshot(0, 5), samples::snapshot(8, 5)});
   const auto unknown = export_run(run, std::vector<std::size_t>{0}, folder / "t.xyzzy");
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().kind, Error::Kind::bad_input);
   EXPECT_NE(unknown.error().text().find("known are .csv, .vtp, .pvd, .ply"), std::string::npos);
 
   EXPECT_FALSE(export_run(run, std::vector<std::size_t>{}, folder / "t.csv"));
-  EXPECT_FALSE(export_run(run, std::vector<std::size_t>{0, 1}, folder / "t.csv"));  // there is no snapshot 1
+  // The run has lost its second snapshot since it was opened.
+  ASSERT_TRUE(RunWriter::resume(folder / "run", samples::run_info(), "{}", 8, {0, 16}));
+  EXPECT_FALSE(export_run(run, std::vector<std::size_t>{0, 1}, folder / "t.csv"));
   const auto unwritable = export_run(run, std::vector<std::size_t>{0}, folder / "none/t.csv");
   ASSERT_FALSE(unwritable);
   EXPECT_EQ(unwritable.error().kind, Error::Kind::io);

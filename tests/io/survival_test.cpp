@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -175,7 +176,8 @@ TEST(Survival, AFullDiskIsReportedAndWhatWasThereStaysReadable) {
       EXPECT_TRUE(samples::same(*snapshot, samples::snapshot(step, count_at(step))));
     }
     // With room again, the run goes on.
-    auto writer = RunWriter::resume(run, samples::run_info(), "{}", flushed.get(), {0, 1});
+    const std::int64_t resumed = std::max<std::int64_t>(flushed.get(), 0);
+    auto writer = RunWriter::resume(run, samples::run_info(), "{}", resumed, {0, 1});
     ASSERT_TRUE(writer) << writer.error().text();
     ASSERT_TRUE(writer->write_snapshot(samples::snapshot(flushed.get() + 1, 20000)));
     ASSERT_TRUE(writer->finish());
