@@ -40,10 +40,11 @@ double ExactSum::value() const {
   return negative ? -sum : sum;
 }
 
-// Moves what the two doubles hold to the limbs.
-void ExactSum::put_down() {
+// Moves what the two doubles hold to the limbs, and adds another value there.
+void ExactSum::put_down(double value) {
   add_to_limbs(sum_);
   add_to_limbs(left_);
+  add_to_limbs(value);
   sum_ = left_ = 0;
 }
 
@@ -89,4 +90,5 @@ void ExactSum::carry() {
   limbs_[kLimbs - 1] += over;
   pending_ = 0;
 }
+
 }  // namespace hooke
