@@ -13,6 +13,7 @@
 #include "hooke/scene/load_scene.h"
 #include "program.h"
 #include "source_dir.h"
+#include "support/openvdb.h"
 
 namespace hooke::test {
 namespace {
@@ -105,6 +106,7 @@ class InterchangePage : public ProgramTest {
 };
 
 TEST_F(InterchangePage, Works) {
+  HOOKE_NEEDS_OPENVDB();
   std::filesystem::create_directories(path("bin"));
   std::filesystem::create_symlink(program_file(), path("bin/hooke"));
   std::filesystem::create_directories(path("scenes"));
