@@ -40,7 +40,6 @@ struct FilmThread::Impl {
   std::optional<Error> error;  // nothing is drawn any more
   Summary summary;
   std::thread thread;
-  std::thread::id owner = std::this_thread::get_id();  // who uses this
 
   double time_of(std::int64_t frame) const { return static_cast<double>(frame) / picture.frames_per_second; }
 
@@ -127,7 +126,6 @@ FilmThread::~FilmThread() { impl_->end(); }
 bool FilmThread::is_due(double time) const { return impl_->time_of(impl_->next_frame) <= time + 1e-9; }
 
 void FilmThread::show(const Simulation& simulation) {
-  HOOKE_ASSERT(std::this_thread::get_id() == impl_->owner);
   HOOKE_ASSERT(!impl_->ending);
   for (const double time = simulation.time(); is_due(time); ++impl_->next_frame) {
     const double frame_time = impl_->time_of(impl_->next_frame);
