@@ -12,8 +12,8 @@
 namespace hooke::cli {
 
 /// Draws a film of a run while it runs, on a thread of its own: a frame at every multiple of 1 / frames_per_second of
-/// simulated time, of the state of the first step at or after it, drawn back by what it is late. Used by one thread at a
-/// time.
+/// simulated time, of the state of the first step at or after it, drawn back by what it is late. Used by one thread at
+/// a time.
 class FilmThread {
  public:
   struct Summary {

@@ -89,7 +89,7 @@ class RunReader {
 
   const RunInfo& info() const;
   const std::filesystem::path& file() const;  ///< the particles.vtkhdf
-  std::size_t size() const;                   ///< complete snapshots; may be 0
+  std::size_t size() const;  ///< complete snapshots; may be 0
   std::span<const std::int64_t> steps() const;
   std::span<const double> times() const;  ///< s
   std::span<const std::uint64_t> particle_counts() const;
