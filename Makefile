@@ -36,7 +36,7 @@ test: setup-test  ## build with assertions, run every test but the long ones
 sanitize: setup-test  ## the tests again that address and thread sanitizers can make fail
 	tools/test.sh sanitize
 
-soak: setup-soak  ## hours: the long tests, lint, and everything under the address sanitizer
+soak: setup-soak  ## hours: the long tests, lint, and everything under sanitizers
 	tools/lint.sh
 	tools/test.sh soak
 
@@ -61,7 +61,7 @@ install: build-all  ## install program, library, headers and scenes below PREFIX
 	cmake --install build --prefix $(PREFIX)
 
 clean:  ## remove every build folder
-	rm -rf build build-dev build-clang build-asan build-asan-everything build-tsan
+	rm -rf build build-dev build-clang build-asan build-asan-everything build-tsan build-tsan-everything
 
 setup:
 	@tools/setup.sh

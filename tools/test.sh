@@ -5,7 +5,7 @@
 # tools/test.sh            the format, and every test but the long ones, in one build with assertions
 # tools/test.sh sanitize   what reads, lists and stores under the address sanitizer, what runs on several threads under
 #                          the thread sanitizer
-# tools/test.sh soak       the long tests, and everything but those under the address sanitizer
+# tools/test.sh soak       the long tests, and everything but those under the sanitizers
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=$(nproc)
@@ -29,7 +29,7 @@ case "${1:-}" in
   soak)
     build_and_test soak dev soak
     build_and_test asan-everything
-    build_and_test tsan
+    build_and_test tsan-everything
     ;;
   *)
     echo "usage: tools/test.sh [sanitize|soak]" >&2
