@@ -18,7 +18,7 @@ build_packages=(
   libepoxy-dev libegl1 libgl1 libgl1-mesa-dri libpng-dev libcairo2-dev fonts-dejavu-core ffmpeg
   python3)
 bench_packages=(lammps python3-numpy python3-matplotlib)
-test_packages=(clang-format-19 mold python3-vtk9 python3-h5py)
+test_packages=(clang-format-19 lammps mold python3-h5py python3-numpy python3-vtk9)
 lint_packages=(clang-19 clang-tidy-19)
 
 packages=("${build_packages[@]}")
