@@ -65,6 +65,7 @@ TEST(BouncingBall, GoesTheSameWayOverAMeshOfAShape) {
   ParticleSet ball;
   add(ball, {0.01, 1.5, 0.02}, {0, 0, 0});
   for (const auto& [shape, mesh] : pairs) {
+    const MeshShape mesh_shape = shape_of(mesh, cell, 0.5);
     for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
       Scene scene = open_scene();
       scene.gravity = {0, -9.8, 0};
@@ -72,7 +73,7 @@ TEST(BouncingBall, GoesTheSameWayOverAMeshOfAShape) {
       scene.colliders[0].name = "thing";
       scene.colliders[0].shape = shape;
       Simulation expected = simulate(scene, ball, engine);
-      scene.colliders[0].shape = shape_of(mesh, cell, 0.5);
+      scene.colliders[0].shape = mesh_shape;
       Simulation meshed = simulate(scene, ball, engine);
       for (int i = 0; i < 15; ++i) {
         ASSERT_TRUE(advance(expected, 100));
