@@ -88,7 +88,7 @@ TEST_P(Interchange, FindsSnapshotsInAFileOfSeveral) {
   hooke_ok({"run", "single.json", "--quiet"});
   hooke_ok({"export", "single", "--all", "-o", "all" + extension});
   expect_same("single", extension == ".xyz" ? 0 : 3, R"({ "file": "all)" + extension + "\" }");
-  for (const std::size_t frame : {0, 2, 3}) {
+  for (const std::size_t frame : {0U, 2U, 3U}) {
     expect_same("single", frame, R"({ "file": "all)" + extension + "\", \"frame\": " + std::to_string(frame) + " }");
   }
 }
