@@ -36,6 +36,7 @@ class MendedRows {
   std::size_t count() const { return mended_.size(); }
   void reserve(std::size_t groups);
   bool holds(std::size_t group) const { return at_[group] != kNone; }
+  /// Of a group that it holds.
   std::span<const std::uint32_t> rows(std::size_t group) const {
     HOOKE_ASSERT(holds(group), group);
     const Mended& m = mended_[at_[group]];
