@@ -98,7 +98,7 @@ Seal make_seal(int fd, std::uint64_t size, const std::filesystem::path& path) {
 
 void append_seal(const std::filesystem::path& path) {
   const Descriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
-  const std::uint64_t size = std::filesystem::file_size(path);
+  const std::uint64_t size = size_of(file.get(), path);
   const Seal seal = make_seal(file.get(), size, path);
   if (const int error = write_at(file.get(), &seal, sizeof seal, size)) {
     throw Failure(Error::Kind::io, path, "can't be written: " + system_message(error));
@@ -118,7 +118,7 @@ Seal read_seal(int fd, std::uint64_t size, const std::filesystem::path& path) {
 void check_seal(const std::filesystem::path& path) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!file) throw Failure(Error::Kind::bad_input, path, "can't be opened: " + system_message(errno));
-  const std::uint64_t size = std::filesystem::file_size(path);
+  const std::uint64_t size = size_of(file.get(), path);
   if (size == 0) throw Failure(Error::Kind::bad_input, path, "is empty");
   const Seal seal = read_seal(file.get(), size, path);
   if (seal.magic != Seal{}.magic) {
@@ -219,7 +219,7 @@ bool is_checkpoint(const std::filesystem::path& path) {
   return guarded(path,
                  [&] {
                    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-                   return file && read_seal(file.get(), std::filesystem::file_size(path), path).magic == Seal{}.magic;
+                   return file && read_seal(file.get(), size_of(file.get(), path), path).magic == Seal{}.magic;
                  })
       .value_or(false);
 }

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "hooke/io/describe_file.h"
 
+#include <sys/stat.h>
+
+#include <cerrno>
+
 #include "hooke/io/failure.h"
 #include "hooke/io/run_folder.h"
 
@@ -35,13 +39,23 @@ FileDescription describe_run_file(const fs::path& file) {
   return description;
 }
 
+/// The bytes of a file; 0 for what is none, or is gone since the folder was listed: a writer replaces its checkpoint
+/// under a reader's hands. Throws std::filesystem::filesystem_error.
+std::uint64_t listed_size(const fs::path& file) {
+  struct stat status{};
+  if (::stat(file.c_str(), &status) != 0) {
+    if (errno == ENOENT) return 0;
+    throw fs::filesystem_error("cannot get file size", file, std::error_code(errno, std::generic_category()));
+  }
+  return S_ISREG(status.st_mode) ? static_cast<std::uint64_t>(status.st_size) : 0;
+}
+
 FileDescription describe_run_folder(const fs::path& folder) {
   FileDescription description = describe_run_file(folder);
   description.kind = FileDescription::Kind::run_folder;
   description.bytes = 0;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file()) description.bytes += entry.file_size();
-  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    description.bytes += listed_size(entry.path());
   if (fs::exists(folder / kCheckpointFile)) {
     description.checkpoint_step = take(read_checkpoint(folder)).state.step;
   }

@@ -3,6 +3,7 @@
 #include "hooke/io/output_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -69,6 +70,12 @@ int read_at(int fd, void* data, std::size_t size, std::uint64_t offset) {
     offset += static_cast<std::uint64_t>(n);
   }
   return 0;
+}
+
+std::uint64_t size_of(int fd, const std::filesystem::path& path) {
+  struct stat status{};
+  if (::fstat(fd, &status) != 0) throw Failure(Error::Kind::io, path, "can't be read: " + system_message(errno));
+  return static_cast<std::uint64_t>(status.st_size);
 }
 
 std::filesystem::path unfinished_name(const std::filesystem::path& file) {

@@ -33,6 +33,9 @@ std::string system_message(int error_number);
 int write_at(int fd, const void* data, std::size_t size, std::uint64_t offset);
 int read_at(int fd, void* data, std::size_t size, std::uint64_t offset);
 
+/// The size of an open file in bytes, whatever has taken its name since. Throws Failure.
+std::uint64_t size_of(int fd, const std::filesystem::path& path);
+
 /// The name that a file has while it is being written: beside `file`.
 std::filesystem::path unfinished_name(const std::filesystem::path& file);
 

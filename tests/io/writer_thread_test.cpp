@@ -183,6 +183,33 @@ TEST_F(WriterThread, ReadersAndOtherWritersOfTheProcessGoOnMeanwhile) {
   expect_steps(folder / "other", 0, 20);
 }
 
+// What is read is one checkpoint or the next, whatever takes its name and however often.
+TEST_F(WriterThread, ACheckpointIsReadAndDescribedWhileItIsReplaced) {
+  RunWriter writer = create(run);
+  write(writer, 0, 0);
+  ASSERT_TRUE(writer.flush());
+  for (const int n : {1, 1000}) {
+    ASSERT_TRUE(write_checkpoint(folder / std::to_string(n), samples::state(n, n), samples::run_info()));
+  }
+  std::atomic<bool> done{false};
+  std::thread replacer([&] {
+    while (!done) {
+      for (const char* const name : {"1", "1000"}) {
+        fs::create_hard_link(folder / name, run / "next");
+        fs::rename(run / "next", run / kCheckpointFile);
+      }
+    }
+  });
+  for (int i = 0; i < 300; ++i) {
+    const auto description = describe_file(run);
+    EXPECT_TRUE(description) << description.error().text();
+    const auto checkpoint = read_checkpoint(run);
+    EXPECT_TRUE(checkpoint) << checkpoint.error().text();
+  }
+  done = true;
+  replacer.join();
+}
+
 // One is being written, one waits: a third waits for its place.
 TEST_F(WriterThread, ASlowWriterMakesTheCallerWait) {
   RunWriter writer = create(run);
