@@ -21,25 +21,31 @@ namespace {
 
 // Touching pairs, by a sweep along y over all particles; on periodic axes the nearest image counts.
 std::uint64_t true_contacts(const Simulation& simulation) {
+  struct Ball {
+    Vec3d x;
+    double radius;
+  };
   const ParticleSet& p = simulation.particles();
   const Scene& scene = simulation.scene();
-  const auto radius = [&](std::size_t i) { return scene.materials[p.material[i]].radius; };
+  std::vector<Ball> balls(p.size());
+  for (std::size_t i = 0; i < p.size(); ++i) balls[i] = {p.position[i], scene.materials[p.material[i]].radius};
+  std::sort(balls.begin(), balls.end(), [](const Ball& a, const Ball& b) { return a.x.y < b.x.y; });
   double reach = 0;
   for (const Material& m : scene.materials) reach = std::max(reach, 2 * m.radius);
-  std::vector<std::size_t> order(p.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return p.position[a].y < p.position[b].y; });
+  // Between nearest images along x or z.
+  const auto between = [&](double a, double b, int axis) {
+    const double d = b - a, length = scene.domain.length(axis);
+    const bool periodic = scene.domain.boundary[static_cast<std::size_t>(axis)] == Boundary::periodic;
+    return periodic && std::abs(d) > length / 2 ? d - std::copysign(length, d) : d;
+  };
   std::uint64_t contacts = 0;
-  for (std::size_t a = 0; a < order.size(); ++a) {
-    for (std::size_t b = a + 1; b < order.size(); ++b) {
-      Vec3d d = p.position[order[b]] - p.position[order[a]];
-      if (d.y >= reach) break;
-      for (const int axis : {0, 2}) {
-        if (scene.domain.boundary[static_cast<std::size_t>(axis)] != Boundary::periodic) continue;
-        const double length = scene.domain.length(axis);
-        component(d, axis) -= length * std::nearbyint(component(d, axis) / length);
-      }
-      if (std::sqrt(dot(d, d)) < radius(order[a]) + radius(order[b])) ++contacts;
+  for (std::size_t a = 0; a < balls.size(); ++a) {
+    const Vec3d x = balls[a].x;
+    for (std::size_t b = a + 1; b < balls.size() && balls[b].x.y - x.y < reach; ++b) {
+      const double dx = between(x.x, balls[b].x.x, 0);
+      if (std::abs(dx) >= reach) continue;
+      const Vec3d d{dx, balls[b].x.y - x.y, between(x.z, balls[b].x.z, 2)};
+      if (std::sqrt(dot(d, d)) < balls[a].radius + balls[b].radius) ++contacts;
     }
   }
   return contacts;

@@ -200,7 +200,7 @@ TEST_F(WriterThread, ACheckpointIsReadAndDescribedWhileItIsReplaced) {
       }
     }
   });
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 100; ++i) {
     const auto description = describe_file(run);
     EXPECT_TRUE(description) << description.error().text();
     const auto checkpoint = read_checkpoint(run);

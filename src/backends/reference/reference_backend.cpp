@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "hooke/backends/reference/reference_attraction.h"
@@ -42,6 +43,7 @@ class ReferenceBackend final : public Backend {
       // Inside the domain, images further away than this can't touch.
       const bool periodic = scene.domain.boundary[static_cast<std::size_t>(axis)] == Boundary::periodic;
       images_[static_cast<std::size_t>(axis)] = periodic ? static_cast<int>(reach / scene.domain.length(axis)) + 1 : 0;
+      component(period_, axis) = periodic ? scene.domain.length(axis) : std::numeric_limits<double>::infinity();
     }
   }
 
@@ -336,6 +338,15 @@ class ReferenceBackend final : public Backend {
     }
   }
 
+  // Whether no image of y is within `far` (m) of x along some axis; both are in the domain.
+  bool is_farther(double far, const Vec3d& x, const Vec3d& y) const {
+    const auto along = [far](double a, double b, double period) {
+      const double off = std::abs(a - b);
+      return off > far && period - off > far;
+    };
+    return along(x.x, y.x, period_.x) || along(x.y, y.y, period_.y) || along(x.z, y.z, period_.z);
+  }
+
   // visit(p, normal, overlap) for every particle p that acts on i and image of it, by id, then image: those touch it,
   // overlap > 0, or cohesion reaches from one to the other.
   template <class Visit>
@@ -345,13 +356,13 @@ class ReferenceBackend final : public Backend {
     // Looked at no closer beyond this, m: twice as far as contacts reach, so that rounding can't matter.
     const double far = 2 * (2 * largest_radius() + table_.widest_range());
     for (std::size_t p = 0; p < p_.size(); ++p) {
+      if (is_farther(far, p_.position[i], p_.position[p])) continue;
       for (int sx = -images_[0]; sx <= images_[0]; ++sx) {
         for (int sy = -images_[1]; sy <= images_[1]; ++sy) {
           for (int sz = -images_[2]; sz <= images_[2]; ++sz) {
             const Vec3d x_ip{image_displacement<double>(p_.position[i].x, p_.position[p].x, sx, domain.length(0)),
                              image_displacement<double>(p_.position[i].y, p_.position[p].y, sy, domain.length(1)),
                              image_displacement<double>(p_.position[i].z, p_.position[p].z, sz, domain.length(2))};
-            if (std::abs(x_ip.x) > far || std::abs(x_ip.y) > far || std::abs(x_ip.z) > far) continue;
             if (!material(p).interacts || (p == i && sx == 0 && sy == 0 && sz == 0)) continue;
             const double distance = sqrt_of(dot(x_ip, x_ip));
             const double overlap = (material(i).radius + material(p).radius) - distance;
@@ -467,6 +478,7 @@ class ReferenceBackend final : public Backend {
   ContactTable table_;
   ReferenceSprings springs_;
   ReferenceAttraction attraction_;
+  Vec3d period_{};  // m; infinite along an axis that isn't periodic
   std::array<int, 3> images_{};  // images -n to n of every particle are looked at, a periodic axis
   PlacedColliders<double> colliders_;
   std::vector<ShapeGeometry<double>> sinks_;
