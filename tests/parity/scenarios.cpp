@@ -175,9 +175,7 @@ void add_surface_laws(Collection& out) {
   out.add_cloud("surfaces_one_material", alone, 150, 60);
 }
 
-}  // namespace
-
-std::vector<Scenario> scenarios() {
+std::vector<Scenario> make_scenarios() {
   Collection out;
   add_counts(out);
   add_boundaries(out);
@@ -188,6 +186,13 @@ std::vector<Scenario> scenarios() {
   add_colliders(out);
   add_surface_laws(out);
   return std::move(out.all);
+}
+
+}  // namespace
+
+const std::vector<Scenario>& scenarios() {
+  static const std::vector<Scenario> all = make_scenarios();
+  return all;
 }
 
 }  // namespace hooke::test

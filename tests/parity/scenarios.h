@@ -23,6 +23,6 @@ inline void PrintTo(const Scenario& scenario, std::ostream* os) { *os << scenari
 
 /// Random, negative, huge, degenerate and empty ones, odd counts, mixed radii, every mix of boundaries, tiny periodic
 /// boxes and thin domains.
-std::vector<Scenario> scenarios();
+const std::vector<Scenario>& scenarios();
 
 }  // namespace hooke::test

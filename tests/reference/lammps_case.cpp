@@ -35,6 +35,10 @@ int significant_digits(const std::string& number) {
   return digits;
 }
 
+bool is_file_of_an_instant(const fs::directory_entry& entry) {
+  return entry.path().filename().string().starts_with("expected_step");
+}
+
 // Consecutive rows of the same step, as instants.
 std::vector<ExpectedInstant> instants_of(const Table& table) {
   std::vector<ExpectedInstant> instants;
@@ -90,7 +94,18 @@ LoadedScene LammpsCase::load(const std::vector<std::string>& overrides) const {
   return std::move(*loaded);
 }
 
-bool LammpsCase::has_instants() const { return !instants().empty(); }
+bool LammpsCase::has_instants() const {
+  return has("expected.csv") ||
+         std::any_of(fs::directory_iterator(folder), fs::directory_iterator(), is_file_of_an_instant);
+}
+
+std::size_t LammpsCase::particle_count() const {
+  std::ifstream in(folder / "initial.csv");
+  if (!in) throw std::runtime_error("can't open initial.csv in " + folder.string());
+  std::size_t lines = 0;
+  for (std::string line; std::getline(in, line);) ++lines;
+  return lines - 1;
+}
 
 std::vector<std::pair<ExpectedInstant, Table>> LammpsCase::instants(const std::string& file) const {
   std::vector<std::pair<ExpectedInstant, Table>> all;
@@ -103,7 +118,7 @@ std::vector<std::pair<ExpectedInstant, Table>> LammpsCase::instants(const std::s
     take(folder / file);
   } else if (file == "expected.csv") {
     for (const auto& entry : fs::directory_iterator(folder)) {
-      if (entry.path().filename().string().starts_with("expected_step")) take(entry.path());
+      if (is_file_of_an_instant(entry)) take(entry.path());
     }
   }
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first.step < b.first.step; });

@@ -45,7 +45,9 @@ struct LammpsCase {
   bool has(const std::string& file) const { return std::filesystem::exists(folder / file); }
   /// Instants of expected.csv, or of every expected_stepN.csv, by step, with the table that each came from.
   std::vector<std::pair<ExpectedInstant, Table>> instants(const std::string& file = "expected.csv") const;
+  // What tests are registered by, in every process that runs one of them: no table is parsed, no scene loaded.
   bool has_instants() const;
+  std::size_t particle_count() const;  ///< rows of initial.csv
 
   /// Deviations by step that the README gives for a start changed by `what`, e.g. "1e-12 relative", "float32":
   /// largest |dx| over the particles, m. Empty where it gives none.

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
 
 #include "deviation_limits.h"
@@ -31,14 +30,6 @@ std::vector<LammpsCase> trajectory_cases() {
   return cases;
 }
 
-// Whether the reference can run it. Asked when tests are registered, by every process that runs one of them.
-bool is_small(const LammpsCase& c) {
-  static std::map<std::string, bool> known;
-  const auto [entry, is_new] = known.try_emplace(c.name);
-  if (is_new) entry->second = c.load().particles.size() <= kMostForReference;
-  return entry->second;
-}
-
 // The cases that have `file` (any, if empty), each on every engine that it is not too large for.
 std::vector<CaseOnEngine> cases_with(const std::string& file, bool on_reference) {
   std::vector<CaseOnEngine> all;
@@ -46,7 +37,7 @@ std::vector<CaseOnEngine> cases_with(const std::string& file, bool on_reference)
     if (!file.empty() && !c.has(file)) continue;
     all.emplace_back(c, kCpuDouble);
     all.emplace_back(c, kCpuSingle);
-    if (on_reference && is_small(c)) all.emplace_back(c, kReference);
+    if (on_reference && c.particle_count() <= kMostForReference) all.emplace_back(c, kReference);
   }
   return all;
 }
