@@ -188,8 +188,9 @@ TEST_F(WriterThread, ACheckpointIsReadAndDescribedWhileItIsReplaced) {
   RunWriter writer = create(run);
   write(writer, 0, 0);
   ASSERT_TRUE(writer.flush());
-  for (const int n : {1, 1000}) {
-    ASSERT_TRUE(write_checkpoint(folder / std::to_string(n), samples::state(n, n), samples::run_info()));
+  for (const std::size_t n : {1, 1000}) {
+    ASSERT_TRUE(write_checkpoint(folder / std::to_string(n), samples::state(static_cast<std::int64_t>(n), n),
+                                 samples::run_info()));
   }
   std::atomic<bool> done{false};
   std::thread replacer([&] {
