@@ -188,7 +188,7 @@ TEST_F(WriterThread, ACheckpointIsReadAndDescribedWhileItIsReplaced) {
   RunWriter writer = create(run);
   write(writer, 0, 0);
   ASSERT_TRUE(writer.flush());
-  for (const std::size_t n : {1, 1000}) {
+  for (const std::size_t n : {1U, 1000U}) {
     ASSERT_TRUE(write_checkpoint(folder / std::to_string(n), samples::state(static_cast<std::int64_t>(n), n),
                                  samples::run_info()));
   }
