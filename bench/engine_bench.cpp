@@ -18,6 +18,7 @@
 #include "hooke/base/exact_sum.h"
 #include "hooke/base/random.h"
 #include "hooke/core/simulation.h"
+#include "hooke/core/step.h"
 #include "hooke/neighbours/cell_grid.h"
 
 namespace hooke {
@@ -123,19 +124,31 @@ void stage(benchmark::State& state, double StageTimes::* part, Integrator integr
   if (!pool) return state.SkipWithError(pool.error().text().c_str());
   pool->scene.integrator = integrator;
   Backend& backend = *pool->backend;
+  SerialCommunicator ranks;
+  RunState run;
   backend.configure(pool->scene);
-  backend.upload(pool->particles, 1, {});
-  const auto before = backend.measure();
+  backend.assign(pool->particles);
+  const Instant start_of_run = place_colliders(run, pool->scene, 0);
+  if (!start_particles(pool->scene, backend, ranks, 0, run).good()) return state.SkipWithError("the pool is bad");
+  const auto before = backend.measure(start_of_run);
   for (auto iteration : state) {
     const StageTimes start = backend.stage_times();
-    if (integrator == Integrator::velocity_verlet) backend.half_kick_and_drift();
-    if (!backend.build_neighbours().good() || !backend.apply_forces().good()) {
-      return state.SkipWithError("the pool went bad");
+    const bool verlet = integrator == Integrator::velocity_verlet;
+    RemovalSums left;
+    StepReport report;
+    if (verlet) {
+      backend.half_kick_and_drift();
+      backend.finish_motion(left);
     }
+    report.condition = backend.build_neighbours();
+    if (report.condition.good()) backend.apply_forces(start_of_run, report);
+    if (!verlet) backend.finish_motion(left);
+    if (!report.condition.good()) return state.SkipWithError("the pool went bad");
+    book_step(run.ledger, report, pool->scene.gravity, pool->scene.time_step, integrator);
     state.SetIterationTime((backend.stage_times() - start).*part);
   }
-  const auto now = backend.measure();
-  if (!before || !now || !momentum_is_kept(*now, backend.ledger(), before->momentum, pool->scene.precision)) {
+  const auto now = backend.measure(start_of_run);
+  if (!before || !now || !momentum_is_kept(*now, run.ledger, before->momentum, pool->scene.precision)) {
     return state.SkipWithError("momentum drifts beyond what gravity and walls account for");
   }
   report_pool(state, *pool, *now);

@@ -70,38 +70,35 @@ void Emission::restore(EmissionState state) {
   for (const Mortal& m : state.mortals) mortals_[m.death].push_back(m);
 }
 
-void Emission::end_step(const Scene& scene, std::int64_t step, std::span<const ColliderPose> poses, Backend& backend,
-                        std::uint64_t& next_id) {
+std::span<const std::uint64_t> Emission::end_lives(std::int64_t step) {
+  HOOKE_ASSERT(step > 0, step);
+  ending_.clear();
+  for (auto due = mortals_.begin(); due != mortals_.end() && due->first <= step; due = mortals_.erase(due)) {
+    ending_.insert(ending_.end(), due->second.begin(), due->second.end());
+  }
+  ending_ids_.clear();
+  for (const Mortal& m : ending_) ending_ids_.push_back(m.id);
+  return ending_ids_;
+}
+
+const ParticleSet& Emission::give_birth(const Scene& scene, std::int64_t step, std::span<const ColliderPose> poses,
+                                        std::span<const std::uint8_t> was_there, const Backend& backend,
+                                        std::uint64_t& next_id) {
   HOOKE_ASSERT(step > 0, step);
   HOOKE_ASSERT(emitters_.size() == scene.emitters.size(), emitters_.size(), scene.emitters.size());
   HOOKE_ASSERT(poses.size() == scene.colliders.size(), poses.size(), scene.colliders.size());
-  if (!scene.sinks.empty()) backend.sink_particles();
-  if (emitters_.empty()) return;
-  std::vector<std::uint64_t> respawning(emitters_.size(), 0);
-  end_lives(scene, step, backend, respawning);
+  HOOKE_ASSERT(was_there.size() == ending_.size(), was_there.size(), ending_.size());
   newborn_.clear();
   for (std::uint32_t i = 0; i < emitters_.size(); ++i) emit(scene, i, step, poses, backend, next_id);
-  if (!newborn_.empty()) backend.give_birth(newborn_);
-  for (std::size_t i = 0; i < emitters_.size(); ++i) emitters_[i].to_respawn += respawning[i];  // from the next step on
-}
-
-void Emission::end_lives(const Scene& scene, std::int64_t step, Backend& backend,
-                         std::vector<std::uint64_t>& respawning) {
-  for (auto due = mortals_.begin(); due != mortals_.end() && due->first <= step; due = mortals_.erase(due)) {
-    const std::vector<Mortal>& mortals = due->second;
-    std::vector<std::uint64_t> ids;
-    ids.reserve(mortals.size());
-    for (const Mortal& m : mortals) ids.push_back(m.id);
-    std::vector<std::uint8_t> was_there;
-    backend.expire(ids, was_there);
-    for (std::size_t k = 0; k < ids.size(); ++k) {
-      if (was_there[k] != 0 && scene.emitters[mortals[k].emitter].respawn) ++respawning[mortals[k].emitter];
-    }
+  for (std::size_t k = 0; k < ending_.size(); ++k) {  // they may be born again from the next step on
+    const std::uint32_t emitter = ending_[k].emitter;
+    if (was_there[k] != 0 && scene.emitters[emitter].respawn) ++emitters_[emitter].to_respawn;
   }
+  return newborn_;
 }
 
 void Emission::emit(const Scene& scene, std::uint32_t index, std::int64_t step, std::span<const ColliderPose> poses,
-                    Backend& backend, std::uint64_t& next_id) {
+                    const Backend& backend, std::uint64_t& next_id) {
   const Emitter& emitter = scene.emitters[index];
   EmitterState& state = emitters_[index];
   const std::uint64_t wanted = state.to_respawn + births_due(emitter, state, step, scene.time_step);

@@ -51,17 +51,23 @@ struct EmissionState {
 /// Why a saved state can't be that of `scene`; empty where it can.
 std::vector<Finding> check_state(const EmissionState& state, const Scene& scene);
 
-/// Births and deaths at the end of each step, the same for all back ends: who goes, who comes, where and how fast. A
-/// back end is asked who is in the way, and does as it is told.
+/// Births and deaths at the end of each step, the same for all back ends: which particles go, which come, where and how
+/// fast.
 class Emission {
  public:
   /// Takes the emitters of a scene, before anything else and after restore().
   void configure(const Scene& scene);
 
-  /// After `step` (> 0) steps of the scene that it was configured for, its colliders in these poses: sinks take, lives
-  /// end, emitters emit. Ids from `next_id` on are given out. Costs nothing in a scene with no emitters and no sinks.
-  void end_step(const Scene& scene, std::int64_t step, std::span<const ColliderPose> poses, Backend& backend,
-                std::uint64_t& next_id);
+  /// The ids of the particles whose lives end with step `step` (> 0), each once. give_birth() of the same step is to
+  /// follow.
+  std::span<const std::uint64_t> end_lives(std::int64_t step);
+
+  /// Those that are born with step `step` (> 0) of the scene that it was configured for, its colliders in these poses,
+  /// with ids from `next_id` on, which are given out. A back end is asked only what is in the way. `was_there` says of
+  /// each life that ended whether its particle still was. Valid until the next call.
+  const ParticleSet& give_birth(const Scene& scene, std::int64_t step, std::span<const ColliderPose> poses,
+                                std::span<const std::uint8_t> was_there, const Backend& backend,
+                                std::uint64_t& next_id);
 
   EmissionState state() const;
   /// Goes on from a state that check_state() finds nothing wrong with.
@@ -75,15 +81,16 @@ class Emission {
     std::uint64_t attempts = 0;  // that found no place; one found it where they are fewer than allowed
   };
 
-  void end_lives(const Scene& scene, std::int64_t step, Backend& backend, std::vector<std::uint64_t>& respawning);
   void emit(const Scene& scene, std::uint32_t index, std::int64_t step, std::span<const ColliderPose> poses,
-            Backend& backend, std::uint64_t& next_id);
+            const Backend& backend, std::uint64_t& next_id);
   void find_births(const PlacedEmitter& emitter, const Scene& scene, FreeSpace& space, bool single,
                    std::uint64_t wanted);
 
   std::vector<EmitterState> emitters_;
   std::vector<std::vector<double>> areas_;  // areas_of_birth() of each
   std::map<std::int64_t, std::vector<Mortal>> mortals_;  // by the step of their death
+  std::vector<Mortal> ending_;  // in the step in hand
+  std::vector<std::uint64_t> ending_ids_;
   ParticleSet newborn_;  // of the step in hand
   std::vector<Birth> births_;  // of the emitter in hand
 };

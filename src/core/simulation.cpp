@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <new>
 #include <utility>
@@ -98,27 +99,25 @@ Error out_of_memory(std::int64_t step) {
 struct Simulation::Impl {
   Scene scene;
   std::unique_ptr<Backend> backend;
-  std::int64_t step = 0;
-  std::uint64_t next_id = 1;
+  SerialCommunicator ranks;
+  RunState run;
   double initial_energy = 0, initial_elastic = 0;
   Vec3d initial_momentum{0, 0, 0};
 
-  // The host's copy of the particles: made on the first look after a step; what is changed in it goes
-  // back before anything else happens.
+  // The host's copy of the particles: made on the first look after something has changed.
   ParticleSet host;
   bool host_current = false;
-  bool host_edited = false;
-  std::uint64_t first_new_id = 0;
+  // Under velocity Verlet particles with ids from here on were added since the last step and have no accelerations.
+  std::uint64_t first_new_id = kNone;
+  static constexpr std::uint64_t kNone = ~std::uint64_t{0};
 
-  std::vector<ColliderPose> poses;  // of this instant
-  Emission emission;
   StageTimes stage_times;  // of steps
 
   bool failed = false;
   Error failure;
 
-  bool verlet() const { return scene.integrator == Integrator::velocity_verlet; }
   bool single() const { return scene.precision == Precision::single_precision; }
+  double mass_of(std::size_t material) const { return scene.materials[material].mass; }
 
   const ParticleSet& particles() {
     if (!host_current) {
@@ -128,34 +127,31 @@ struct Simulation::Impl {
     return host;
   }
 
-  ParticleSet& edit() {
-    particles();
-    if (!host_edited) first_new_id = next_id;
-    host_edited = true;
-    return host;
+  Expected<ParticleAt> find(std::uint64_t id) const {
+    if (const auto found = backend->find(id)) return *found;
+    return fail(Error::Kind::bad_input, fmt::format("particle {}", id), "there is none of this id");
   }
 
-  void set_velocity(std::size_t i, const Vec3d& velocity) {
-    edit();
-    initial_momentum += scene.materials[host.material[i]].mass * (velocity - host.velocity[i]);
-    host.velocity[i] = velocity;
+  void edit(const ParticleAt& before, const ParticleAt& after) {
+    backend->edit({&after, 1});
+    initial_momentum += mass_of(before.material) * (after.velocity - before.velocity);
+    host_current = false;
   }
 
-  // Hands what was edited to the back end.
+  // Gives particles that were added their accelerations.
   Expected<void> flush() {
     if (failed) return fail(failure);
-    if (!host_edited) return {};
-    const Ledger ledger = backend->ledger();
-    host_edited = false;
+    const std::uint64_t first = std::exchange(first_new_id, kNone);
+    if (first == kNone) return {};
     host_current = false;
-    return check(backend->upload(host, first_new_id, ledger));
+    return check(start_particles(scene, *backend, ranks, first, run));
   }
 
   Expected<void> check(const Condition& condition) {
     if (condition.good()) return {};
     failed = true;
     failure = Error{Error::Kind::run_failed,
-                    {{fmt::format("step {} (t = {:.6g} s)", step, static_cast<double>(step) * scene.time_step),
+                    {{fmt::format("step {} (t = {:.6g} s)", run.step, static_cast<double>(run.step) * scene.time_step),
                       describe(condition)}}};
     return fail(failure);
   }
@@ -209,25 +205,20 @@ struct Simulation::Impl {
                 "the scene asks for double, the back end computes in single precision");
   }
 
-  // What goes by the clock, as it is after `at_step` steps.
-  void set_time(std::int64_t at_step) {
-    const double time = static_cast<double>(at_step) * scene.time_step;
-    backend->set_time(time);
-    if (scene.colliders.empty()) return;
-    poses.clear();
-    for (const Collider& collider : scene.colliders) poses.push_back(pose_at(collider, time));
-    backend->place_colliders(poses);
-  }
-
-  Expected<void> start(const ParticleSet& particles, std::uint64_t first_new, const Ledger& ledger,
+  // Hands all particles to the back end. Those with ids from `first_new` on have no accelerations.
+  Expected<void> start(const ParticleSet& particles, std::uint64_t first_new,
                        const std::vector<std::uint64_t>& broken_springs) {
     if (auto right = check_precision(); !right) return right;
+    host_current = false;
+    first_new_id = kNone;
     try {
       backend->configure(scene);
-      emission.configure(scene);
+      run.emission.configure(scene);
       backend->break_springs(broken_springs);
-      set_time(step);
-      return check(backend->upload(particles, first_new, ledger));
+      place_colliders(run, scene, run.step);
+      backend->assign(particles);
+      if (particles.empty() || particles.id.back() < first_new) return {};
+      return check(start_particles(scene, *backend, ranks, first_new, run));
     } catch (const std::bad_alloc&) {
       return fail(Error::Kind::bad_input, "particles",
                   fmt::format("{} particles do not fit into memory", particles.size()));
@@ -237,21 +228,16 @@ struct Simulation::Impl {
   Expected<void> take_steps(std::int64_t count) {
     try {
       if (auto flushed = flush(); !flushed) return flushed;
+      if (count == 0) return {};
+      host_current = false;
       for (std::int64_t i = 0; i < count; ++i) {
-        host_current = false;
-        // Velocity Verlet looks at the forces where particles arrive, symplectic Euler where they start.
-        if (verlet()) set_time(step + 1);
-        if (auto taken = check(take_step(*backend, scene.integrator)); !taken) return taken;
-        ++step;
-        if (!verlet()) set_time(step);
-        emission.end_step(scene, step, poses, *backend, next_id);
+        if (auto taken = check(take_step(scene, *backend, ranks, run)); !taken) return taken;
       }
-      // What the next step would begin with. Done now, it reports what the last step has lost before anyone saves it.
-      if (count > 0 && backend->neighbours_stale()) return check(backend->build_neighbours());
-      return {};
+      // What the last step has lost is reported before anyone saves it.
+      return check(update_neighbours(*backend, ranks));
     } catch (const std::bad_alloc&) {
       failed = true;
-      failure = out_of_memory(step);
+      failure = out_of_memory(run.step);
       return fail(failure);
     }
   }
@@ -273,8 +259,8 @@ Expected<Simulation> Simulation::create(Scene scene, ParticleSet particles, std:
   auto impl = std::make_unique<Impl>();
   impl->scene = std::move(scene);
   impl->backend = std::move(backend);
-  impl->next_id = particles.empty() ? 1 : particles.id.back() + 1;
-  if (auto started = impl->start(particles, 0, Ledger{}, {}); !started) return fail(started.error());
+  impl->run.next_id = particles.empty() ? 1 : particles.id.back() + 1;
+  if (auto started = impl->start(particles, 0, {}); !started) return fail(started.error());
   particles = ParticleSet{};  // the back end has them now; measuring may need the room
   Simulation simulation(std::move(impl));
   const auto now = simulation.measure();
@@ -310,12 +296,10 @@ Expected<void> Simulation::step(std::int64_t count) {
 }
 
 const Scene& Simulation::scene() const { return impl_->scene; }
-std::int64_t Simulation::step_count() const { return impl_->step; }
-double Simulation::time() const { return static_cast<double>(impl_->step) * impl_->scene.time_step; }
-std::uint64_t Simulation::particle_count() const {
-  return impl_->host_edited ? impl_->host.size() : impl_->backend->particle_count();
-}
-std::uint64_t Simulation::next_id() const { return impl_->next_id; }
+std::int64_t Simulation::step_count() const { return impl_->run.step; }
+double Simulation::time() const { return static_cast<double>(impl_->run.step) * impl_->scene.time_step; }
+std::uint64_t Simulation::particle_count() const { return impl_->backend->particle_count(); }
+std::uint64_t Simulation::next_id() const { return impl_->run.next_id; }
 BackendInfo Simulation::backend_info() const { return impl_->backend->info(); }
 NeighbourStatistics Simulation::neighbour_statistics() const { return impl_->backend->neighbour_statistics(); }
 const StageTimes& Simulation::stage_times() const { return impl_->stage_times; }
@@ -336,78 +320,72 @@ Expected<std::vector<std::uint64_t>> Simulation::add_particles(std::span<const N
   }
   if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});
 
-  ParticleSet& host = s.edit();
-  std::vector<std::uint64_t> ids;
-  ids.reserve(particles.size());
-  for (const NewParticle& p : particles) {
-    ids.push_back(s.next_id);
-    host.id.push_back(s.next_id++);
-    host.material.push_back(static_cast<std::uint16_t>(p.material));
-    host.position.push_back(p.position);
-    host.velocity.push_back(p.velocity);
-    if (s.verlet()) host.acceleration.push_back({0, 0, 0});
-    s.initial_momentum += s.scene.materials[p.material].mass * p.velocity;
+  try {
+    ParticleSet added;
+    added.reserve(particles.size());
+    for (const NewParticle& p : particles) {
+      added.id.push_back(s.run.next_id + added.id.size());
+      added.material.push_back(static_cast<std::uint16_t>(p.material));
+      added.position.push_back(p.position);
+      added.velocity.push_back(p.velocity);
+    }
+    s.host_current = false;
+    s.backend->insert(added);
+    s.first_new_id = std::min(s.first_new_id, s.run.next_id);
+    s.run.next_id += added.size();
+    for (const NewParticle& p : particles) s.initial_momentum += s.mass_of(p.material) * p.velocity;
+    return std::move(added.id);
+  } catch (const std::bad_alloc&) {
+    s.failed = true;
+    s.failure = out_of_memory(s.run.step);
+    return fail(s.failure);
   }
-  return ids;
 }
 
 Expected<void> Simulation::remove_particles(std::span<const std::uint64_t> ids) {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
-  const ParticleSet& now = s.particles();
-  std::vector<char> gone(now.size(), 0);
-  for (const std::uint64_t id : ids) {
-    const std::size_t i = now.find(id);
-    if (i == now.size())
-      return fail(Error::Kind::bad_input, fmt::format("particle {}", id), "there is none of this id");
-    gone[i] = 1;
+  std::vector<std::uint64_t> gone(ids.begin(), ids.end());
+  std::sort(gone.begin(), gone.end());
+  gone.erase(std::unique(gone.begin(), gone.end()), gone.end());
+  std::vector<ParticleAt> found;
+  found.reserve(gone.size());
+  for (const std::uint64_t id : gone) {
+    const auto p = s.find(id);
+    if (!p) return fail(p.error());
+    found.push_back(*p);
   }
-  ParticleSet& host = s.edit();
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < gone.size(); ++i) {
-    if (gone[i] != 0) {
-      s.initial_momentum -= s.scene.materials[host.material[i]].mass * host.velocity[i];
-      continue;
-    }
-    host.id[kept] = host.id[i];
-    host.material[kept] = host.material[i];
-    host.position[kept] = host.position[i];
-    host.velocity[kept] = host.velocity[i];
-    if (s.verlet()) host.acceleration[kept] = host.acceleration[i];
-    ++kept;
-  }
-  host.resize(kept);
+  s.host_current = false;
+  s.backend->remove(gone);
+  for (const ParticleAt& p : found) s.initial_momentum -= s.mass_of(p.material) * p.velocity;
   return {};
 }
 
 Expected<void> Simulation::apply_impulse(std::uint64_t id, const Vec3d& impulse) {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
-  const std::size_t i = s.particles().find(id);
-  if (i == s.host.size())
-    return fail(Error::Kind::bad_input, fmt::format("particle {}", id), "there is none of this id");
-  const Vec3d change = (1 / s.scene.materials[s.host.material[i]].mass) * impulse;
-  const Vec3d velocity = s.host.velocity[i] + change;
+  const auto before = s.find(id);
+  if (!before) return fail(before.error());
+  ParticleAt after = *before;
+  after.velocity += (1 / s.mass_of(after.material)) * impulse;
   // Not where it is: a particle that presses into a soft wall may stand outside the domain and can be pushed all the
   // same.
-  if (!is_finite(velocity, s.single())) {
+  if (!is_finite(after.velocity, s.single())) {
     return fail(Error::Kind::bad_input, fmt::format("particle {}", id),
-                "velocity " + shown(velocity) + " is not finite");
+                "velocity " + shown(after.velocity) + " is not finite");
   }
-  s.set_velocity(i, velocity);
+  s.edit(*before, after);
   return {};
 }
 
 Expected<void> Simulation::set_particle(std::uint64_t id, const Vec3d& position, const Vec3d& velocity) {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
-  const std::size_t i = s.particles().find(id);
-  if (i == s.host.size())
-    return fail(Error::Kind::bad_input, fmt::format("particle {}", id), "there is none of this id");
-  std::string fault = particle_fault(s.scene, s.host.material[i], position, velocity);
+  const auto before = s.find(id);
+  if (!before) return fail(before.error());
+  std::string fault = particle_fault(s.scene, before->material, position, velocity);
   if (!fault.empty()) return fail(Error::Kind::bad_input, fmt::format("particle {}", id), std::move(fault));
-  s.set_velocity(i, velocity);
-  s.host.position[i] = position;
+  s.edit(*before, {id, before->material, position, velocity});
   return {};
 }
 
@@ -430,15 +408,13 @@ Expected<void> Simulation::set_material(const Material& material) {
     }
     s.scene = std::move(changed);
     // All accelerations anew: those of the last step are of the old material.
-    const Ledger ledger = s.backend->ledger();
-    auto started = s.start(now, 0, ledger, s.backend->broken_springs());
-    s.host_current = false;
-    return started;
+    const ParticleSet all = std::move(s.host);
+    return s.start(all, 0, s.backend->broken_springs());
   }
   return fail(Error::Kind::bad_input, "materials." + material.name, "there is no material of this name");
 }
 
-std::span<const ColliderPose> Simulation::collider_poses() const { return impl_->poses; }
+std::span<const ColliderPose> Simulation::collider_poses() const { return impl_->run.poses; }
 
 Expected<void> Simulation::set_collider_motion(const std::string& name, const Motion& motion) {
   const FloatingPointGuard guard;
@@ -450,7 +426,7 @@ Expected<void> Simulation::set_collider_motion(const std::string& name, const Mo
       s.scene.colliders[k].motion = before;
       return fail(Error{Error::Kind::bad_input, std::move(findings)});
     }
-    s.set_time(s.step);
+    place_colliders(s.run, s.scene, s.run.step);
     return {};
   }
   return fail(Error::Kind::bad_input, "colliders", fmt::format("there is none of the name \"{}\"", name));
@@ -460,8 +436,8 @@ SimulationState Simulation::snapshot() const {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
   (void)s.flush();  // evaluates the accelerations of particles just added; a failure is the next step's to report
-  return {particles(),      s.step,           s.next_id,         s.backend->ledger(), s.scene.structure,
-          broken_springs(), s.initial_energy, s.initial_elastic, s.initial_momentum,  s.emission.state()};
+  return {particles(),      s.run.step,       s.run.next_id,     s.run.ledger,       s.scene.structure,
+          broken_springs(), s.initial_energy, s.initial_elastic, s.initial_momentum, s.run.emission.state()};
 }
 
 Expected<void> Simulation::restore(SimulationState state) {
@@ -485,23 +461,21 @@ Expected<void> Simulation::restore(SimulationState state) {
   for (Finding& finding : check_state(state.emission, s.scene)) findings.push_back(std::move(finding));
   if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});
   s.scene.structure = structure;
-  s.emission.restore(std::move(state.emission));
-  s.step = state.step;
-  s.next_id = state.next_id;
+  s.run.emission.restore(std::move(state.emission));
+  s.run.step = state.step;
+  s.run.next_id = state.next_id;
+  s.run.ledger = state.ledger;
   s.initial_energy = state.initial_energy;
   s.initial_elastic = state.initial_elastic;
   s.initial_momentum = state.initial_momentum;
-  s.host_current = false;
-  s.host_edited = false;
   s.failed = false;
-  return s.start(state.particles, state.next_id, state.ledger, state.broken_springs);
+  return s.start(state.particles, state.next_id, state.broken_springs);
 }
 
 std::uint64_t Simulation::state_hash() const {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
-  if (s.host_edited) (void)s.flush();  // a failure is the next step's to report
-  const auto clock = combine64(mix64(static_cast<std::uint64_t>(s.step)), s.next_id);
+  const auto clock = combine64(mix64(static_cast<std::uint64_t>(s.run.step)), s.run.next_id);
   return s.backend->particles_hash() + clock;
 }
 
@@ -509,14 +483,15 @@ Expected<Measurements> Simulation::measure() const {
   const FloatingPointGuard guard;
   try {
     if (auto flushed = impl_->flush(); !flushed) return fail(flushed.error());
-    return impl_->backend->measure();
+    Impl& s = *impl_;
+    return s.backend->measure(place_colliders(s.run, s.scene, s.run.step));
   } catch (const std::bad_alloc&) {
-    return fail(out_of_memory(impl_->step));
+    return fail(out_of_memory(impl_->run.step));
   }
 }
 
 std::vector<std::uint64_t> Simulation::broken_springs() const { return impl_->backend->broken_springs(); }
-const Ledger& Simulation::ledger() const { return impl_->backend->ledger(); }
+const Ledger& Simulation::ledger() const { return impl_->run.ledger; }
 double Simulation::initial_energy() const { return impl_->initial_energy; }
 double Simulation::initial_elastic() const { return impl_->initial_elastic; }
 const Vec3d& Simulation::initial_momentum() const { return impl_->initial_momentum; }

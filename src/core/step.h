@@ -2,12 +2,39 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "hooke/core/backend.h"
+#include "hooke/core/communicator.h"
+#include "hooke/core/emission.h"
+#include "hooke/core/ledger.h"
 
 namespace hooke {
 
-/// Takes one step of `integrator` on a back end: the whole algorithm, one call a physical stage. Stops at the first
-/// stage that finds something wrong.
-Condition take_step(Backend& backend, Integrator integrator);
+/// Where a run is: all that its steps move on beside the particles, which the back end holds.
+struct RunState {
+  std::int64_t step = 0;            ///< steps done
+  std::uint64_t next_id = 1;        ///< of the next particle to be added
+  std::vector<ColliderPose> poses;  ///< of the scene's colliders, by place_colliders()
+  Emission emission;                ///< births and deaths to come
+  Ledger ledger;                    ///< sums over all steps so far
+};
+
+/// Puts the colliders of the scene to where they are after `step` steps. The instant of that.
+Instant place_colliders(RunState& run, const Scene& scene, std::int64_t step);
+
+/// Takes one step, the whole algorithm in its order. Stops at the first stage that finds something wrong: the step is
+/// not counted then, and no further one is possible.
+Condition take_step(const Scene& scene, Backend& backend, Communicator& ranks, RunState& run);
+
+/// Makes the neighbour list fresh where it must be. Every step does so when it needs one; after the last of several
+/// steps it tells at once what the next would find wrong with the particles.
+Condition update_neighbours(Backend& backend, Communicator& ranks);
+
+/// Velocity Verlet: gives particles with an id >= `first_new_id`, of which there are some, the accelerations that the
+/// next step begins with. Under symplectic Euler there is nothing to do.
+Condition start_particles(const Scene& scene, Backend& backend, Communicator& ranks, std::uint64_t first_new_id,
+                          RunState& run);
 
 }  // namespace hooke

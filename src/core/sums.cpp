@@ -49,7 +49,8 @@ namespace {
 
 enum class Kick { of_the_evaluation, next };
 
-StepRates rates(const StepSums& sums, const AppliedSums* applied, Kick kick, const Vec3d& gravity, double mass) {
+StepRates rates(const StepReport& report, Kick kick, const Vec3d& gravity) {
+  const StepSums& sums = report.sums;
   StepRates rates;
   const bool next = kick == Kick::next;
   const ByCause<ExactSum, kPassCauses>& twice_power = next ? sums.next_power : sums.power;
@@ -57,26 +58,25 @@ StepRates rates(const StepSums& sums, const AppliedSums* applied, Kick kick, con
   rates.force[Cause::wall] = sums.wall_force.value();
   rates.force[Cause::drag] = sums.drag_force.value();
   rates.force[Cause::collider] = sums.collider_force.value();
-  rates.force[Cause::gravity] = mass * gravity;
-  if (applied == nullptr) return rates;
-  for (std::size_t i = 0; i < applied->of.size(); ++i) {
-    const AppliedSums::Rates& of = applied->of[i];
+  rates.force[Cause::gravity] = report.mass * gravity;
+  if (!report.applied) return rates;
+  for (std::size_t i = 0; i < report.applied->of.size(); ++i) {
+    const AppliedSums::Rates& of = report.applied->of[i];
     rates.power.of[kPassCauses + i] = 0.5 * (next ? of.next_power : of.power).value();
     rates.force.of[kPassCauses + i] = of.force.value();
   }
-  rates.spring_dissipation = applied->springs.dissipation.value();
+  rates.spring_dissipation = report.applied->springs.dissipation.value();
   return rates;
 }
 
 }  // namespace
 
-StepRates first_rates(const StepSums& start, const AppliedSums* applied, const Vec3d& gravity, double mass) {
-  return rates(start, applied, Kick::of_the_evaluation, gravity, mass);
+StepRates first_rates(const StepReport& start, const Vec3d& gravity) {
+  return rates(start, Kick::of_the_evaluation, gravity);
 }
 
-void book_step(Ledger& ledger, const StepSums& now, const AppliedSums* applied, const Vec3d& gravity, double mass,
-               double dt, Integrator integrator) {
-  HOOKE_ASSERT(dt > 0 && mass >= 0, dt, mass);
+void book_step(Ledger& ledger, const StepReport& now, const Vec3d& gravity, double dt, Integrator integrator) {
+  HOOKE_ASSERT(dt > 0 && now.mass >= 0, dt, now.mass);
   const auto book = [&ledger](const StepRates& rates, double seconds) {
     for (std::size_t cause = 0; cause < kCauses; ++cause) {
       ledger.work.of[cause] += seconds * rates.power.of[cause];
@@ -84,15 +84,15 @@ void book_step(Ledger& ledger, const StepSums& now, const AppliedSums* applied, 
     }
     ledger.springs.dissipated += seconds * rates.spring_dissipation;
   };
-  if (applied != nullptr) {
-    ledger.springs.broken += applied->springs.broken;
-    ledger.springs.broken_energy += applied->springs.broken_energy.value();
+  if (now.applied) {
+    ledger.springs.broken += now.applied->springs.broken;
+    ledger.springs.broken_energy += now.applied->springs.broken_energy.value();
   }
-  const StepRates this_kick = rates(now, applied, Kick::of_the_evaluation, gravity, mass);
+  const StepRates this_kick = rates(now, Kick::of_the_evaluation, gravity);
   if (integrator == Integrator::symplectic_euler) return book(this_kick, dt);
   book(ledger.last, dt / 2);
   book(this_kick, dt / 2);
-  ledger.last = rates(now, applied, Kick::next, gravity, mass);
+  ledger.last = rates(now, Kick::next, gravity);
 }
 
 void RemovalSums::add_particle(double mass, const Vec3d& x, const Vec3d& v, const Vec3d& gravity) {

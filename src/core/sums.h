@@ -4,11 +4,15 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "hooke/base/assert.h"
 #include "hooke/base/exact_sum.h"
-#include "hooke/core/backend.h"
+#include "hooke/core/condition.h"
+#include "hooke/core/ledger.h"
+#include "hooke/core/measurements.h"
+#include "hooke/core/scene.h"
 
 namespace hooke {
 
@@ -76,14 +80,22 @@ struct AppliedSums {
   SpringSums springs;
 };
 
-/// Books what an evaluation did in one step of `dt` (s, > 0); gravity (m/s^2) pulls at `mass` (kg) in all. Symplectic
-/// Euler kicks once, by dt; velocity Verlet by half a dt with the last evaluation's forces, and by half a dt with
-/// these. `applied` is null where the scene has no such causes.
-void book_step(Ledger& ledger, const StepSums& now, const AppliedSums* applied, const Vec3d& gravity, double mass,
-               double dt, Integrator integrator);
+/// What a step's evaluation of the forces found beside the particles' new state. Sums are exact, so that parts may be
+/// added up in any order.
+struct StepReport {
+  Condition condition;
+  StepSums sums;
+  std::optional<AppliedSums> applied;  ///< nothing where the scene has no such causes
+  double mass = 0;  ///< of all particles, kg
+};
 
-/// What the first half of a step of velocity Verlet will book after an evaluation at the start, whose kick is `power`.
-StepRates first_rates(const StepSums& start, const AppliedSums* applied, const Vec3d& gravity, double mass);
+/// Books what an evaluation did in one step of `dt` (s, > 0); gravity (m/s^2) pulls at the whole mass. Symplectic
+/// Euler kicks once, by dt; velocity Verlet by half a dt with the last evaluation's forces, and by half a dt with
+/// these.
+void book_step(Ledger& ledger, const StepReport& now, const Vec3d& gravity, double dt, Integrator integrator);
+
+/// What the first half of a step of velocity Verlet will book after an evaluation at the start.
+StepRates first_rates(const StepReport& start, const Vec3d& gravity);
 
 /// Particles that leave, or come, as one sums them up.
 struct RemovalSums {

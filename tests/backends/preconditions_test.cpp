@@ -41,14 +41,15 @@ class BackendPreconditions : public testing::TestWithParam<Engine> {
 TEST_P(BackendPreconditions, ParticlesAreTheScenes) {
   ParticleSet particles = pair_on_x(scene_, 0.1, {0, 0, 0}, {0, 0, 0});
   std::swap(particles.id[0], particles.id[1]);
-  EXPECT_ASSERTS((void)backend_->upload(particles, 0, {}), "are_particles_of");
+  EXPECT_ASSERTS(backend_->assign(particles), "are_particles_of");
   particles.sort_by_id();
   particles.material[0] = 5;
-  EXPECT_ASSERTS((void)backend_->upload(particles, 0, {}), "are_particles_of");
+  EXPECT_ASSERTS(backend_->assign(particles), "are_particles_of");
 }
 
 TEST_P(BackendPreconditions, EachColliderHasAPose) {
-  EXPECT_ASSERTS(backend_->place_colliders({}), "poses.size() = 0, scene.colliders.size() = 1");
+  backend_->assign(pair_on_x(scene_, 0.1, {0, 0, 0}, {0, 0, 0}));
+  EXPECT_ASSERTS((void)backend_->measure({}), "poses.size() = 0, scene.colliders.size() = 1");
 }
 
 TEST_P(BackendPreconditions, BrokenSpringsAreTheScenesAndAscend) {
@@ -58,8 +59,14 @@ TEST_P(BackendPreconditions, BrokenSpringsAreTheScenesAndAscend) {
 
 TEST_P(BackendPreconditions, NewIdsAreAboveAllBefore) {
   const ParticleSet particles = pair_on_x(scene_, 0.1, {0, 0, 0}, {0, 0, 0});
-  EXPECT_TRUE(backend_->upload(particles, 0, {}).good());
-  EXPECT_ASSERTS(backend_->give_birth(particles), "id");
+  backend_->assign(particles);
+  EXPECT_ASSERTS((void)backend_->insert(particles), "id");
+}
+
+TEST_P(BackendPreconditions, WhatIsEditedIsThere) {
+  backend_->assign(pair_on_x(scene_, 0.1, {0, 0, 0}, {0, 0, 0}));
+  const ParticleAt none{.id = 77};
+  EXPECT_ASSERTS(backend_->edit({&none, 1}), "to.id = 77");
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, BackendPreconditions, testing::Values(kReference, kCpuDouble, kCpuSingle),

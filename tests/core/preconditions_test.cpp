@@ -114,7 +114,9 @@ TEST(CorePreconditions, EmissionKnowsItsScene) {
   const auto backend = make_backend(kReference);
   Emission emission;
   std::uint64_t next_id = 1;
-  EXPECT_ASSERTS(emission.end_step(scene, 1, {}, *backend, next_id), "emitters_.size() = 0, scene.emitters.size() = 1");
+  EXPECT_ASSERTS((void)emission.end_lives(0), "step = 0");
+  EXPECT_ASSERTS((void)emission.give_birth(scene, 1, {}, {}, *backend, next_id),
+                 "emitters_.size() = 0, scene.emitters.size() = 1");
   EXPECT_ASSERTS(emission.restore({{}, {{9, 1, 0}, {5, 2, 0}}}), "state.mortals.size() = 2");
 }
 
@@ -144,7 +146,7 @@ TEST(CorePreconditions, CausesHaveAnEntry) {
 
 TEST(CorePreconditions, SumsAreOfSteps) {
   Ledger ledger;
-  EXPECT_ASSERTS(book_step(ledger, {}, nullptr, {0, 0, 0}, 1, 0, Integrator::symplectic_euler), "dt = 0, mass = 1");
+  EXPECT_ASSERTS(book_step(ledger, {}, {0, 0, 0}, 0, Integrator::symplectic_euler), "dt = 0, now.mass = 0");
   AppliedSums applied;
   EXPECT_ASSERTS(applied.add_held(0, {0, 0, 0}, {0, 0, 0}, 1), "mass = 0, seconds = 1");
   ColliderLoadSums loads;

@@ -8,22 +8,24 @@
 namespace hooke {
 namespace {
 
-// Powers of this kick and of the next one, and forces, as one evaluation leaves them.
-StepSums sums(double power, double next_power) {
-  StepSums s;
+// Powers of this kick and of the next one, and forces, as one evaluation leaves them for 2 kg.
+StepReport report(double power, double next_power) {
+  StepReport found;
+  found.mass = 2;
+  StepSums& s = found.sums;
   for (std::size_t cause = 0; cause < kPassCauses; ++cause) {
     s.power.of[cause].add(2 * power * static_cast<double>(cause + 1));  // at twice the mean velocity
     s.next_power.of[cause].add(2 * next_power * static_cast<double>(cause + 1));
   }
   s.wall_force.add({3 * power, 0, 0});
   s.drag_force.add({0, 4 * power, 0});
-  return s;
+  return found;
 }
 const Vec3d kGravity{0, 0, 5};
 
 TEST(BookStep, BooksAWholeStepUnderSymplecticEuler) {
   Ledger ledger;
-  book_step(ledger, sums(8, 1000), nullptr, kGravity, 2, 0.5, Integrator::symplectic_euler);
+  book_step(ledger, report(8, 1000), kGravity, 0.5, Integrator::symplectic_euler);
   for (std::size_t cause = 0; cause < kPassCauses; ++cause) {
     EXPECT_EQ(ledger.work.of[cause], 4 * static_cast<double>(cause + 1));
   }
@@ -35,8 +37,8 @@ TEST(BookStep, BooksAWholeStepUnderSymplecticEuler) {
 
 TEST(BookStep, BooksHalvesOfTwoEvaluationsUnderVelocityVerlet) {
   Ledger ledger;
-  ledger.last = first_rates(sums(8, 1000), nullptr, kGravity, 2);
-  book_step(ledger, sums(16, 32), nullptr, kGravity, 2, 0.5, Integrator::velocity_verlet);
+  ledger.last = first_rates(report(8, 1000), kGravity);
+  book_step(ledger, report(16, 32), kGravity, 0.5, Integrator::velocity_verlet);
   EXPECT_EQ(ledger.work.of[0], 2 + 4);
   EXPECT_EQ(ledger.impulse[Cause::wall].x, 6 + 12);
   EXPECT_EQ(ledger.last.power.of[0], 32);
@@ -52,11 +54,13 @@ TEST(BookStep, BooksAppliedCausesLikeTheOthers) {
   applied.springs.broken_energy.add(3);
   applied.springs.broken = 2;
   applied.add_held(2, {1, 0, 0}, {4, 0, 0}, 0.25);  // -24 N, which moves at 1 m/s
-  AppliedSums twice = applied;
-  twice.add(applied);
+  StepReport once, twice;
+  once.mass = twice.mass = 2;
+  once.applied = twice.applied = applied;
+  twice.applied->add(applied);
   Ledger ledger;
-  ledger.last = first_rates(StepSums{}, &applied, kGravity, 2);
-  book_step(ledger, StepSums{}, &twice, kGravity, 2, 0.5, Integrator::velocity_verlet);
+  ledger.last = first_rates(once, kGravity);
+  book_step(ledger, twice, kGravity, 0.5, Integrator::velocity_verlet);
   EXPECT_EQ(ledger.work[Cause::springs], 0.25 * 8 + 0.25 * 16);
   EXPECT_EQ(ledger.last.power[Cause::springs], 64);
   EXPECT_EQ(ledger.work[Cause::hold], -0.25 * 24 - 0.25 * 48);

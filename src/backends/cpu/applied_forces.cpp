@@ -13,7 +13,6 @@ namespace hooke {
 template <class Real>
 void AppliedForces<Real>::configure(const Scene& scene, const ForcePass<Real>& rules, const Loops<Real>& loops) {
   structure_ = scene.structure;
-  births_ = !scene.emitters.empty();
   kick_ = scene.integrator == Integrator::velocity_verlet ? scene.time_step / 2 : scene.time_step;
   mass_.clear();
   fixed_.clear();
@@ -48,15 +47,21 @@ void AppliedForces<Real>::bind(const IdTable& ids, const Records& records, std::
       held.push_back(static_cast<std::uint32_t>(rank_of(p.rank)));
     }
   }
-  if (!held.empty() || births_) find_places(records, count, ids.size());
+  if (!held.empty()) find_places(records, count, ids.size());
   if (!held.empty()) find_held(count);
 }
 
 template <class Real>
-void AppliedForces<Real>::add(std::size_t slot, std::size_t ranks) {
-  place_.resize(ranks, SpringLists<Real>::kNowherePlace);
-  place_.back() = static_cast<std::uint32_t>(slot);
+void AppliedForces<Real>::add(std::size_t slot, std::size_t ranks, bool fixed, std::size_t room) {
+  if (needs_layout()) {
+    place_.resize(ranks, SpringLists<Real>::kNowherePlace);
+    place_.back() = static_cast<std::uint32_t>(slot);
+  }
   springs_.grow(ranks);
+  if (!fixed) return;
+  if (held_.none()) held_.clear(room);
+  held_.hold(slot);
+  held_ranks_.push_back(static_cast<std::uint32_t>(ranks - 1));
 }
 
 template <class Real>
@@ -135,7 +140,7 @@ void AppliedForces<Real>::hold_still(std::size_t first, std::size_t last, const 
                                      Vec3<Real>* acceleration, AppliedSums& sums) const {
   if (held_.none()) return;
   for (std::size_t i = first; i < last; ++i) {
-    if (!held_.holds(i)) continue;
+    if (!held_.holds(i) || is_nowhere(before[i])) continue;
     sums.add_held(mass_[static_cast<std::size_t>(before[i].material)], vec_cast<double>(before[i].v),
                   vec_cast<double>(after[i].v), kick_);
     after[i] = before[i];

@@ -47,19 +47,13 @@ class AppliedForces {
   /// Ties and holds the particles of these ids, which lie in the first `count` records.
   void bind(const IdTable& ids, const Records& records, std::size_t count);
 
-  /// A particle is born into `slot` with the last of `ranks`: nothing ties or holds it.
-  void add(std::size_t slot, std::size_t ranks);
+  /// A particle comes into `slot`, one of `room`, with the last of `ranks`: no spring ties it, but it may be fixed.
+  void add(std::size_t slot, std::size_t ranks, bool fixed, std::size_t room);
 
-  bool needs_layout() const { return !springs_.empty() || fields_.needs_places() || !held_.none() || births_; }
+  bool needs_layout() const { return !springs_.empty() || fields_.needs_places() || !held_.none(); }
 
   /// After a sort: where the particles of the first `count` records are now, of `ranks` that there have been.
   void lay_out(const Records& records, std::size_t count, std::size_t ranks);
-
-  /// Where the particle of a rank was laid out or born, in a scene with births.
-  std::size_t place(std::size_t rank) const {
-    HOOKE_ASSERT(rank < place_.size(), rank, place_.size());
-    return place_[rank];
-  }
 
   /// The scene's clock, s.
   void set_time(double seconds) { fields_.set_time(seconds); }
@@ -113,7 +107,6 @@ class AppliedForces {
   LargeVector<Vec3<Real>> total_;  // where several act
   std::vector<std::uint32_t> held_ranks_;
   HeldParticles held_;
-  bool births_ = false;
   std::vector<std::uint32_t> place_;  // by rank, of the last sort, or of a birth since
 };
 

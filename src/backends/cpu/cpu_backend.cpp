@@ -25,24 +25,12 @@ void CpuBackend<Real>::configure(const Scene& scene) {
   sinks_ = PlacedSinks(scene.sinks);
 }
 
-template <class Real>
-Condition CpuBackend<Real>::upload(const ParticleSet& particles, std::uint64_t first_new_id, const Ledger& ledger) {
-  ledger_ = ledger;
-  take(particles);
-  const bool any_new = !particles.empty() && particles.id.back() >= first_new_id;
-  return verlet() && any_new ? evaluate_accelerations(first_new_id) : Condition{};
-}
-
-template <class Real>
-void CpuBackend<Real>::place_colliders(std::span<const ColliderPose> poses) {
-  colliders_.place(scene_, poses, rules_.largest_radius + rules_.widest_range, pass_);
-}
-
 // Takes these particles and no others, with room for so many births at least.
 template <class Real>
 void CpuBackend<Real>::take(const ParticleSet& particles, std::size_t births) {
   particles_.place(particles, births);
   list_.forget();
+  leaving_ = {};
   applied_.bind(particles_.ids, particles_.records, particles_.slots.room());
 }
 

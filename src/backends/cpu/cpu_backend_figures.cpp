@@ -12,7 +12,8 @@
 namespace hooke {
 
 template <class Real>
-Expected<Measurements> CpuBackend<Real>::measure() {
+Expected<Measurements> CpuBackend<Real>::measure(const Instant& now) {
+  place_at(now);
   if (!list_.good()) {
     if (const Condition found = build_neighbours(); !found.good()) {
       return fail(Error::Kind::run_failed, fmt::format("particle {}", found.particle), "is at no finite position");
@@ -49,8 +50,8 @@ NeighbourStatistics CpuBackend<Real>::neighbour_statistics() const {
   return {list_.build_count(), static_cast<double>(list_.entry_count()) / n, missed_contacts_};
 }
 
-template Expected<Measurements> CpuBackend<float>::measure();
-template Expected<Measurements> CpuBackend<double>::measure();
+template Expected<Measurements> CpuBackend<float>::measure(const Instant& now);
+template Expected<Measurements> CpuBackend<double>::measure(const Instant& now);
 template std::uint64_t CpuBackend<float>::particles_hash() const;
 template std::uint64_t CpuBackend<double>::particles_hash() const;
 template NeighbourStatistics CpuBackend<float>::neighbour_statistics() const;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -54,26 +55,25 @@ class CpuBackend final : public Backend {
   void break_springs(const std::vector<std::uint64_t>& broken) override { applied_.springs().break_springs(broken); }
   std::vector<std::uint64_t> broken_springs() const override { return applied_.springs().broken(); }
 
-  Condition upload(const ParticleSet& particles, std::uint64_t first_new_id, const Ledger& ledger) override;
+  void assign(const ParticleSet& particles) override { take(particles); }
   void download(ParticleSet& out) const override { particles_.download(out); }
+  std::uint64_t particle_count() const override { return particles_.count(); }
+  std::optional<ParticleAt> find(std::uint64_t id) const override;
+  void edit(std::span<const ParticleAt> edited) override;
+  RemovalSums insert(const ParticleSet& newborn) override;
+  Removal remove(std::span<const std::uint64_t> ids) override;
+  RemovalSums remove_sunk() override;
 
-  void set_time(double seconds) override { applied_.set_time(seconds); }
-  void place_colliders(std::span<const ColliderPose> poses) override;
   void half_kick_and_drift() override;
+  void finish_motion(RemovalSums& left) override;
   bool neighbours_stale() const override { return !list_.good(); }
   Condition build_neighbours() override;
-  Condition apply_forces() override;
+  void apply_forces(const Instant& now, StepReport& report) override;
+  void evaluate_accelerations(const Instant& now, std::uint64_t first_new_id, StepReport& report) override;
 
-  void sink_particles() override;
-  void expire(std::span<const std::uint64_t> ids, std::vector<std::uint8_t>& was_there) override;
-  void give_birth(const ParticleSet& newborn) override;
   void find_inside(const ShapeBounds& box, std::vector<Occupant>& out) const override;
-
-  std::uint64_t particle_count() const override { return particles_.count(); }
-  const Ledger& ledger() const override { return ledger_; }
-
   std::uint64_t particles_hash() const override;
-  Expected<Measurements> measure() override;
+  Expected<Measurements> measure(const Instant& now) override;
   NeighbourStatistics neighbour_statistics() const override;
   StageTimes stage_times() const override { return times_; }
 
@@ -97,14 +97,15 @@ class CpuBackend final : public Backend {
   // Springs, fields, attraction, and what is held --------------------------------------------------------------------
 
   void lay_out_structure();
-  bool apply_others(bool may_tear, SpringSums& sums);
+  bool apply_others(bool may_tear, StepReport& report);
   void settle_segment(std::size_t s, AppliedSums& sums);
 
   // The force pass and what it reports -------------------------------------------------------------------------------
 
+  void place_at(const Instant& now);
   void aim_pass(Vec3<Real>* acceleration);
   template <class Look>
-  void run_pass(StepSums& sums, AppliedSums& applied, const Look& look);
+  void run_pass(StepReport& sums, const Look& look);
   void run_segment(std::size_t s, SegmentReport& report) const;
   void run_groups(std::size_t s, std::size_t g, std::size_t end, const std::uint32_t* rows,
                   const std::uint32_t* first_row, SegmentReport& report) const;
@@ -116,8 +117,6 @@ class CpuBackend final : public Backend {
   }
 
   Condition look_closely(std::size_t s, std::size_t g) const;
-  Condition evaluate_accelerations(std::uint64_t first_new_id);
-
   // Who comes and goes ----------------------------------------------------------------------------------------------
 
   // Wraps periodic coordinates; a particle outside an open face leaves.
@@ -135,7 +134,7 @@ class CpuBackend final : public Backend {
 
   void leave_at_end_of_step(std::size_t slot, Departures& left) const;
   void collect(Departures& total, const Departures& part) const;
-  void let_go(Departures& leaving, std::uint64_t& tally);
+  RemovalSums let_go(Departures& leaving);
   void add_elastic(std::vector<std::uint32_t>& slots, ExactSum& sum);
   bool rebuild_under(std::vector<std::uint32_t>& slots);
 
@@ -151,7 +150,7 @@ class CpuBackend final : public Backend {
   ForcePass<Real> pass_;  // the rules', aimed at the buffers of the moment
 
   ParticleState<Real> particles_;
-  Ledger ledger_;
+  Departures leaving_;  // through open faces, until finish_motion()
 
   PlacedSinks sinks_;
   AppliedForces<Real> applied_;

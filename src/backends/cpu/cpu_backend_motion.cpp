@@ -12,8 +12,7 @@ namespace hooke {
 
 template <class Real>
 void CpuBackend<Real>::half_kick_and_drift() {
-  Stopwatch drifting(times_.drift);
-  Departures removed;
+  const Stopwatch drifting(times_.drift);
   for_ranges(particles_.slots.end(), kSegment, [&](std::size_t first, std::size_t last) {
     Departures left;
     for (std::size_t start = first; start < last; start += kLanes) {
@@ -32,11 +31,15 @@ void CpuBackend<Real>::half_kick_and_drift() {
       }
       if (far != 0) list_.note_far(start / kLanes, far);
     }
-    collect(removed, left);
+    collect(leaving_, left);
   });
-  drifting.stop();
+}
+
+template <class Real>
+void CpuBackend<Real>::finish_motion(RemovalSums& left) {
   follow_motion();
-  let_go(removed, ledger_.removed);
+  left.add(let_go(leaving_));
+  leaving_ = {};
 }
 
 template <class Real>
@@ -97,7 +100,7 @@ template void CpuBackend<float>::half_kick_and_drift();
 template void CpuBackend<double>::half_kick_and_drift();
 template Condition CpuBackend<float>::build_neighbours();
 template Condition CpuBackend<double>::build_neighbours();
-template void CpuBackend<float>::follow_motion();
-template void CpuBackend<double>::follow_motion();
+template void CpuBackend<float>::finish_motion(RemovalSums& left);
+template void CpuBackend<double>::finish_motion(RemovalSums& left);
 
 }  // namespace hooke

@@ -13,60 +13,54 @@
 namespace hooke {
 
 template <class Real>
-Condition CpuBackend<Real>::apply_forces() {
-  Stopwatch forcing(times_.force);
-  StepSums sums;
-  AppliedSums applied;
-  Departures removed;
-  Condition condition;
+void CpuBackend<Real>::apply_forces(const Instant& now, StepReport& report) {
+  const Stopwatch forcing(times_.force);
+  place_at(now);
   aim_pass(verlet() ? particles_.acceleration.data() : nullptr);
-  const bool released = apply_others(true, applied.springs);
-  run_pass(sums, applied, [&](std::size_t s, const SegmentReport& report) {
+  const bool released = apply_others(true, report);
+  run_pass(report, [&](std::size_t s, const SegmentReport& segment) {
     std::optional<Departures> left;  // large, and seldom of use
     Condition found;
     for (std::size_t g = 0; g < kGroups; ++g) {
-      if (report.far[g] != 0) list_.note_far(s * kGroups + g, report.far[g]);
-      if (report.notes[g] == 0) continue;
-      if ((report.notes[g] & kApproachTooFast) != 0) found = Condition::first(found, look_closely(s, g));
-      if ((report.notes[g] & kLeftDomain) != 0) {
+      if (segment.far[g] != 0) list_.note_far(s * kGroups + g, segment.far[g]);
+      if (segment.notes[g] == 0) continue;
+      if ((segment.notes[g] & kApproachTooFast) != 0) found = Condition::first(found, look_closely(s, g));
+      if ((segment.notes[g] & kLeftDomain) != 0) {
         if (!left) left.emplace();
         apply_boundaries_to_group(s, g, *left);
       }
     }
-    if (left) collect(removed, *left);
+    if (left) collect(leaving_, *left);
     if (found.good()) return;
     const std::lock_guard lock(mutex_);
-    condition = Condition::first(condition, found);
+    report.condition = Condition::first(report.condition, found);
   });
-  book_step(ledger_, sums, applied_.none() ? nullptr : &applied, scene_.gravity, particles_.mass(), scene_.time_step,
-            scene_.integrator);
   particles_.records.swap(particles_.next);
-  forcing.stop();
-  if (!verlet()) {
-    follow_motion();
-  } else if (released) {  // nobody has moved; rows are mended before the next forces, but somebody may look
+  if (verlet() && released) {  // nobody has moved; rows are mended before the next forces, but somebody may look
     threads_.run([&] { list_.mend_released(particles_.records.data()); });
   }
-  let_go(removed, ledger_.removed);
-  return condition;
 }
 
-// Accelerations a(x, v) of the particles that have none of a last step.
 template <class Real>
-Condition CpuBackend<Real>::evaluate_accelerations(std::uint64_t first_new_id) {
-  if (const Condition found = build_neighbours(); !found.good()) return found;
+void CpuBackend<Real>::evaluate_accelerations(const Instant& now, std::uint64_t first_new_id, StepReport& report) {
+  if (!list_.good()) report.condition = build_neighbours();
+  if (!report.condition.good()) return;
   LargeVector<Vec3<Real>> evaluated(particles_.acceleration.size());
-  StepSums sums;
-  AppliedSums applied;
+  place_at(now);
   aim_pass(evaluated.data());
-  (void)apply_others(false, applied.springs);
-  run_pass(sums, applied, [](std::size_t, const SegmentReport&) {});
-  ledger_.last = first_rates(sums, applied_.none() ? nullptr : &applied, scene_.gravity, particles_.mass());
+  (void)apply_others(false, report);
+  run_pass(report, [](std::size_t, const SegmentReport&) {});
   for (std::size_t i = 0; i < particles_.slots.end(); ++i) {
     if (!is_nowhere(particles_.records[i]) && particles_.ids[rank_of(particles_.records[i].rank)] >= first_new_id)
       particles_.acceleration[i] = evaluated[i];
   }
-  return {};
+}
+
+template <class Real>
+void CpuBackend<Real>::place_at(const Instant& now) {
+  applied_.set_time(now.time);
+  if (scene_.colliders.empty()) return;
+  colliders_.place(scene_, now.poses, rules_.largest_radius + rules_.widest_range, pass_);
 }
 
 template <class Real>
@@ -82,12 +76,13 @@ void CpuBackend<Real>::aim_pass(Vec3<Real>* acceleration) {
 
 // Sums the forces that the pass adds. Returns whether pairs that springs kept apart may touch from the next step on.
 template <class Real>
-bool CpuBackend<Real>::apply_others(bool may_tear, SpringSums& sums) {
+bool CpuBackend<Real>::apply_others(bool may_tear, StepReport& report) {
   bool released = false;
   if (!applied_.none()) {
+    report.applied.emplace();
     threads_.run([&] {
       const auto& pairs = applied_.apply(particles_.records, particles_.slots.end(), particles_.count(), particles_.ids,
-                                         may_tear, sums);
+                                         may_tear, report.applied->springs);
       list_.release(pairs);
       released = !pairs.empty();
     });
@@ -163,12 +158,12 @@ void CpuBackend<Real>::apply_boundaries_to_group(std::size_t s, std::size_t g, D
 // All segments, and their sums; then look(s, report of segment s).
 template <class Real>
 template <class Look>
-void CpuBackend<Real>::run_pass(StepSums& sums, AppliedSums& applied, const Look& look) {
+void CpuBackend<Real>::run_pass(StepReport& total, const Look& look) {
   for_ranges(particles_.slots.segment_count(), 1, [&](std::size_t first, std::size_t last) {
     SegmentReport report;
     StepSums part;
     std::optional<AppliedSums> applied_part;  // large, and of no use to most scenes
-    if (!applied_.none()) applied_part.emplace();
+    if (total.applied) applied_part.emplace();
     for (std::size_t n = first; n < last; ++n) {
       const std::size_t s = particles_.slots.segment(n);
       run_segment(s, report);
@@ -177,14 +172,19 @@ void CpuBackend<Real>::run_pass(StepSums& sums, AppliedSums& applied, const Look
       look(s, report);
     }
     const std::lock_guard lock(mutex_);
-    sums.add(part);
-    if (applied_part) applied.add(*applied_part);
+    total.sums.add(part);
+    if (applied_part) total.applied->add(*applied_part);
   });
+  total.mass = particles_.mass();
 }
 
-template Condition CpuBackend<float>::apply_forces();
-template Condition CpuBackend<double>::apply_forces();
-template Condition CpuBackend<float>::evaluate_accelerations(std::uint64_t first_new_id);
-template Condition CpuBackend<double>::evaluate_accelerations(std::uint64_t first_new_id);
+template void CpuBackend<float>::apply_forces(const Instant& now, StepReport& report);
+template void CpuBackend<double>::apply_forces(const Instant& now, StepReport& report);
+template void CpuBackend<float>::evaluate_accelerations(const Instant& now, std::uint64_t first_new_id,
+                                                        StepReport& report);
+template void CpuBackend<double>::evaluate_accelerations(const Instant& now, std::uint64_t first_new_id,
+                                                         StepReport& report);
+template void CpuBackend<float>::place_at(const Instant& now);
+template void CpuBackend<double>::place_at(const Instant& now);
 
 }  // namespace hooke

@@ -6,57 +6,50 @@
 #include <algorithm>
 
 #include "hooke/backends/cpu/contact_reports.h"
+#include "hooke/base/assert.h"
 #include "hooke/core/sums.h"
 #include "hooke/physics/integrate.h"
 
 namespace hooke {
 
 template <class Real>
-void CpuBackend<Real>::sink_particles() {
-  Departures sunk;
-  for_ranges(particles_.slots.end(), kSegment, [&](std::size_t first, std::size_t last) {
-    Departures part;
-    for (std::size_t i = first; i < last; ++i) {
-      if (!is_nowhere(particles_.records[i]) && sinks_.take(vec_cast<double>(particles_.records[i].x)))
-        leave_at_end_of_step(i, part);
-    }
-    collect(sunk, part);
-  });
-  let_go(sunk, ledger_.population.sunk);
+std::optional<ParticleAt> CpuBackend<Real>::find(std::uint64_t id) const {
+  threads_.run([&] { particles_.find_slots(); });
+  const std::size_t slot = particles_.slot_of(id);
+  if (slot == particles_.kNoSlot) return std::nullopt;
+  const Record& p = particles_.records[slot];
+  return ParticleAt{id, static_cast<std::size_t>(p.material), vec_cast<double>(p.x), vec_cast<double>(p.v)};
 }
 
 template <class Real>
-void CpuBackend<Real>::expire(std::span<const std::uint64_t> ids, std::vector<std::uint8_t>& was_there) {
-  was_there.assign(ids.size(), 0);
-  Departures expired;
-  for_ranges(ids.size(), 256, [&](std::size_t first, std::size_t last) {
-    Departures part;
-    for (std::size_t k = first; k < last; ++k) {
-      const std::size_t rank = particles_.ids.find(ids[k]);
-      if (rank == particles_.ids.size()) continue;
-      const std::size_t slot = applied_.place(rank);
-      if (slot == SpringLists<Real>::kNowherePlace || is_nowhere(particles_.records[slot]) ||
-          rank_of(particles_.records[slot].rank) != rank)
-        continue;
-      was_there[k] = 1;
-      leave_at_end_of_step(slot, part);
-    }
-    collect(expired, part);
-  });
-  let_go(expired, ledger_.population.expired);
+void CpuBackend<Real>::edit(std::span<const ParticleAt> edited) {
+  threads_.run([&] { particles_.find_slots(); });
+  bool any_strays = false;
+  for (const ParticleAt& to : edited) {
+    const std::size_t slot = particles_.slot_of(to.id);
+    HOOKE_ASSERT(slot != particles_.kNoSlot, to.id);
+    const Vec3<Real> x = particles_.records[slot].x;
+    particles_.set(slot, to.position, to.velocity);
+    const Vec3<Real>& now = particles_.records[slot].x;
+    if (particles_.slots.is_loose(slot) || (now.x == x.x && now.y == x.y && now.z == x.z)) continue;
+    list_.note_moved(slot);
+    any_strays = true;
+  }
+  if (any_strays) threads_.run([&] { list_.mend_released(particles_.records.data()); });
 }
 
 template <class Real>
-void CpuBackend<Real>::give_birth(const ParticleSet& newborn) {
-  if (!particles_.has_room_for(newborn)) make_room(newborn.size());
+RemovalSums CpuBackend<Real>::insert(const ParticleSet& newborn) {
   RemovalSums born;
+  if (newborn.empty()) return born;
+  if (!particles_.has_room_for(newborn)) make_room(newborn.size());
   std::vector<std::uint32_t> touching;
   for (std::size_t k = 0; k < newborn.size(); ++k) {
     const Material& m = scene_.materials[newborn.material[k]];
     const std::size_t slot = !m.interacts ? particles_.slots.take_loose()
                                           : particles_.slots.take_listed(list_.good() ? list_.first_free() : 0);
     const std::size_t rank = particles_.add(slot, newborn, k);
-    applied_.add(slot, particles_.ids.size());
+    applied_.add(slot, particles_.ids.size(), m.fixed, particles_.slots.room());
     if (m.interacts) {
       list_.add(slot, static_cast<std::uint32_t>(rank));
       touching.push_back(static_cast<std::uint32_t>(slot));
@@ -68,7 +61,42 @@ void CpuBackend<Real>::give_birth(const ParticleSet& newborn) {
   particles_.recount();
   // They are born into no overlap, but perhaps to where cohesion reaches.
   if (rules_.widest_range > 0) add_elastic(touching, born.elastic);
-  born.book_born(ledger_);
+  return born;
+}
+
+template <class Real>
+Removal CpuBackend<Real>::remove(std::span<const std::uint64_t> ids) {
+  Removal removal;
+  removal.was_there.assign(ids.size(), 0);
+  if (ids.empty()) return removal;
+  threads_.run([&] { particles_.find_slots(); });
+  Departures removed;
+  for_ranges(ids.size(), 256, [&](std::size_t first, std::size_t last) {
+    Departures part;
+    for (std::size_t k = first; k < last; ++k) {
+      const std::size_t slot = particles_.slot_of(ids[k]);
+      if (slot == particles_.kNoSlot) continue;
+      removal.was_there[k] = 1;
+      leave_at_end_of_step(slot, part);
+    }
+    collect(removed, part);
+  });
+  removal.sums = let_go(removed);
+  return removal;
+}
+
+template <class Real>
+RemovalSums CpuBackend<Real>::remove_sunk() {
+  Departures sunk;
+  for_ranges(particles_.slots.end(), kSegment, [&](std::size_t first, std::size_t last) {
+    Departures part;
+    for (std::size_t i = first; i < last; ++i) {
+      if (!is_nowhere(particles_.records[i]) && sinks_.take(vec_cast<double>(particles_.records[i].x)))
+        leave_at_end_of_step(i, part);
+    }
+    collect(sunk, part);
+  });
+  return let_go(sunk);
 }
 
 template <class Real>
@@ -106,14 +134,14 @@ void CpuBackend<Real>::collect(Departures& total, const Departures& part) const 
   total.add(part);
 }
 
-// Those that leave go nowhere. `tally` is the ledger's count of those that go that way.
+// Those that leave go nowhere. What they take along.
 template <class Real>
-void CpuBackend<Real>::let_go(Departures& leaving, std::uint64_t& tally) {
-  if (leaving.slots.empty()) return;
+RemovalSums CpuBackend<Real>::let_go(Departures& leaving) {
+  if (leaving.slots.empty()) return {};
   add_elastic(leaving.slots, leaving.sums.elastic);
-  leaving.sums.book_gone(ledger_, tally);
   for (const std::uint32_t slot : leaving.slots) particles_.remove(slot);
   particles_.recount();
+  return leaving.sums;
 }
 
 // Energy of the contacts between particles and of the springs that end at one of some particles. It takes a list that
@@ -154,17 +182,21 @@ bool CpuBackend<Real>::rebuild_under(std::vector<std::uint32_t>& slots) {
   return true;
 }
 
-template void CpuBackend<float>::sink_particles();
-template void CpuBackend<double>::sink_particles();
-template void CpuBackend<float>::expire(std::span<const std::uint64_t> ids, std::vector<std::uint8_t>& was_there);
-template void CpuBackend<double>::expire(std::span<const std::uint64_t> ids, std::vector<std::uint8_t>& was_there);
-template void CpuBackend<float>::give_birth(const ParticleSet& newborn);
-template void CpuBackend<double>::give_birth(const ParticleSet& newborn);
+template std::optional<ParticleAt> CpuBackend<float>::find(std::uint64_t id) const;
+template std::optional<ParticleAt> CpuBackend<double>::find(std::uint64_t id) const;
+template void CpuBackend<float>::edit(std::span<const ParticleAt> edited);
+template void CpuBackend<double>::edit(std::span<const ParticleAt> edited);
+template RemovalSums CpuBackend<float>::insert(const ParticleSet& newborn);
+template RemovalSums CpuBackend<double>::insert(const ParticleSet& newborn);
+template Removal CpuBackend<float>::remove(std::span<const std::uint64_t> ids);
+template Removal CpuBackend<double>::remove(std::span<const std::uint64_t> ids);
+template RemovalSums CpuBackend<float>::remove_sunk();
+template RemovalSums CpuBackend<double>::remove_sunk();
 template void CpuBackend<float>::find_inside(const ShapeBounds& box, std::vector<Occupant>& out) const;
 template void CpuBackend<double>::find_inside(const ShapeBounds& box, std::vector<Occupant>& out) const;
 template void CpuBackend<float>::collect(Departures& total, const Departures& part) const;
 template void CpuBackend<double>::collect(Departures& total, const Departures& part) const;
-template void CpuBackend<float>::let_go(Departures& leaving, std::uint64_t& tally);
-template void CpuBackend<double>::let_go(Departures& leaving, std::uint64_t& tally);
+template RemovalSums CpuBackend<float>::let_go(Departures& leaving);
+template RemovalSums CpuBackend<double>::let_go(Departures& leaving);
 
 }  // namespace hooke

@@ -21,6 +21,7 @@ void ParticleState<Real>::place(const ParticleSet& particles, std::size_t births
   count_of_.assign(scene_->materials.size(), 0);
   for (const std::uint16_t m : particles.material) ++count_of_[m];
   recount();
+  slot_of_rank_.clear();
   const bool tied = scene_->structure != nullptr;  // to slots, until all are laid out again
   slots.lay_out(count_ - loose_count_, room_for_births(true) + births, loose_count_, room_for_births(false) + births,
                 tied);
@@ -65,6 +66,7 @@ template <class Real>
 void ParticleState<Real>::reorder(std::span<const std::uint32_t> order) {
   HOOKE_ASSERT(order.size() >= count_ - loose_count_, order.size(), count_, loose_count_);
   slots.set_listed(count_ - loose_count_);
+  slot_of_rank_.clear();
   permute(records, next, order);
   fill_unused(records);
   if (verlet()) {
@@ -99,10 +101,41 @@ bool ParticleState<Real>::has_room_for(const ParticleSet& newborn) const {
 }
 
 template <class Real>
+void ParticleState<Real>::find_slots() const {
+  if (slot_of_rank_.size() == ids.size()) return;
+  slot_of_rank_.assign(ids.size(), kNoSlot);
+  parallel_ranges(slots.end(), kSegment, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      if (!is_nowhere(records[i])) slot_of_rank_[rank_of(records[i].rank)] = static_cast<std::uint32_t>(i);
+    }
+  });
+}
+
+template <class Real>
+std::size_t ParticleState<Real>::slot_of(std::uint64_t id) const {
+  HOOKE_ASSERT(slot_of_rank_.size() == ids.size(), slot_of_rank_.size(), ids.size());
+  const std::size_t rank = ids.find(id);
+  if (rank == ids.size()) return kNoSlot;
+  const std::size_t slot = slot_of_rank_[rank];  // where another may be by now
+  const bool there = slot != kNoSlot && !is_nowhere(records[slot]) && rank_of(records[slot].rank) == rank;
+  return there ? slot : kNoSlot;
+}
+
+template <class Real>
+void ParticleState<Real>::set(std::size_t slot, const Vec3d& position, const Vec3d& velocity) {
+  Record& p = records[slot];
+  HOOKE_ASSERT(!is_nowhere(p), slot);
+  p.x = vec_cast<Real>(position);
+  p.v = vec_cast<Real>(velocity);
+  wrap_periodic(rules_->pass, p);
+}
+
+template <class Real>
 std::size_t ParticleState<Real>::add(std::size_t slot, const ParticleSet& newborn, std::size_t k) {
   ids.append(newborn.id[k]);
   const std::size_t rank = ids.size() - 1;
   put(slot, rank, newborn, k);
+  if (slot_of_rank_.size() == rank) slot_of_rank_.push_back(static_cast<std::uint32_t>(slot));
   if (verlet()) acceleration[slot] = {Real(0), Real(0), Real(0)};
   ++count_of_[newborn.material[k]];
   return rank;

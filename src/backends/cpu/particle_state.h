@@ -63,6 +63,15 @@ class ParticleState {
   std::size_t room_for_births(bool listed) const;
   bool has_room_for(const ParticleSet& newborn) const;
 
+  static constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};
+  /// Finds out which slot each id has. A pass over all particles where slots have changed since; else nothing.
+  void find_slots() const;
+  /// The slot of a particle by its id, after find_slots(); kNoSlot where there is none.
+  std::size_t slot_of(std::uint64_t id) const;
+
+  /// Gives the particle in a slot another position (m) and velocity (m/s).
+  void set(std::size_t slot, const Vec3d& position, const Vec3d& velocity);
+
   /// Puts the k-th newborn into a slot that was taken for it; recount() when all are in. Returns its rank.
   std::size_t add(std::size_t slot, const ParticleSet& newborn, std::size_t k);
   /// Sends who is in a slot nowhere; recount() when all are gone.
@@ -84,6 +93,7 @@ class ParticleState {
   std::vector<std::uint64_t> count_of_;  // particles by material
   std::size_t count_ = 0, loose_count_ = 0;
   double mass_ = 0;  // kg
+  mutable std::vector<std::uint32_t> slot_of_rank_;  // by find_slots(); empty where slots have changed since
 };
 
 extern template class ParticleState<float>;

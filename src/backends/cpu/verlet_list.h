@@ -86,6 +86,13 @@ class VerletList {
     note_far(i / kLanes, 1U << i % kLanes);
   }
 
+  /// Particle i has been moved by other than a step: a stray from now on. Rows get it when they are mended next.
+  void note_moved(std::size_t i) {
+    if (!listed_) return;
+    if (rules_->pass.periodic_kind == PeriodicKind::images) return forget();
+    note_far(i / kLanes, 1U << i % kLanes);
+  }
+
   /// These pairs (indices) were kept apart and may touch from now on: rows get them when they are mended next.
   void release(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
     for (const auto& [i, p] : pairs) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include "hooke/backends/reference/reference_attraction.h"
@@ -50,38 +51,63 @@ class ReferenceBackend final : public Backend {
   void break_springs(const std::vector<std::uint64_t>& broken) override { springs_.break_these(broken); }
   std::vector<std::uint64_t> broken_springs() const override { return springs_.broken(); }
 
-  Condition upload(const ParticleSet& particles, std::uint64_t first_new_id, const Ledger& ledger) override {
+  void assign(const ParticleSet& particles) override {
     HOOKE_ASSERT(are_particles_of(particles, scene_), particles.size(), scene_.materials.size());
     p_ = particles;
-    ledger_ = ledger;
     for (Vec3d& x : p_.position) wrap_periodic(x);
-    if (!verlet()) {
-      p_.acceleration.clear();
-      return {};
-    }
-    p_.acceleration.resize(p_.size());
-    if (p_.empty() || p_.id.back() < first_new_id) return {};
-    Forces now = accelerations();
-    for (std::size_t i = 0; i < p_.size(); ++i) {
-      const bool held = is_held(i);
-      if (held) {
-        const Vec3d& v = p_.velocity[i];
-        now.applied_sums.add_held(material(i).mass, v, kick(v, now.a[i], scene_.time_step / 2), scene_.time_step / 2);
-        now.a[i] = {0, 0, 0};
-      }
-      if (p_.id[i] >= first_new_id) p_.acceleration[i] = now.a[i];
-      add_work(now, i, p_.velocity[i], kick(p_.velocity[i], now.a[i], scene_.time_step / 2));
-    }
-    ledger_.last = first_rates(now.sums, &now.applied_sums, scene_.gravity, total_mass());
-    return {};
+    p_.acceleration.resize(verlet() ? p_.size() : 0);
   }
 
   void download(ParticleSet& out) const override { out = p_; }
+  std::uint64_t particle_count() const override { return p_.size(); }
 
-  void set_time(double seconds) override { time_ = seconds; }
+  std::optional<ParticleAt> find(std::uint64_t id) const override {
+    const std::size_t i = p_.find(id);
+    if (i == p_.size()) return std::nullopt;
+    return ParticleAt{id, p_.material[i], p_.position[i], p_.velocity[i]};
+  }
 
-  void place_colliders(std::span<const ColliderPose> poses) override {
-    colliders_ = hooke::place_colliders<double>(scene_, poses, largest_radius() + table_.widest_range());
+  void edit(std::span<const ParticleAt> edited) override {
+    for (const ParticleAt& to : edited) {
+      const std::size_t i = p_.find(to.id);
+      HOOKE_ASSERT(i < p_.size(), to.id);
+      p_.position[i] = to.position;
+      p_.velocity[i] = to.velocity;
+      wrap_periodic(p_.position[i]);
+    }
+  }
+
+  RemovalSums insert(const ParticleSet& newborn) override {
+    HOOKE_ASSERT(are_particles_of(newborn, scene_), newborn.size(), scene_.materials.size());
+    HOOKE_ASSERT(newborn.empty() || p_.empty() || newborn.id.front() > p_.id.back(), newborn.id.front(), p_.id.back());
+    RemovalSums born;
+    for (std::size_t k = 0; k < newborn.size(); ++k) {
+      p_.id.push_back(newborn.id[k]);
+      p_.material.push_back(newborn.material[k]);
+      p_.position.push_back(newborn.position[k]);
+      p_.velocity.push_back(newborn.velocity[k]);
+      if (verlet()) p_.acceleration.push_back({0, 0, 0});
+      wrap_periodic(p_.position.back());
+      born.add_particle(material(p_.size() - 1).mass, p_.position.back(), p_.velocity.back(), scene_.gravity);
+    }
+    const std::size_t first = p_.size() - newborn.size();
+    if (!newborn.empty()) add_elastic([&](std::size_t i) { return i >= first; }, born.elastic);
+    return born;
+  }
+
+  Removal remove(std::span<const std::uint64_t> ids) override {
+    Removal removal;
+    for (const std::uint64_t id : ids) removal.was_there.push_back(p_.find(id) < p_.size() ? 1 : 0);
+    const std::set<std::uint64_t> gone(ids.begin(), ids.end());
+    removal.sums = remove_where([&](std::size_t i) { return gone.contains(p_.id[i]); });
+    return removal;
+  }
+
+  RemovalSums remove_sunk() override {
+    return remove_where([&](std::size_t i) {
+      return std::any_of(sinks_.begin(), sinks_.end(),
+                         [&](const ShapeGeometry<double>& sink) { return encloses(sink, p_.position[i]); });
+    });
   }
 
   void half_kick_and_drift() override {
@@ -92,7 +118,13 @@ class ReferenceBackend final : public Backend {
       p_.velocity[i] = kick(p_.velocity[i], p_.acceleration[i], scene_.time_step / 2);
       p_.position[i] = drift(p_.position[i], p_.velocity[i], scene_.time_step);
     }
-    apply_boundaries();
+  }
+
+  // Wraps periodic coordinates and removes particles outside open faces. Under velocity Verlet they have had their half
+  // kick.
+  void finish_motion(RemovalSums& left) override {
+    for (Vec3d& x : p_.position) wrap_periodic(x);
+    left.add(remove_where([&](std::size_t i) { return is_outside_open_face(p_.position[i]); }, false));
   }
 
   bool neighbours_stale() const override { return true; }  // there is no list: every pair is looked at, every step
@@ -107,63 +139,40 @@ class ReferenceBackend final : public Backend {
     return {};
   }
 
-  Condition apply_forces() override {
+  void apply_forces(const Instant& now, StepReport& report) override {
     const Stopwatch forcing(times_.force);
-    Forces forces = accelerations();
-    const std::vector<std::size_t> torn = springs_.torn(p_, forces.applied_sums.springs);
+    Forces forces = accelerations(now, report);
+    const std::vector<std::size_t> torn = springs_.torn(p_, report.applied->springs);
     const double dt = scene_.time_step, kick_time = verlet() ? dt / 2 : dt;
     for (std::size_t i = 0; i < p_.size(); ++i) {
       const Vec3d before = p_.velocity[i];
       const Vec3d kicked = kick(before, forces.a[i], kick_time);
       if (is_held(i)) {
-        forces.applied_sums.add_held(material(i).mass, before, kicked, kick_time);
+        report.applied->add_held(material(i).mass, before, kicked, kick_time);
         forces.a[i] = {0, 0, 0};
       } else {
         p_.velocity[i] = kicked;
         if (!verlet()) p_.position[i] = drift(p_.position[i], p_.velocity[i], dt);
       }
-      add_work(forces, i, before, p_.velocity[i]);
+      add_work(forces, i, before, p_.velocity[i], *report.applied);
     }
-    book_step(ledger_, forces.sums, &forces.applied_sums, scene_.gravity, total_mass(), dt, scene_.integrator);
     if (verlet()) p_.acceleration = forces.a;
     springs_.tear(torn);
-    if (!verlet()) apply_boundaries();
-    return forces.condition;
   }
 
-  void sink_particles() override {
-    const auto sunk = [&](std::size_t i) {
-      return std::any_of(sinks_.begin(), sinks_.end(),
-                         [&](const ShapeGeometry<double>& sink) { return encloses(sink, p_.position[i]); });
-    };
-    remove_where(sunk).book_gone(ledger_, ledger_.population.sunk);
-  }
-
-  void expire(std::span<const std::uint64_t> ids, std::vector<std::uint8_t>& was_there) override {
-    was_there.clear();
-    for (const std::uint64_t id : ids) was_there.push_back(p_.find(id) < p_.size() ? 1 : 0);
-    const std::set<std::uint64_t> ended(ids.begin(), ids.end());
-    remove_where([&](std::size_t i) {
-      return ended.contains(p_.id[i]);
-    }).book_gone(ledger_, ledger_.population.expired);
-  }
-
-  void give_birth(const ParticleSet& newborn) override {
-    HOOKE_ASSERT(are_particles_of(newborn, scene_), newborn.size(), scene_.materials.size());
-    HOOKE_ASSERT(newborn.empty() || p_.empty() || newborn.id.front() > p_.id.back(), newborn.id.front(), p_.id.back());
-    RemovalSums born;
-    for (std::size_t k = 0; k < newborn.size(); ++k) {
-      p_.id.push_back(newborn.id[k]);
-      p_.material.push_back(newborn.material[k]);
-      p_.position.push_back(newborn.position[k]);
-      p_.velocity.push_back(newborn.velocity[k]);
-      if (verlet()) p_.acceleration.push_back({0, 0, 0});
-      wrap_periodic(p_.position.back());
-      born.add_particle(material(p_.size() - 1).mass, p_.position.back(), p_.velocity.back(), scene_.gravity);
+  void evaluate_accelerations(const Instant& now, std::uint64_t first_new_id, StepReport& report) override {
+    HOOKE_ASSERT(verlet());
+    Forces forces = accelerations(now, report);
+    report.condition = {};  // nothing moves yet: the first step will say so
+    for (std::size_t i = 0; i < p_.size(); ++i) {
+      if (is_held(i)) {
+        const Vec3d& v = p_.velocity[i];
+        report.applied->add_held(material(i).mass, v, kick(v, forces.a[i], scene_.time_step / 2), scene_.time_step / 2);
+        forces.a[i] = {0, 0, 0};
+      }
+      if (p_.id[i] >= first_new_id) p_.acceleration[i] = forces.a[i];
+      add_work(forces, i, p_.velocity[i], kick(p_.velocity[i], forces.a[i], scene_.time_step / 2), *report.applied);
     }
-    const std::size_t first = p_.size() - newborn.size();
-    add_elastic([&](std::size_t i) { return i >= first; }, born.elastic);
-    born.book_born(ledger_);
   }
 
   void find_inside(const ShapeBounds& box, std::vector<Occupant>& out) const override {
@@ -172,16 +181,14 @@ class ReferenceBackend final : public Backend {
     }
   }
 
-  std::uint64_t particle_count() const override { return p_.size(); }
-  const Ledger& ledger() const override { return ledger_; }
-
   std::uint64_t particles_hash() const override {
     std::uint64_t hash = 0;
     for (std::size_t i = 0; i < p_.size(); ++i) hash += particle_hash(p_.id[i], p_.position[i], p_.velocity[i]);
     return hash;
   }
 
-  Expected<Measurements> measure() override {
+  Expected<Measurements> measure(const Instant& now) override {
+    place_colliders_at(now);
     MeasurementSums sums;
     for (std::size_t i = 0; i < p_.size(); ++i) {
       sums.add_particle(material(i).mass, p_.position[i], p_.velocity[i], scene_.gravity);
@@ -214,10 +221,7 @@ class ReferenceBackend final : public Backend {
   };
   struct Forces {
     std::vector<Vec3d> a;  // m/s^2
-    StepSums sums;
     std::vector<Acting> applied;  // in the order of their sum
-    AppliedSums applied_sums;
-    Condition condition;
   };
 
   bool verlet() const { return scene_.integrator == Integrator::velocity_verlet; }
@@ -245,11 +249,14 @@ class ReferenceBackend final : public Backend {
 
   // Forces on each particle in canonical order, cause by cause: contacts by (neighbour id, image), walls, colliders,
   // drag, springs by index, fields and attraction; then gravity.
-  Forces accelerations() const {
+  Forces accelerations(const Instant& now, StepReport& report) {
+    place_colliders_at(now);
+    report.mass = total_mass();
+    report.applied.emplace();
     Forces out;
     out.a.resize(p_.size());
-    out.applied.push_back({Cause::springs, springs_.forces(p_, out.applied_sums.springs)});
-    out.applied.push_back({Cause::field, field_forces(scene_, p_, time_)});
+    out.applied.push_back({Cause::springs, springs_.forces(p_, report.applied->springs)});
+    out.applied.push_back({Cause::field, field_forces(scene_, p_, now.time)});
     out.applied.push_back({Cause::attraction, attraction_.forces(p_)});
     const double dt = scene_.time_step;
     for (std::size_t i = 0; i < p_.size(); ++i) {
@@ -270,8 +277,8 @@ class ReferenceBackend final : public Backend {
         }
         const double approach = dot(w, normal);
         if (overlap > 0 && approach > std::min(m.radius, material(p).radius) / dt) {
-          out.condition =
-              Condition::first(out.condition, {Condition::Kind::approach_too_fast, p_.id[i], p_.id[p], approach});
+          report.condition =
+              Condition::first(report.condition, {Condition::Kind::approach_too_fast, p_.id[i], p_.id[p], approach});
         }
       });
 
@@ -279,8 +286,8 @@ class ReferenceBackend final : public Backend {
         walls += force(overlap, normal, -v, table_.wall(p_.material[i]));
         const double approach = dot(-v, normal);
         if (overlap > 0 && approach > m.radius / dt) {
-          out.condition =
-              Condition::first(out.condition, {Condition::Kind::wall_approach_too_fast, p_.id[i], 0, approach});
+          report.condition =
+              Condition::first(report.condition, {Condition::Kind::wall_approach_too_fast, p_.id[i], 0, approach});
         }
       });
 
@@ -289,8 +296,8 @@ class ReferenceBackend final : public Backend {
         colliders += force(overlap, face.normal, w, collider_pair(i, c));
         const double approach = dot(w, face.normal);
         if (overlap > 0 && approach > m.radius / dt) {
-          out.condition =
-              Condition::first(out.condition, {Condition::Kind::collider_approach_too_fast, p_.id[i], c, approach});
+          report.condition =
+              Condition::first(report.condition, {Condition::Kind::collider_approach_too_fast, p_.id[i], c, approach});
         }
       });
       if (table_.is_linear() && has_one_material()) contacts.linear = contact_forces(alike, pair(i, i).linear);
@@ -304,9 +311,9 @@ class ReferenceBackend final : public Backend {
       const Vec3d sum = (((by_contacts + walls) + colliders) + drag) + applied;
       out.a[i] = (1 / m.mass) * sum + scene_.gravity;
 
-      out.sums.wall_force.add(walls);
-      out.sums.collider_force.add(colliders);
-      out.sums.drag_force.add(drag);
+      report.sums.wall_force.add(walls);
+      report.sums.collider_force.add(colliders);
+      report.sums.drag_force.add(drag);
       const auto add_powers = [&](ByCause<ExactSum, kPassCauses>& power, const Vec3d& before, const Vec3d& after) {
         const Vec3d twice_mean = before + after;
         power[Cause::contact_spring].add(dot(contacts.linear.spring, twice_mean));
@@ -320,18 +327,18 @@ class ReferenceBackend final : public Backend {
       };
       const bool held = is_held(i);
       const Vec3d after = held ? v : kick(v, out.a[i], verlet() ? dt / 2 : dt);
-      add_powers(out.sums.power, v, after);
-      if (verlet()) add_powers(out.sums.next_power, after, held ? v : kick(after, out.a[i], dt / 2));
+      add_powers(report.sums.power, v, after);
+      if (verlet()) add_powers(report.sums.next_power, after, held ? v : kick(after, out.a[i], dt / 2));
     }
     return out;
   }
 
   // What the applied forces on particle i do in a kick from `before` to `after`, and in the half kick to come.
-  void add_work(Forces& forces, std::size_t i, const Vec3d& before, const Vec3d& after) const {
+  void add_work(const Forces& forces, std::size_t i, const Vec3d& before, const Vec3d& after, AppliedSums& sums) const {
     for (const Acting& acting : forces.applied) {
       if (acting.force.empty()) continue;
       const Vec3d& force = acting.force[i];
-      AppliedSums::Rates& rates = forces.applied_sums[acting.cause];
+      AppliedSums::Rates& rates = sums[acting.cause];
       rates.power.add(dot(force, before + after));
       if (verlet()) rates.next_power.add(dot(force, after + kick(after, forces.a[i], scene_.time_step / 2)));
       if (acting.cause != Cause::springs) rates.force.add(force);  // springs give each other what they take
@@ -411,21 +418,13 @@ class ReferenceBackend final : public Backend {
     }
   }
 
-  // Wraps periodic coordinates and removes particles outside open faces.
-  void apply_boundaries() {
-    for (Vec3d& x : p_.position) wrap_periodic(x);
-    const auto left = [&](std::size_t i) {
-      for (int axis = 0; axis < 3; ++axis) {
-        const double x = component(p_.position[i], axis);
-        const double min = component(scene_.domain.min, axis);
-        const double max = component(scene_.domain.max, axis);
-        const Boundary boundary = scene_.domain.boundary[static_cast<std::size_t>(axis)];
-        if (boundary == Boundary::open && (x < min || x > max)) return true;
-      }
-      return false;
-    };
-    // Under velocity Verlet they have had their half kick.
-    remove_where(left, false).book(ledger_);
+  bool is_outside_open_face(const Vec3d& x) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool outside = component(x, axis) < component(scene_.domain.min, axis) ||
+                           component(x, axis) > component(scene_.domain.max, axis);
+      if (outside && scene_.domain.boundary[static_cast<std::size_t>(axis)] == Boundary::open) return true;
+    }
+    return false;
   }
 
   // Takes particles away for which gone(i); under velocity Verlet with what the half kick to come would have given
@@ -473,8 +472,11 @@ class ReferenceBackend final : public Backend {
     return mass.value();
   }
 
+  void place_colliders_at(const Instant& now) {
+    colliders_ = hooke::place_colliders<double>(scene_, now.poses, largest_radius() + table_.widest_range());
+  }
+
   Scene scene_;
-  double time_ = 0;  // s
   ContactTable table_;
   ReferenceSprings springs_;
   ReferenceAttraction attraction_;
@@ -483,7 +485,6 @@ class ReferenceBackend final : public Backend {
   PlacedColliders<double> colliders_;
   std::vector<ShapeGeometry<double>> sinks_;
   ParticleSet p_;
-  Ledger ledger_;
   StageTimes times_;
 };
 

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "hooke/core/backend.h"
+
+namespace hooke {
+
+/// What the ranks that compute one scene together tell each other in a step. Each rank's back end holds and reports of
+/// its own particles; every rank calls each of these at the same place of the same step.
+class Communicator {
+ public:
+  virtual ~Communicator() = default;
+
+  /// Whether it is so on any rank.
+  virtual bool any(bool here) = 0;
+
+  /// Before a neighbour list: every particle to the rank that owns its place, and anew the ghosts, copies of the other
+  /// ranks' particles that may touch one of these until the next list.
+  virtual void migrate(Backend& backend) = 0;
+
+  /// After particles have moved: ghosts to where they are now.
+  virtual void update(Backend& backend) = 0;
+
+  /// The reports of all ranks become one, the same on each.
+  virtual void sum(StepReport& report) = 0;
+  virtual void sum(RemovalSums& sums) = 0;
+};
+
+/// A scene on one rank: nobody to talk to.
+class SerialCommunicator final : public Communicator {
+ public:
+  bool any(bool here) override { return here; }
+  void migrate(Backend&) override {}
+  void update(Backend&) override {}
+  void sum(StepReport&) override {}
+  void sum(RemovalSums&) override {}
+};
+
+}  // namespace hooke
