@@ -348,16 +348,11 @@ Expected<void> Simulation::remove_particles(std::span<const std::uint64_t> ids) 
   std::vector<std::uint64_t> gone(ids.begin(), ids.end());
   std::sort(gone.begin(), gone.end());
   gone.erase(std::unique(gone.begin(), gone.end()), gone.end());
-  std::vector<ParticleAt> found;
-  found.reserve(gone.size());
   for (const std::uint64_t id : gone) {
-    const auto p = s.find(id);
-    if (!p) return fail(p.error());
-    found.push_back(*p);
+    if (const auto there = s.find(id); !there) return fail(there.error());
   }
   s.host_current = false;
-  s.backend->remove(gone);
-  for (const ParticleAt& p : found) s.initial_momentum -= s.mass_of(p.material) * p.velocity;
+  s.initial_momentum -= s.backend->remove(gone).sums.momentum.value();
   return {};
 }
 
