@@ -55,7 +55,7 @@ void spark_steps(benchmark::State& state) {
   if (!now) return state.SkipWithError(now.error().text().c_str());
   const Ledger& ledger = simulation->ledger();
   const PopulationLedger& population = ledger.population;
-  const std::uint64_t waiting = simulation->snapshot().emission.emitters[0].to_respawn;
+  const std::uint64_t waiting = simulation->state().emission.emitters[0].to_respawn;
   if (population.born != population.expired + ledger.removed + now->particles ||
       now->particles + waiting + ledger.removed != count || population.expired < count) {
     return state.SkipWithError("particles are lost or too many");

@@ -109,7 +109,7 @@ std::optional<double> share_of_walls(Simulation& simulation, const DeviceArgumen
   if (open.domain.boundary == simulation.scene().domain.boundary) return 0;
   auto backend = make_backend(device, open.precision);
   if (!backend) return {};
-  SimulationState state = simulation.snapshot();
+  SimulationState state = simulation.state();
   if (!simulation.restore(state)) return {};  // a fresh list, as the other has
   auto other = Simulation::resume(std::move(open), std::move(state), std::move(*backend));
   if (!other) return {};

@@ -23,7 +23,7 @@ namespace hooke::cli {
 
 struct FilmThread::Impl {
   struct Shot {
-    ParticleSet particles;
+    std::shared_ptr<const Snapshot> state;
     double late = 0;  // s after the time of the frame
     double time = 0;  // of the frame, s
   };
@@ -31,6 +31,7 @@ struct FilmThread::Impl {
 
   std::filesystem::path file;
   PictureArguments picture;
+  Scene scene;
   std::int64_t next_frame = 0;  // its time is next_frame / frames_per_second
 
   std::mutex mutex;
@@ -44,10 +45,11 @@ struct FilmThread::Impl {
   double time_of(std::int64_t frame) const { return static_cast<double>(frame) / picture.frames_per_second; }
 
   // The thread's own: OpenGL belongs to the one that opened it.
-  void draw(const Simulation& simulation, std::promise<Expected<void>> started) {
+  void draw(std::shared_ptr<const Snapshot> first, std::promise<Expected<void>> started) {
     auto studio = Studio::open(picture);
     if (!studio) return started.set_value(fail(std::move(studio).error()));
-    studio->set_scene(simulation.scene(), simulation.particles());
+    studio->set_scene(scene, first->particles);
+    first.reset();
     started.set_value({});
 
     // The file is opened by the first frame: a run that does not come about leaves an older film alone.
@@ -59,8 +61,9 @@ struct FilmThread::Impl {
         if (!opened) return give_up(std::move(opened).error());
         film = std::move(*opened);
       }
-      auto image = studio->picture(
-          shot->late > 0 ? drawn_back(simulation.scene(), shot->particles, shot->late) : shot->particles, shot->time);
+      const ParticleSet& particles = shot->state->particles;
+      auto image = shot->late > 0 ? studio->picture(drawn_back(scene, particles, shot->late), shot->time)
+                                  : studio->picture(particles, shot->time);
       seconds += studio->figures().total_seconds;
       auto added = image ? film->add(*image) : Expected<void>(fail(std::move(image).error()));
       if (!added) return give_up(std::move(added).error());
@@ -106,11 +109,12 @@ Expected<std::unique_ptr<FilmThread>> FilmThread::start(const std::filesystem::p
   auto impl = std::make_unique<Impl>();
   impl->file = file;
   impl->picture = picture;
+  impl->scene = simulation.scene();
   impl->next_frame = static_cast<std::int64_t>(std::ceil(simulation.time() * picture.frames_per_second - 1e-6));
   std::promise<Expected<void>> started;
   auto outcome = started.get_future();
-  impl->thread = std::thread([&impl = *impl, &simulation, started = std::move(started)]() mutable {
-    impl.draw(simulation, std::move(started));
+  impl->thread = std::thread([&impl = *impl, first = simulation.snapshot(), started = std::move(started)]() mutable {
+    impl.draw(std::move(first), std::move(started));
   });
   if (auto good = outcome.get(); !good) {
     impl->thread.join();
@@ -125,14 +129,14 @@ FilmThread::~FilmThread() { impl_->end(); }
 
 bool FilmThread::is_due(double time) const { return impl_->time_of(impl_->next_frame) <= time + 1e-9; }
 
-void FilmThread::show(const Simulation& simulation) {
+void FilmThread::show(const std::shared_ptr<const Snapshot>& now) {
   HOOKE_ASSERT(!impl_->ending);
-  for (const double time = simulation.time(); is_due(time); ++impl_->next_frame) {
+  for (const double time = now->time; is_due(time); ++impl_->next_frame) {
     const double frame_time = impl_->time_of(impl_->next_frame);
     std::unique_lock lock(impl_->mutex);
     impl_->changed.wait(lock, [&] { return impl_->error || impl_->waiting.size() < Impl::kMostWaiting; });
     if (impl_->error) continue;  // it is over; the run does not wait for its frames
-    impl_->waiting.push_back({simulation.particles(), std::max(0.0, time - frame_time), frame_time});
+    impl_->waiting.push_back({now, std::max(0.0, time - frame_time), frame_time});
     impl_->changed.notify_all();
   }
 }

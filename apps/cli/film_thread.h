@@ -22,7 +22,7 @@ class FilmThread {
   };
 
   /// bad_input where pictures can't be drawn; what check_film() and check_output_file() say has been asked before.
-  /// Camera and colours follow from the state of `simulation`, which must live on as long.
+  /// Camera and colours follow from the state of `simulation` now; it is not asked again.
   static Expected<std::unique_ptr<FilmThread>> start(const std::filesystem::path& file, const PictureArguments& picture,
                                                      const Simulation& simulation);
 
@@ -31,8 +31,8 @@ class FilmThread {
 
   /// Whether a frame is due at `time` (s).
   bool is_due(double time) const;
-  /// Before finish(). Takes the frames that are due from the state now; waits where two are still to be drawn.
-  void show(const Simulation& simulation);
+  /// Before finish(). Takes the frames that are due from the state `now`; waits where two are still to be drawn.
+  void show(const std::shared_ptr<const Snapshot>& now);
   /// Draws what is waiting and ends the film; what went wrong since the start.
   Expected<Summary> finish();
 

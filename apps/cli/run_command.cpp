@@ -94,17 +94,17 @@ class Run {
   // What is due at this step; at the end of the run, everything.
   Expected<void> write_outputs(bool at_end) {
     const std::int64_t step = simulation_.step_count();
-    if (frame_due(step)) film_->show(simulation_);
+    if (frame_due(step)) film_->show(simulation_.snapshot());
     const bool must = at_end || (step == first_ && new_folder_);
     if (must || output_due(step)) {
       const auto measurements = simulation_.measure();
       if (!measurements) return fail(measurements.error());
       if (auto written = writer_.write_series(make_series_row(simulation_, *measurements)); !written) return written;
-      if (auto written = writer_.write_snapshot(take_snapshot(simulation_)); !written) return written;
+      if (auto written = writer_.write_snapshot(simulation_.snapshot()); !written) return written;
     }
     const bool have_checkpoint = step == checkpoint_step_ || (step == first_ && !new_folder_);
     if ((must || checkpoint_due(step)) && !have_checkpoint) {
-      if (auto written = writer_.write_checkpoint(simulation_.snapshot()); !written) return written;
+      if (auto written = writer_.write_checkpoint(simulation_.state()); !written) return written;
       spdlog::info("checkpoint of step {}", step);
       checkpoint_step_ = step;
     }

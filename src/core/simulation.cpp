@@ -14,6 +14,7 @@
 #include "hooke/base/assert.h"
 #include "hooke/base/floating_point.h"
 #include "hooke/base/hash.h"
+#include "hooke/core/snapshot_pool.h"
 #include "hooke/core/step.h"
 
 namespace hooke {
@@ -104,9 +105,9 @@ struct Simulation::Impl {
   double initial_energy = 0, initial_elastic = 0;
   Vec3d initial_momentum{0, 0, 0};
 
-  // The host's copy of the particles: made on the first look after something has changed.
-  ParticleSet host;
-  bool host_current = false;
+  // The particles on the host: filled on the first look after something has changed, null before.
+  std::shared_ptr<const Snapshot> host;
+  SnapshotPool pool;
   // Under velocity Verlet particles with ids from here on were added since the last step and have no accelerations.
   std::uint64_t first_new_id = kNone;
   static constexpr std::uint64_t kNone = ~std::uint64_t{0};
@@ -119,12 +120,13 @@ struct Simulation::Impl {
   bool single() const { return scene.precision == Precision::single_precision; }
   double mass_of(std::size_t material) const { return scene.materials[material].mass; }
 
-  const ParticleSet& particles() {
-    if (!host_current) {
-      backend->download(host);
-      host_current = true;
-    }
-    return host;
+  const std::shared_ptr<const Snapshot>& snapshot() {
+    if (host) return host;
+    const std::shared_ptr<Snapshot> now = pool.take();
+    now->step = run.step;
+    now->time = static_cast<double>(run.step) * scene.time_step;
+    backend->download(now->particles);
+    return host = now;
   }
 
   Expected<ParticleAt> find(std::uint64_t id) const {
@@ -135,7 +137,7 @@ struct Simulation::Impl {
   void edit(const ParticleAt& before, const ParticleAt& after) {
     backend->edit({&after, 1});
     initial_momentum += mass_of(before.material) * (after.velocity - before.velocity);
-    host_current = false;
+    host.reset();
   }
 
   // Gives particles that were added their accelerations.
@@ -143,7 +145,7 @@ struct Simulation::Impl {
     if (failed) return fail(failure);
     const std::uint64_t first = std::exchange(first_new_id, kNone);
     if (first == kNone) return {};
-    host_current = false;
+    host.reset();
     return check(start_particles(scene, *backend, ranks, first, run));
   }
 
@@ -209,7 +211,7 @@ struct Simulation::Impl {
   Expected<void> start(const ParticleSet& particles, std::uint64_t first_new,
                        const std::vector<std::uint64_t>& broken_springs) {
     if (auto right = check_precision(); !right) return right;
-    host_current = false;
+    host.reset();
     first_new_id = kNone;
     try {
       backend->configure(scene);
@@ -229,7 +231,7 @@ struct Simulation::Impl {
     try {
       if (auto flushed = flush(); !flushed) return flushed;
       if (count == 0) return {};
-      host_current = false;
+      host.reset();
       for (std::int64_t i = 0; i < count; ++i) {
         if (auto taken = check(take_step(scene, *backend, ranks, run)); !taken) return taken;
       }
@@ -304,7 +306,8 @@ BackendInfo Simulation::backend_info() const { return impl_->backend->info(); }
 NeighbourStatistics Simulation::neighbour_statistics() const { return impl_->backend->neighbour_statistics(); }
 const StageTimes& Simulation::stage_times() const { return impl_->stage_times; }
 
-const ParticleSet& Simulation::particles() const { return impl_->particles(); }
+std::shared_ptr<const Snapshot> Simulation::snapshot() const { return impl_->snapshot(); }
+const ParticleSet& Simulation::particles() const { return impl_->snapshot()->particles; }
 std::span<const std::uint64_t> Simulation::ids() const { return particles().id; }
 std::span<const Vec3d> Simulation::positions() const { return particles().position; }
 std::span<const Vec3d> Simulation::velocities() const { return particles().velocity; }
@@ -329,7 +332,7 @@ Expected<std::vector<std::uint64_t>> Simulation::add_particles(std::span<const N
       added.position.push_back(p.position);
       added.velocity.push_back(p.velocity);
     }
-    s.host_current = false;
+    s.host.reset();
     s.backend->insert(added);
     s.first_new_id = std::min(s.first_new_id, s.run.next_id);
     s.run.next_id += added.size();
@@ -351,7 +354,7 @@ Expected<void> Simulation::remove_particles(std::span<const std::uint64_t> ids) 
   for (const std::uint64_t id : gone) {
     if (const auto there = s.find(id); !there) return fail(there.error());
   }
-  s.host_current = false;
+  s.host.reset();
   s.initial_momentum -= s.backend->remove(gone).sums.momentum.value();
   return {};
 }
@@ -397,14 +400,14 @@ Expected<void> Simulation::set_material(const Material& material) {
       return fail(Error{Error::Kind::bad_input, std::move(findings)});
     }
     if (auto flushed = s.flush(); !flushed) return flushed;
-    const ParticleSet& now = s.particles();
+    const std::shared_ptr<const Snapshot> all = s.snapshot();
+    const ParticleSet& now = all->particles;
     for (std::size_t i = 0; i < now.size(); ++i) {
       if (now.material[i] == k) s.initial_momentum += more_mass * now.velocity[i];
     }
     s.scene = std::move(changed);
     // All accelerations anew: those of the last step are of the old material.
-    const ParticleSet all = std::move(s.host);
-    return s.start(all, 0, s.backend->broken_springs());
+    return s.start(now, 0, s.backend->broken_springs());
   }
   return fail(Error::Kind::bad_input, "materials." + material.name, "there is no material of this name");
 }
@@ -427,7 +430,7 @@ Expected<void> Simulation::set_collider_motion(const std::string& name, const Mo
   return fail(Error::Kind::bad_input, "colliders", fmt::format("there is none of the name \"{}\"", name));
 }
 
-SimulationState Simulation::snapshot() const {
+SimulationState Simulation::state() const {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
   (void)s.flush();  // evaluates the accelerations of particles just added; a failure is the next step's to report

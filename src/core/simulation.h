@@ -13,6 +13,7 @@
 #include "hooke/core/emission.h"
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
+#include "hooke/core/snapshot.h"
 
 namespace hooke {
 
@@ -73,8 +74,11 @@ class Simulation {
   /// Wall time of all calls of step() so far, by stage.
   const StageTimes& stage_times() const;
 
-  /// The particles now, by ascending id. Valid until the next call that steps or changes something.
-  /// The first look after a step copies them from the back end.
+  /// The particles now: the same one until the next call that steps or changes something, then another. Keep it as
+  /// long as you like, on any thread. The first look after a step copies the particles from the back end.
+  std::shared_ptr<const Snapshot> snapshot() const;
+
+  /// Of snapshot(), by ascending id. Valid until the next call that steps or changes something.
   const ParticleSet& particles() const;
   std::span<const std::uint64_t> ids() const;
   std::span<const Vec3d> positions() const;  ///< m
@@ -98,7 +102,7 @@ class Simulation {
   Expected<void> set_collider_motion(const std::string& name, const Motion& motion);
 
   /// The complete state, and back to one: the same bits follow.
-  SimulationState snapshot() const;
+  SimulationState state() const;
   Expected<void> restore(SimulationState state);
 
   /// 64 bits that are equal only where every id, position and velocity, the clock and the id counter are

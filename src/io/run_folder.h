@@ -59,6 +59,7 @@ class RunWriter {
   std::filesystem::path checkpoint_path() const;
 
   /// Queues a snapshot. Steps ascend; a step that has been written already is not written twice.
+  Expected<void> write_snapshot(std::shared_ptr<const Snapshot> snapshot);
   Expected<void> write_snapshot(Snapshot snapshot);
   /// Queues the checkpoint that replaces the one there, after all snapshots queued before it.
   Expected<void> write_checkpoint(SimulationState state);

@@ -59,7 +59,7 @@ bool holds_run(const fs::path& folder) {
 
 /// The files of a run and the thread that writes the large ones.
 struct RunWriter::Impl {
-  using Item = std::variant<Snapshot, SimulationState>;
+  using Item = std::variant<std::shared_ptr<const Snapshot>, SimulationState>;
 
   Impl(fs::path run_folder, RunInfo run_info, ParticlesFile particles_file, SeriesFile series_file)
       : folder(std::move(run_folder)),
@@ -92,10 +92,10 @@ struct RunWriter::Impl {
   }
 
   Expected<void> write(const Item& item) {
-    if (const auto* snapshot = std::get_if<Snapshot>(&item)) {
+    if (const auto* snapshot = std::get_if<std::shared_ptr<const Snapshot>>(&item)) {
       return guarded(folder / kParticlesFile, [&] {
         const auto held = hdf5::lock();
-        particles.append(*snapshot);
+        particles.append(**snapshot);
       });
     }
     // A checkpoint says that all before it is there: so it must not reach the disk before them.
@@ -213,14 +213,19 @@ const fs::path& RunWriter::folder() const { return impl_->folder; }
 fs::path RunWriter::log_path() const { return impl_->folder / kLogFile; }
 fs::path RunWriter::checkpoint_path() const { return impl_->folder / kCheckpointFile; }
 
-Expected<void> RunWriter::write_snapshot(Snapshot snapshot) {
-  if (impl_->last_queued && snapshot.step <= *impl_->last_queued) {
-    if (snapshot.step == *impl_->last_queued) return {};
+Expected<void> RunWriter::write_snapshot(std::shared_ptr<const Snapshot> snapshot) {
+  HOOKE_ASSERT(snapshot != nullptr);
+  if (impl_->last_queued && snapshot->step <= *impl_->last_queued) {
+    if (snapshot->step == *impl_->last_queued) return {};
     return fail(Error::Kind::bad_input, (impl_->folder / kParticlesFile).string(),
                 "snapshots must be written in order of their steps");
   }
-  impl_->last_queued = snapshot.step;
+  impl_->last_queued = snapshot->step;
   return impl_->push(std::move(snapshot));
+}
+
+Expected<void> RunWriter::write_snapshot(Snapshot snapshot) {
+  return write_snapshot(std::make_shared<const Snapshot>(std::move(snapshot)));
 }
 
 Expected<void> RunWriter::write_checkpoint(SimulationState state) { return impl_->push(std::move(state)); }

@@ -27,11 +27,6 @@ RunInfo describe_run(const Simulation& simulation) {
   return describe_run(simulation.scene(), simulation.backend_info().precision);
 }
 
-Snapshot take_snapshot(const Simulation& simulation) {
-  const ParticleSet& now = simulation.particles();
-  return {simulation.step_count(), simulation.time(), {now.id, now.material, now.position, now.velocity, {}}};
-}
-
 const char* to_string(Precision precision) { return precision == Precision::single_precision ? "single" : "double"; }
 
 const char* to_string(Integrator integrator) {

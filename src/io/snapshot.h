@@ -9,6 +9,7 @@
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
 #include "hooke/core/simulation.h"
+#include "hooke/core/snapshot.h"
 
 namespace hooke {
 
@@ -36,19 +37,9 @@ struct RunInfo {
   friend bool operator==(const RunInfo&, const RunInfo&) = default;
 };
 
-/// The particles at one instant: state for output. Accelerations are left out.
-struct Snapshot {
-  std::int64_t step = 0;
-  double time = 0;  ///< step * dt, s
-  ParticleSet particles;
-};
-
 /// What files will say about a run of `scene` in this precision (that of BackendInfo).
 RunInfo describe_run(const Scene& scene, Precision precision);
 RunInfo describe_run(const Simulation& simulation);
-
-/// A copy of the particles as they are now.
-Snapshot take_snapshot(const Simulation& simulation);
 
 /// "single" and "double", as in scene files; "symplectic-euler" and "velocity-verlet".
 const char* to_string(Precision precision);

@@ -78,7 +78,7 @@ TEST_P(AttractingBalls, GoOnAfterARestart) {
   ASSERT_TRUE(advance(whole, 80));
   Simulation first = simulate(scene_, particles_, engine(1));
   ASSERT_TRUE(advance(first, 40));
-  Simulation second = resume(scene_, first.snapshot(), engine(3));
+  Simulation second = resume(scene_, first.state(), engine(3));
   ASSERT_TRUE(advance(second, 40));
   expect_same_bits(whole, second);
 }

@@ -112,8 +112,8 @@ TEST_P(Births, GoOnAfterARestart) {
   for (const std::int64_t steps : {1, 17, 45}) {
     Simulation first = simulate(scene_, particles_, engine(2));
     ASSERT_TRUE(advance(first, steps));
-    Simulation second = resume(scene_, first.snapshot(), engine(1));
-    EXPECT_EQ(second.snapshot().emission, first.snapshot().emission);
+    Simulation second = resume(scene_, first.state(), engine(1));
+    EXPECT_EQ(second.state().emission, first.state().emission);
     ASSERT_TRUE(advance(second, 90 - steps));
     expect_same_bits(whole, second);
   }
@@ -260,7 +260,7 @@ TEST(Emitters, CatchUp) {
   Simulation sim = simulate(scene, {}, kCpuDouble);
   ASSERT_TRUE(advance(sim, 105));
   EXPECT_NEAR(static_cast<double>(sim.particle_count()), 10.5, 1);
-  EXPECT_NEAR(sim.snapshot().emission.emitters[0].due, 105 - static_cast<double>(sim.particle_count()), 1e-9);
+  EXPECT_NEAR(sim.state().emission.emitters[0].due, 105 - static_cast<double>(sim.particle_count()), 1e-9);
 }
 
 TEST(Emitters, BearAgainUnderNewIds) {
@@ -284,7 +284,7 @@ TEST(Emitters, BearAgainUnderNewIds) {
         }
       }
       before = now;
-      const EmissionState state = sim.snapshot().emission;
+      const EmissionState state = sim.state().emission;
       EXPECT_EQ(now.size() + state.emitters[0].to_respawn, 50U) << "after step " << step;
     }
     EXPECT_GT(ever.size(), 300U);
@@ -306,7 +306,7 @@ TEST(Emitters, GoOnForLong) {
   Simulation b = simulate(scene, {}, {"cpu", Precision::double_precision, 2, ""});
 
   ASSERT_TRUE(advance(b, 60));
-  Simulation c = resume(scene, b.snapshot(), kCpuDouble);
+  Simulation c = resume(scene, b.state(), kCpuDouble);
   ASSERT_TRUE(advance(b, 10));
   ASSERT_TRUE(advance(c, 10));
   EXPECT_EQ(b.state_hash(), c.state_hash());
@@ -367,7 +367,7 @@ TEST(Sparks, FeelSpringsAndAttraction) {
     EXPECT_GT(cpu.ledger().population.sunk, 3U);
     EXPECT_LT(measured(cpu).springs, structure->springs.size());
     EXPECT_EQ(measured(cpu).springs, measured(reference).springs);
-    Simulation second = resume(scene, reference.snapshot(), kCpuDouble);
+    Simulation second = resume(scene, reference.state(), kCpuDouble);
     ASSERT_TRUE(advance(second, 20));
     ASSERT_TRUE(advance(cpu, 20));
     EXPECT_EQ(second.state_hash(), cpu.state_hash());

@@ -63,7 +63,7 @@ TEST_P(EditedScenes, GoOnAsIfAllWereLaidOutAnew) {
       ASSERT_TRUE(advance(*s, 5));
       ASSERT_NO_FATAL_FAILURE(edit(*s, burst));
     }
-    ASSERT_TRUE(laid_out.restore(laid_out.snapshot()));
+    ASSERT_TRUE(laid_out.restore(laid_out.state()));
     (void)measured(edited);  // evaluates the accelerations of those added, as a snapshot does
     expect_same_bits(edited, laid_out);
   }

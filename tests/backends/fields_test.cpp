@@ -84,7 +84,7 @@ TEST_P(BusyFields, GoOnOverARestart) {
   ASSERT_TRUE(advance(first, kSteps / 2));
   Scene rules = scene_;
   rules.structure = nullptr;  // as a scene that is read without its particles; the state brings it
-  Simulation second = resume(rules, first.snapshot(), engine(1));
+  Simulation second = resume(rules, first.state(), engine(1));
   ASSERT_TRUE(advance(second, kSteps / 2));
   expect_same_bits(whole, second);
 }

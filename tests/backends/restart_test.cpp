@@ -19,7 +19,7 @@ TEST_P(Restarts, GoOnWithTheSameBits) {
 
     Simulation first = simulate(scene_, particles_, engine(3));
     ASSERT_TRUE(advance(first, steps));
-    const SimulationState saved = first.snapshot();
+    const SimulationState saved = first.state();
     Simulation second = resume(scene_, saved, engine(1));
     EXPECT_EQ(second.state_hash(), first.state_hash()) << "as saved, after " << steps;
     EXPECT_EQ(second.ledger(), first.ledger());
@@ -51,7 +51,7 @@ TEST_P(Restarts, GoOnAfterEdits) {
   Simulation whole = simulate(scene_, particles_, engine(2));
   ASSERT_TRUE(advance(whole, 10));
   edit(whole);
-  const SimulationState saved = whole.snapshot();
+  const SimulationState saved = whole.state();
   ASSERT_TRUE(advance(whole, 20));
   Simulation second = resume(scene_, saved, engine(2));
   ASSERT_TRUE(advance(second, 20));
@@ -68,11 +68,11 @@ TEST(ReferenceRestarts, GoOnWithTheSameBits) {
     ASSERT_TRUE(advance(whole, 60));
     Simulation first = simulate(scene, particles, kReference);
     ASSERT_TRUE(advance(first, 30));
-    Simulation second = resume(scene, first.snapshot(), kReference);
+    Simulation second = resume(scene, first.state(), kReference);
     ASSERT_TRUE(advance(second, 30));
     expect_same_bits(whole, second);
     // A state can change hands between back ends of one precision.
-    Simulation on_cpu = resume(scene, first.snapshot(), kCpuDouble);
+    Simulation on_cpu = resume(scene, first.state(), kCpuDouble);
     ASSERT_TRUE(advance(on_cpu, 30));
     EXPECT_EQ(on_cpu.state_hash(), whole.state_hash());
   }

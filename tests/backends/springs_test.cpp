@@ -110,7 +110,7 @@ TEST_P(Springs, StayBrokenOverARestart) {
   ASSERT_TRUE(advance(whole, kSteps));
   Simulation first = simulate(scene_, particles_, engine(3));
   ASSERT_TRUE(advance(first, kSteps / 2));
-  const SimulationState saved = first.snapshot();
+  const SimulationState saved = first.state();
   EXPECT_FALSE(saved.broken_springs.empty());
   Scene rules = scene_;
   rules.structure = nullptr;  // as a scene that is read without its particles; the state brings it

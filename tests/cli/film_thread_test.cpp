@@ -171,11 +171,11 @@ class FilmThreads : public testing::Test {
   // As a run goes on with a film, with a line in the log every step.
   void run(FilmThread& film, int steps) {
     for (int k = 0; k < steps; ++k) {
-      if (film.is_due(simulation_.time())) film.show(simulation_);
+      if (film.is_due(simulation_.time())) film.show(simulation_.snapshot());
       ASSERT_TRUE(test::advance(simulation_, 1));
       spdlog::info("step {}", simulation_.step_count());
     }
-    if (film.is_due(simulation_.time())) film.show(simulation_);
+    if (film.is_due(simulation_.time())) film.show(simulation_.snapshot());
   }
 
   void expect_frames(int frames) const {
@@ -207,7 +207,7 @@ TEST_F(FilmThreads, EachFrameShowsItsMoment) {
         const double late = (step - static_cast<double>(expected.size()) * steps_a_frame) * dt;
         expected.push_back(drawn_back(simulation_.scene(), simulation_.particles(), std::max(0.0, late)).position);
       }
-      if (film->is_due(simulation_.time())) film->show(simulation_);
+      if (film->is_due(simulation_.time())) film->show(simulation_.snapshot());
       ASSERT_TRUE(test::advance(simulation_, 1));
     }
     const auto summary = film->finish();
@@ -243,7 +243,7 @@ TEST_F(FilmThreads, ASlowRendererMakesTheRunWait) {
   std::atomic<int> shown{0};
   std::thread runs([&] {
     for (int step = 0; step < 8; ++step) {
-      film->show(simulation_);
+      film->show(simulation_.snapshot());
       ++shown;
       ASSERT_TRUE(test::advance(simulation_, 1));
     }

@@ -137,7 +137,7 @@ TEST_P(Edits, ReachParticlesDeepInAWall) {
   ASSERT_TRUE(advance(s, 80));
   ASSERT_LT(s.positions()[0].y, -100) << "its centre is beyond the wall";
   EXPECT_TRUE(s.apply_impulse(1, {0, 1, 0}));
-  EXPECT_TRUE(s.restore(s.snapshot()));
+  EXPECT_TRUE(s.restore(s.state()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, Edits,

@@ -61,7 +61,7 @@ TEST_P(Failures, CanBeGoneBackFrom) {
   const ParticleSet particles = pair_on_x(scene_, -0.05, {0, 0, 0}, {0, 0, 0});
   Simulation simulation = start(particles);
   ASSERT_TRUE(advance(simulation, 2));
-  const SimulationState good = simulation.snapshot();
+  const SimulationState good = simulation.state();
   ASSERT_TRUE(simulation.apply_impulse(1, {600, 0, 0}));
   stopped(simulation, 5);
   ASSERT_TRUE(simulation.restore(good));

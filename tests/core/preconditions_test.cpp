@@ -166,7 +166,7 @@ TEST(CorePreconditions, SavedSpringsThatDoNotAscendAreAnError) {
   structure->springs.push_back({.a = 1, .b = 2});
   scene.structure = structure;
   const Simulation simulation = simulate(scene, pair_on_x(scene, -0.1, {0, 0, 0}, {0, 0, 0}), kReference);
-  SimulationState state = simulation.snapshot();
+  SimulationState state = simulation.state();
   state.broken_springs = {7, 0};
   const auto resumed = Simulation::resume(scene, state, make_backend(kReference));
   ASSERT_FALSE(resumed);

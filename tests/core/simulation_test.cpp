@@ -184,7 +184,7 @@ INSTANTIATE_TEST_SUITE_P(Engines, AllEngines, testing::Values(kReference, kCpuDo
 TEST(Restore, RefusesAStateThatCannotBe) {
   Simulation simulation = simulate(open_scene(), two(), kReference);
   ASSERT_TRUE(advance(simulation, 3));
-  const SimulationState good = simulation.snapshot();
+  const SimulationState good = simulation.state();
   const auto refused = [&](const std::function<void(SimulationState&)>& change) {
     SimulationState state = good;
     change(state);
@@ -204,7 +204,7 @@ TEST(Restore, NeedsAccelerationsUnderVelocityVerlet) {
   Scene scene = open_scene();
   scene.integrator = Integrator::velocity_verlet;
   Simulation simulation = simulate(scene, two(), kReference);
-  SimulationState state = simulation.snapshot();
+  SimulationState state = simulation.state();
   EXPECT_EQ(state.particles.acceleration.size(), 2U);
   state.particles.acceleration.clear();
   EXPECT_FALSE(simulation.restore(state));

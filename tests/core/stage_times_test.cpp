@@ -41,7 +41,7 @@ TEST_P(StageTimesOf, LooksAndRestoresAreNoSteps) {
   EXPECT_EQ(simulation.stage_times().total(), 0) << "making it has built a list";
   ASSERT_TRUE(advance(simulation, 3));
   const double before = simulation.stage_times().total();
-  ASSERT_TRUE(simulation.restore(simulation.snapshot()));
+  ASSERT_TRUE(simulation.restore(simulation.state()));
   measured(simulation);
   EXPECT_EQ(simulation.stage_times().total(), before);
 }

@@ -103,7 +103,7 @@ TEST(Report, SeriesAndSnapshotsComeFromASimulation) {
   const SeriesRow row = make_series_row(simulation, *simulation.measure());
   EXPECT_EQ(row.step, 3);
   EXPECT_EQ(row.measurements.particles, 2U);
-  const Snapshot snapshot = take_snapshot(simulation);
+  const Snapshot snapshot = *simulation.snapshot();
   EXPECT_EQ(snapshot.step, 3);
   EXPECT_EQ(snapshot.time, simulation.time());
   EXPECT_EQ(snapshot.particles.position, simulation.particles().position);

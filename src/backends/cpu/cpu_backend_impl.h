@@ -56,7 +56,9 @@ class CpuBackend final : public Backend {
   std::vector<std::uint64_t> broken_springs() const override { return applied_.springs().broken(); }
 
   void assign(const ParticleSet& particles) override { take(particles); }
-  void download(ParticleSet& out) const override { particles_.download(out); }
+  void download(ParticleSet& out) const override {
+    threads_.run([&] { particles_.download(out); });
+  }
   std::uint64_t particle_count() const override { return particles_.count(); }
   std::optional<ParticleAt> find(std::uint64_t id) const override;
   void edit(std::span<const ParticleAt> edited) override;

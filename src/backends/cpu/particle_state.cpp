@@ -41,25 +41,38 @@ void ParticleState<Real>::place(const ParticleSet& particles, std::size_t births
 
 template <class Real>
 void ParticleState<Real>::download(ParticleSet& out) const {
-  constexpr std::uint32_t kGone = ~std::uint32_t{0};
-  std::vector<std::uint32_t> at(ids.size(), kGone);  // by rank, so by id
-  for (std::size_t i = 0; i < slots.end(); ++i) {
-    if (!is_nowhere(records[i])) at[rank_of(records[i].rank)] = static_cast<std::uint32_t>(i);
-  }
-  out.clear();
+  constexpr std::size_t kBlock = std::size_t{1} << 14U;  // of ranks
+  std::vector<std::uint32_t> fresh;
+  if (slot_of_rank_.size() != ids.size()) fresh = slots_by_rank();
+  const std::vector<std::uint32_t>& at = fresh.empty() ? slot_of_rank_ : fresh;
+
+  const std::size_t blocks = (ids.size() + kBlock - 1) / kBlock;
+  const auto for_blocks = [&](const auto& visit) {
+    parallel_ranges(blocks, 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t b = first; b < last; ++b) visit(b, b * kBlock, std::min((b + 1) * kBlock, ids.size()));
+    });
+  };
+  std::vector<std::size_t> start(blocks + 1, 0);  // of each block among the particles
+  for_blocks([&](std::size_t b, std::size_t first, std::size_t last) {
+    for (std::size_t rank = first; rank < last; ++rank) start[b + 1] += is_at(at[rank], rank) ? 1 : 0;
+  });
+  for (std::size_t b = 0; b < blocks; ++b) start[b + 1] += start[b];
+
   out.resize(count_);
-  if (verlet()) out.acceleration.resize(count_);
-  std::size_t k = 0;
-  for (std::size_t rank = 0; rank < at.size(); ++rank) {
-    if (at[rank] == kGone) continue;
-    const Record& record = records[at[rank]];
-    out.id[k] = ids[rank];
-    out.material[k] = static_cast<std::uint16_t>(record.material);
-    out.position[k] = vec_cast<double>(record.x);
-    out.velocity[k] = vec_cast<double>(record.v);
-    if (verlet()) out.acceleration[k] = vec_cast<double>(acceleration[at[rank]]);
-    ++k;
-  }
+  out.acceleration.resize(verlet() ? count_ : 0);
+  for_blocks([&](std::size_t b, std::size_t first, std::size_t last) {
+    std::size_t k = start[b];
+    for (std::size_t rank = first; rank < last; ++rank) {
+      if (!is_at(at[rank], rank)) continue;
+      const Record& record = records[at[rank]];
+      out.id[k] = ids[rank];
+      out.material[k] = static_cast<std::uint16_t>(record.material);
+      out.position[k] = vec_cast<double>(record.x);
+      out.velocity[k] = vec_cast<double>(record.v);
+      if (verlet()) out.acceleration[k] = vec_cast<double>(acceleration[at[rank]]);
+      ++k;
+    }
+  });
 }
 
 template <class Real>
@@ -102,23 +115,25 @@ bool ParticleState<Real>::has_room_for(const ParticleSet& newborn) const {
 
 template <class Real>
 void ParticleState<Real>::find_slots() const {
-  if (slot_of_rank_.size() == ids.size()) return;
-  slot_of_rank_.assign(ids.size(), kNoSlot);
-  parallel_ranges(slots.end(), kSegment, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      if (!is_nowhere(records[i])) slot_of_rank_[rank_of(records[i].rank)] = static_cast<std::uint32_t>(i);
-    }
-  });
+  if (slot_of_rank_.size() != ids.size()) slot_of_rank_ = slots_by_rank();
 }
 
 template <class Real>
 std::size_t ParticleState<Real>::slot_of(std::uint64_t id) const {
   HOOKE_ASSERT(slot_of_rank_.size() == ids.size(), slot_of_rank_.size(), ids.size());
   const std::size_t rank = ids.find(id);
-  if (rank == ids.size()) return kNoSlot;
-  const std::size_t slot = slot_of_rank_[rank];  // where another may be by now
-  const bool there = slot != kNoSlot && !is_nowhere(records[slot]) && rank_of(records[slot].rank) == rank;
-  return there ? slot : kNoSlot;
+  return rank < ids.size() && is_at(slot_of_rank_[rank], rank) ? slot_of_rank_[rank] : kNoSlot;
+}
+
+template <class Real>
+std::vector<std::uint32_t> ParticleState<Real>::slots_by_rank() const {
+  std::vector<std::uint32_t> at(ids.size(), kNoSlot);
+  parallel_ranges(slots.end(), kSegment, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      if (!is_nowhere(records[i])) at[rank_of(records[i].rank)] = static_cast<std::uint32_t>(i);
+    }
+  });
+  return at;
 }
 
 template <class Real>

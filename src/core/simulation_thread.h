@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "hooke/base/expected.h"
+#include "hooke/core/simulation.h"
+#include "hooke/core/snapshot.h"
+
+namespace hooke {
+
+/// Steps a simulation on a thread of its own, as fast as it goes, for a window or another reader that must not wait for
+/// it, nor it for the reader. Commands are carried out between steps, in the order in which they came; the latest state
+/// lies in a mailbox. No lock is held across a step. Any thread may call any member but finish() and the destructor,
+/// which are the last call.
+///
+///     hooke::SimulationThread thread(std::move(simulation));
+///     while (window.is_open()) {
+///       if (hand.pulls()) thread.post([=](hooke::Simulation& s) { (void)s.apply_impulse(id, pull); });
+///       draw(thread.latest()->particles);
+///     }
+class SimulationThread {
+ public:
+  /// What is done with the simulation between two steps.
+  using Command = std::function<void(Simulation&)>;
+
+  explicit SimulationThread(Simulation simulation, bool paused = false);
+  /// Ends after the step in hand; what waits is not carried out.
+  ~SimulationThread();
+  SimulationThread(const SimulationThread&) = delete;
+  SimulationThread& operator=(const SimulationThread&) = delete;
+
+  /// Queues a command: an edit, another material or motion, a restore. Returns at once.
+  void post(Command command);
+
+  /// The same with an answer, which is ready when the command has been carried out; a broken promise where the thread
+  /// ends before. A command that waits for the answer of another one waits for ever.
+  template <class Ask, class Answer = std::invoke_result_t<Ask, Simulation&>>
+  std::future<Answer> ask(Ask command) {
+    auto task = std::make_shared<std::packaged_task<Answer(Simulation&)>>(std::move(command));
+    std::future<Answer> answer = task->get_future();
+    post([task](Simulation& s) { (*task)(s); });
+    return answer;
+  }
+
+  /// After the step in hand.
+  void pause();
+  /// Goes on until told otherwise.
+  void resume();
+  /// Takes so many steps (> 0), beside those that earlier calls have asked for, then pauses.
+  void step(std::int64_t count = 1);
+  bool is_paused() const;
+
+  /// The latest state that was put into the mailbox, never null. Asks for a newer one to be put there after the step in
+  /// hand: while nobody looks, none is made.
+  std::shared_ptr<const Snapshot> latest();
+
+  /// What the last step failed with: the thread has paused, and steps again only when a command has restored a state.
+  std::optional<Error> failure() const;
+
+  /// Ends the thread after the step in hand, what waits being carried out. The simulation as it is then.
+  Simulation finish();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hooke

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "hooke/core/snapshot.h"
+
+namespace hooke {
+
+/// Snapshots whose memory is used again once all readers of one have let it go: fresh columns of half a million
+/// particles cost more than what is copied into them. Any thread may let go.
+class SnapshotPool {
+ public:
+  /// One to be filled; what is in it is left over.
+  std::shared_ptr<Snapshot> take() {
+    std::unique_ptr<Snapshot> snapshot = spares_->pop();
+    if (!snapshot) snapshot = std::make_unique<Snapshot>();
+    // The deleter shares the spares, so that a snapshot may outlive the pool.
+    return {snapshot.release(), [spares = spares_](Snapshot* p) { spares->push(std::unique_ptr<Snapshot>(p)); }};
+  }
+
+ private:
+  class Spares {
+   public:
+    std::unique_ptr<Snapshot> pop() {
+      const std::lock_guard lock(mutex_);
+      if (all_.empty()) return nullptr;
+      std::unique_ptr<Snapshot> last = std::move(all_.back());
+      all_.pop_back();
+      return last;
+    }
+    void push(std::unique_ptr<Snapshot> snapshot) {
+      const std::lock_guard lock(mutex_);
+      if (all_.size() < kMost) all_.push_back(std::move(snapshot));
+    }
+
+   private:
+    static constexpr std::size_t kMost = 2;
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<Snapshot>> all_;
+  };
+
+  std::shared_ptr<Spares> spares_ = std::make_shared<Spares>();
+};
+
+}  // namespace hooke

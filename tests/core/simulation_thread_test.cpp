@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/core/simulation_thread.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include "support/engines.h"
+#include "support/particles.h"
+
+namespace hooke::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+class SimulationThreads : public testing::Test {
+ protected:
+  static Simulation pool(const Engine& engine = {"cpu", Precision::single_precision, 2, ""}) {
+    Scene scene = open_scene();
+    scene.gravity = {0, -9.8, 0};
+    scene.domain.boundary[1] = Boundary::spring;
+    return simulate(scene, lattice(scene, {8, 8, 8}, {0, -99, 0}, 0.9, 0.05, 5), engine);
+  }
+
+  template <class Condition>
+  static bool wait_until(const Condition& holds) {
+    for (int i = 0; i < 10000; ++i) {
+      if (holds()) return true;
+      std::this_thread::sleep_for(1ms);
+    }
+    return false;
+  }
+};
+
+TEST_F(SimulationThreads, TakeTheStepsThatTheyAreAskedForWithTheSameBits) {
+  Simulation alone = pool();
+  ASSERT_TRUE(advance(alone, 30));
+  SimulationThread thread(pool(), true);
+  EXPECT_TRUE(thread.is_paused());
+  thread.step(10);
+  thread.step();
+  thread.step(19);
+  ASSERT_TRUE(wait_until([&] { return thread.is_paused(); }));
+  EXPECT_EQ(thread.ask([](Simulation& s) { return s.state_hash(); }).get(), alone.state_hash());
+  EXPECT_EQ(thread.finish().state_hash(), alone.state_hash());
+}
+
+TEST_F(SimulationThreads, CarryOutCommandsBetweenStepsInTheirOrder) {
+  SimulationThread thread(pool(), true);
+  std::vector<int> order;
+  for (int k = 0; k < 100; ++k) {
+    thread.post([&order, k](Simulation&) { order.push_back(k); });
+    if (k == 50) thread.resume();
+  }
+  const auto pushed = thread.ask([](Simulation& s) { return s.apply_impulse(7, {0, 3, 0}); }).get();
+  EXPECT_TRUE(pushed);
+  EXPECT_EQ(order.size(), 100U);
+  EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
+  thread.pause();
+  const SimulationState saved = thread.ask([](Simulation& s) { return s.state(); }).get();
+  const auto hash = thread.ask([](Simulation& s) { return s.state_hash(); }).get();
+  thread.step(5);
+  ASSERT_TRUE(wait_until([&] { return thread.is_paused(); }));
+  EXPECT_NE(thread.ask([](Simulation& s) { return s.state_hash(); }).get(), hash);
+  EXPECT_TRUE(thread.ask([&](Simulation& s) { return s.restore(saved); }).get());
+  EXPECT_EQ(thread.finish().state_hash(), hash);
+}
+
+// Readers look at whatever is the latest, and keep it while the simulation goes on.
+TEST_F(SimulationThreads, ShowStatesThatNeverChange) {
+  SimulationThread thread(pool());
+  std::vector<std::thread> readers;
+  std::atomic<int> looks{0};
+  for (int r = 0; r < 2; ++r) {
+    readers.emplace_back([&] {
+      std::vector<std::shared_ptr<const Snapshot>> kept;
+      std::vector<double> heights;
+      const auto height = [](const Snapshot& s) {
+        double sum = 0;
+        for (const Vec3d& x : s.particles.position) sum += x.y;
+        return sum;
+      };
+      for (std::int64_t seen = -1; seen < 20;) {
+        std::shared_ptr<const Snapshot> now = thread.latest();
+        ASSERT_GE(now->step, seen) << "time goes on";
+        ASSERT_EQ(now->particles.size(), 512U);
+        if (now->step == seen) continue;
+        seen = now->step;
+        heights.push_back(height(*now));
+        kept.push_back(std::move(now));
+        ++looks;
+      }
+      for (std::size_t k = 0; k < kept.size(); ++k) ASSERT_EQ(height(*kept[k]), heights[k]);
+    });
+  }
+  for (std::thread& reader : readers) reader.join();
+  EXPECT_GE(looks, 4);
+  EXPECT_FALSE(thread.failure());
+}
+
+// Looked at from outside, edited, and asked for another material while it steps.
+TEST_F(SimulationThreads, TakeEditsFromSeveralThreads) {
+  SimulationThread thread(pool());
+  std::vector<std::thread> hands;
+  for (std::uint64_t h = 0; h < 3; ++h) {
+    hands.emplace_back([&, h] {
+      for (std::uint64_t k = 0; k < 20; ++k) {
+        thread.post([=](Simulation& s) { ASSERT_TRUE(s.apply_impulse(1 + (31 * h + k) % 512, {0.1, 0, 0})); });
+        (void)thread.latest();
+        (void)thread.is_paused();
+      }
+    });
+  }
+  for (std::thread& hand : hands) hand.join();
+  Material softer = open_scene().materials[0];
+  softer.contact.stiffness *= 0.5;
+  EXPECT_TRUE(thread.ask([=](Simulation& s) { return s.set_material(softer); }).get());
+  const Simulation after = thread.finish();
+  EXPECT_EQ(after.particle_count(), 512U);
+  EXPECT_NEAR(measured(after).momentum.x, 60 * 0.1, 1e-3);
+}
+
+TEST_F(SimulationThreads, SayWhatAStepFailedWithAndGoOnFromAnotherState) {
+  SimulationThread thread(pool(), true);
+  const SimulationState good = thread.ask([](Simulation& s) { return s.state(); }).get();
+  ASSERT_TRUE(thread.ask([](Simulation& s) { return s.apply_impulse(1, {0, -1e6, 0}); }).get());
+  thread.step(100);
+  ASSERT_TRUE(wait_until([&] { return thread.is_paused(); }));
+  ASSERT_TRUE(thread.failure());
+  EXPECT_EQ(thread.failure()->kind, Error::Kind::run_failed);
+  ASSERT_TRUE(thread.ask([&](Simulation& s) { return s.restore(good); }).get());
+  thread.step(3);
+  ASSERT_TRUE(wait_until([&] { return thread.is_paused(); }));
+  EXPECT_FALSE(thread.failure());
+  EXPECT_EQ(thread.finish().step_count(), 3);
+}
+
+TEST_F(SimulationThreads, EndInTheMidstOfARun) {
+  std::future<int> never;
+  {
+    SimulationThread thread(pool());
+    (void)thread.latest();
+    thread.post([](Simulation&) { std::this_thread::sleep_for(50ms); });
+    std::this_thread::sleep_for(10ms);
+    never = thread.ask([](Simulation&) { return 1; });
+  }
+  EXPECT_THROW((void)never.get(), std::future_error);
+}
+
+TEST(SnapshotsOfASimulation, OutliveIt) {
+  std::shared_ptr<const Snapshot> start, same, later;
+  {
+    const Scene scene = open_scene();
+    Simulation s = simulate(scene, pair_on_x(scene, 0.1, {1, 0, 0}, {0, 0, 0}), kCpuDouble);
+    start = s.snapshot();
+    same = s.snapshot();
+    ASSERT_TRUE(advance(s, 3));
+    later = s.snapshot();
+  }
+  EXPECT_EQ(start, same) << "nothing has happened between them";
+  EXPECT_EQ(start->step, 0);
+  EXPECT_EQ(later->step, 3);
+  EXPECT_NE(start->particles.position, later->particles.position);
+}
+
+}  // namespace
+}  // namespace hooke::test
