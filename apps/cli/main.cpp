@@ -50,11 +50,9 @@ void add_device_options(CLI::App& command, DeviceArguments& device) {
   command.add_option("--threads", device.threads, "threads to use (default: all)")
       ->option_text("N")
       ->check(CLI::Range(1, kMostThreads));
-  command
-      .add_option("--device", device.device,
-                  "cpu (default), reference (all pairs, double), cuda, or auto: the best there is")
+  command.add_option("--device", device.device, "cpu (default) or reference (all pairs, double)")
       ->option_text("DEVICE")
-      ->check(CLI::IsMember({"cpu", "reference", "cuda", "auto"}));
+      ->check(CLI::IsMember({"cpu", "reference"}));
 }
 
 // "1280x720" into width and height.

@@ -18,9 +18,6 @@
 namespace hooke::cli {
 
 Expected<std::unique_ptr<Backend>> make_backend(const DeviceArguments& arguments, Precision precision) {
-  if (arguments.device == "cuda") {
-    return fail(Error::Kind::bad_input, "--device", "cuda is not in this build; cpu and reference are");
-  }
   if (arguments.device == "reference") return make_reference_backend();
   CpuOptions options;
   options.precision = precision;

@@ -115,8 +115,8 @@ class Backend {
   /// The particle of an id as it is stored; nothing where there is none.
   virtual std::optional<ParticleAt> find(std::uint64_t id) const = 0;
 
-  /// Gives particles that there are another position and velocity; their materials and accelerations stay. The cost
-  /// goes with the number of edits, and the neighbour list goes on.
+  /// Gives particles that there are another position and velocity; their materials and accelerations stay. Those that
+  /// have moved are looked after one by one until the next neighbour list, which many of them bring about.
   virtual void edit(std::span<const ParticleAt> edited) = 0;
 
   /// Adds particles, their ids above all that there ever were, with no acceleration of a last step: under velocity
@@ -140,7 +140,7 @@ class Backend {
   virtual void finish_motion(RemovalSums& left) = 0;
 
   /// Whether a pair not on the neighbour list could touch now. Always right; never depends on an old speed.
-  virtual bool neighbours_stale() const = 0;
+  virtual bool neighbours_stale() = 0;
 
   /// Sorts particles into cells and lists who may touch whom until the next time this is stale.
   virtual Condition build_neighbours() = 0;
@@ -152,7 +152,8 @@ class Backend {
   virtual void apply_forces(const Instant& now, StepReport& report) = 0;
 
   /// Velocity Verlet: evaluates the accelerations a(x, v) at `now` of the particles with an id >= `first_new_id`, which
-  /// have none of a last step. Nothing moves. Reports the condition, and the sums of the evaluation over all particles.
+  /// have none of a last step. Nothing moves. Reports the sums of the evaluation over all particles. The neighbour list
+  /// is not stale.
   virtual void evaluate_accelerations(const Instant& now, std::uint64_t first_new_id, StepReport& report) = 0;
 
   // The observer ----------------------------------------------------------------------------------------------------

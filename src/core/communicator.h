@@ -15,6 +15,9 @@ class Communicator {
   /// Whether it is so on any rank.
   virtual bool any(bool here) = 0;
 
+  /// Of what the ranks have found the one to report; good where all are.
+  virtual Condition first(const Condition& here) = 0;
+
   /// Before a neighbour list: every particle to the rank that owns its place, and anew the ghosts, copies of the other
   /// ranks' particles that may touch one of these until the next list.
   virtual void migrate(Backend& backend) = 0;
@@ -31,6 +34,7 @@ class Communicator {
 class SerialCommunicator final : public Communicator {
  public:
   bool any(bool here) override { return here; }
+  Condition first(const Condition& here) override { return here; }
   void migrate(Backend&) override {}
   void update(Backend&) override {}
   void sum(StepReport&) override {}

@@ -19,15 +19,11 @@
 #include "hooke/core/placed_colliders.h"
 #include "hooke/core/springs.h"
 #include "hooke/neighbours/cell_grid.h"
-#include "hooke/physics/contact.h"
-#include "hooke/physics/periodic.h"
-#include "hooke/physics/wall.h"
+#include "hooke/physics/contact_walk.h"
 
 namespace hooke {
 
 namespace {
-
-using Image = std::array<std::int32_t, 3>;
 
 // A contact of particle a, from its side: seen from the other one, it comes up a second time.
 struct Touch {
@@ -212,6 +208,8 @@ class ContactSearch {
     }
     const double reach = std::min(2 * largest + table_.widest_range(), furthest_);
     reach_ = reach;
+    walls_ = scene_.domain.walls();
+    images_.period = scene_.domain.period();
     bool periodic[3];
     for (int axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<std::size_t>(axis);
@@ -223,7 +221,7 @@ class ContactSearch {
       // On an axis of at least two contact distances the nearest image is the only one that can touch.
       const double length = scene_.domain.length(axis);
       component(period_, axis) = length;
-      images_[a] = length >= 2 * reach ? 0 : static_cast<std::int32_t>(reach / length) + 1;
+      images_.most[a] = length >= 2 * reach ? 0 : static_cast<std::int32_t>(reach / length) + 1;
     }
     grid_.lay_out(min, max, periodic, reach * (1 + 1e-6));
   }
@@ -246,71 +244,33 @@ class ContactSearch {
   }
 
   void add_pairs(std::size_t k, std::span<const std::uint32_t> near, std::vector<Touch>& touches) const {
-    for (const std::uint32_t n : near) {
-      if (any_periodic_) {
-        add_images(k, n, touches);
-      } else if (n != k) {
-        add_if_touching(k, n, Image{}, spheres_[k].x - spheres_[n].x, touches);
-      }
-    }
-  }
-
-  void add_images(std::size_t k, std::size_t n, std::vector<Touch>& touches) const {
-    const Domain& domain = scene_.domain;
-    const Vec3d& x_i = spheres_[k].x;
-    const Vec3d& x_p = spheres_[n].x;
-    Image from{};
-    Image to{};
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto a = static_cast<std::size_t>(axis);
-      if (domain.boundary[a] != Boundary::periodic) continue;
-      const double nearest = nearest_image(component(x_i, axis), component(x_p, axis), domain.length(axis));
-      from[a] = images_[a] > 0 ? -images_[a] : static_cast<std::int32_t>(nearest);
-      to[a] = images_[a] > 0 ? images_[a] : static_cast<std::int32_t>(nearest);
-    }
-    for (std::int32_t sx = from[0]; sx <= to[0]; ++sx) {
-      for (std::int32_t sy = from[1]; sy <= to[1]; ++sy) {
-        for (std::int32_t sz = from[2]; sz <= to[2]; ++sz) {
-          const Image image{sx, sy, sz};
-          if (n == k && image == Image{}) continue;
-          const Vec3d x_ip{image_displacement<double>(x_i.x, x_p.x, sx, domain.length(0)),
-                           image_displacement<double>(x_i.y, x_p.y, sy, domain.length(1)),
-                           image_displacement<double>(x_i.z, x_p.z, sz, domain.length(2))};
-          add_if_touching(k, n, image, x_ip, touches);
-        }
-      }
-    }
-  }
-
-  void add_if_touching(std::size_t k, std::size_t n, const Image& image, const Vec3d& x_ip,
-                       std::vector<Touch>& touches) const {
     const Sphere& i = spheres_[k];
-    const Sphere& p = spheres_[n];
-    if (!scene_.materials[i.material].interacts || !scene_.materials[p.material].interacts) return;
-    const double distance = std::sqrt(dot(x_ip, x_ip));
-    const double overlap = i.radius + p.radius - distance;
+    for (const std::uint32_t n : near) {
+      const Sphere& p = spheres_[n];
+      if (!scene_.materials[i.material].interacts || !scene_.materials[p.material].interacts) continue;
+      for_each_image(i.x, p.x, images_, [&](const ImageIndex& image, const Vec3d& x_ip) {
+        if (n != k || image != ImageIndex{}) add_if_touching(i, p, image, x_ip, touches);
+      });
+    }
+  }
+
+  void add_if_touching(const Sphere& i, const Sphere& p, const ImageIndex& image, const Vec3d& x_ip,
+                       std::vector<Touch>& touches) const {
     const ContactLaw<double>& law = table_.pair(i.material, p.material);
-    if (!(overlap > -law.surface.range) || keeps_apart(i.index, p.index)) return;
-    const Vec3d normal = contact_normal(x_ip, distance, i.index > p.index ? 1.0 : -1.0);  // indices go with ids
+    const auto [overlap, normal] = pair_geometry(x_ip, i.radius + p.radius, i.index > p.index ? 1.0 : -1.0);
+    if (!(overlap > -law.surface.range) || keeps_apart(i.index, p.index)) return;  // indices go with ids
     const Vec3d force = contact_force(overlap, normal, p.v - i.v, law);
     touches.push_back({{i.index, p.index, Face::none, image, overlap, force}, dot(force, normal)});
   }
 
   void add_walls(std::size_t k, std::vector<Touch>& touches) const {
-    const Domain& domain = scene_.domain;
     const Sphere& i = spheres_[k];
-    const auto add = [&](int face, const Vec3d& normal, double overlap) {
-      const ContactLaw<double>& law = table_.wall(i.material);
-      if (!(overlap > -law.surface.range)) return;
+    const ContactLaw<double>& law = table_.wall(i.material);
+    for_each_wall(walls_, i.x, i.radius, law.surface.range, [&](int face, const Vec3d& normal, double overlap) {
       const Vec3d force = contact_force(overlap, normal, -i.v, law);
-      touches.push_back({{i.index, Contact::kWall, static_cast<Face>(face), {}, overlap, force}, dot(force, normal)});
-    };
-    for (int axis = 0; axis < 3; ++axis) {
-      if (domain.boundary[static_cast<std::size_t>(axis)] != Boundary::spring) continue;
-      const double x = component(i.x, axis);
-      add(2 * axis + 1, wall_normal(axis, 1.0), lower_wall_overlap(x, component(domain.min, axis), i.radius));
-      add(2 * axis + 2, wall_normal(axis, -1.0), upper_wall_overlap(x, component(domain.max, axis), i.radius));
-    }
+      touches.push_back(
+          {{i.index, Contact::kWall, static_cast<Face>(face + 1), {}, overlap, force}, dot(force, normal)});
+    });
   }
 
   void add_colliders(std::size_t k, std::vector<Touch>& touches) const {
@@ -341,7 +301,8 @@ class ContactSearch {
   std::vector<IdPair> apart_;  // smaller id first, ascending: a spring keeps them from touching
   bool any_periodic_ = false;
   Vec3d period_{kNever, kNever, kNever};  // m, of periodic axes
-  Image images_{};  // images -n to n of every particle are looked at; 0: only the nearest
+  PeriodicImages images_;
+  Walls walls_;
   CellGrid grid_;
   std::vector<std::uint64_t> keys_;  // of cells, ascending
   std::vector<std::uint32_t> order_;  // index into the set of the k-th sphere
@@ -351,7 +312,7 @@ class ContactSearch {
 // Whether this side of a contact is the one that is listed.
 bool is_listed(const Touch& touch) {
   const Contact& c = touch.contact;
-  return c.b > c.a || (c.b == c.a && c.image > Image{});
+  return c.b > c.a || (c.b == c.a && c.image > ImageIndex{});
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "hooke/core/fields.h"
 #include "hooke/core/materials.h"
 #include "hooke/core/springs.h"
+#include "hooke/physics/contact_walk.h"
 
 namespace hooke {
 
@@ -43,6 +44,12 @@ struct Domain {
   std::array<Boundary, 3> boundary{Boundary::spring, Boundary::spring, Boundary::spring};
 
   double length(int axis) const { return component(max, axis) - component(min, axis); }
+  /// Its spring walls.
+  Walls walls() const {
+    Walls found{{}, min, max};
+    for (std::size_t axis = 0; axis < 3; ++axis) found.across[axis] = boundary[axis] == Boundary::spring;
+    return found;
+  }
   /// Of periodic axes; 0 for the others, m.
   Vec3d period() const {
     Vec3d lengths{0, 0, 0};

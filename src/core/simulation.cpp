@@ -121,6 +121,7 @@ struct Simulation::Impl {
   double mass_of(std::size_t material) const { return scene.materials[material].mass; }
 
   const std::shared_ptr<const Snapshot>& snapshot() {
+    (void)flush();  // a failure is the next step's to report
     if (host) return host;
     const std::shared_ptr<Snapshot> now = pool.take();
     now->step = run.step;
@@ -129,24 +130,43 @@ struct Simulation::Impl {
     return host = now;
   }
 
+  // What changes or asks the back end. Where memory runs out, nobody knows what of it has been done: that is the end.
+  template <class Body>
+  auto guarded(const Body& body) -> decltype(body()) {
+    if (failed) return fail(failure);
+    try {
+      return body();
+    } catch (const std::bad_alloc&) {
+      failed = true;
+      failure = out_of_memory(run.step);
+      return fail(failure);
+    }
+  }
+
   Expected<ParticleAt> find(std::uint64_t id) const {
     if (const auto found = backend->find(id)) return *found;
     return fail(Error::Kind::bad_input, fmt::format("particle {}", id), "there is none of this id");
   }
 
   void edit(const ParticleAt& before, const ParticleAt& after) {
-    backend->edit({&after, 1});
-    initial_momentum += mass_of(before.material) * (after.velocity - before.velocity);
     host.reset();
+    backend->edit({&after, 1});
+    const auto stored = backend->find(after.id);  // in the back end's precision
+    initial_momentum += mass_of(before.material) * (stored->velocity - before.velocity);
   }
 
   // Gives particles that were added their accelerations.
   Expected<void> flush() {
-    if (failed) return fail(failure);
-    const std::uint64_t first = std::exchange(first_new_id, kNone);
-    if (first == kNone) return {};
-    host.reset();
-    return check(start_particles(scene, *backend, ranks, first, run));
+    return guarded([&]() -> Expected<void> {
+      const auto is_there = [&](std::uint64_t id) { return backend->find(id).has_value(); };
+      while (first_new_id < run.next_id && !is_there(first_new_id)) ++first_new_id;
+      if (first_new_id < run.next_id) {
+        host.reset();
+        if (auto started = check(start_particles(scene, *backend, ranks, first_new_id, run)); !started) return started;
+      }
+      first_new_id = kNone;
+      return {};
+    });
   }
 
   Expected<void> check(const Condition& condition) {
@@ -222,13 +242,15 @@ struct Simulation::Impl {
       if (particles.empty() || particles.id.back() < first_new) return {};
       return check(start_particles(scene, *backend, ranks, first_new, run));
     } catch (const std::bad_alloc&) {
-      return fail(Error::Kind::bad_input, "particles",
-                  fmt::format("{} particles do not fit into memory", particles.size()));
+      failed = true;
+      failure = Error{Error::Kind::bad_input,
+                      {{"particles", fmt::format("{} particles do not fit into memory", particles.size())}}};
+      return fail(failure);
     }
   }
 
   Expected<void> take_steps(std::int64_t count) {
-    try {
+    return guarded([&]() -> Expected<void> {
       if (auto flushed = flush(); !flushed) return flushed;
       if (count == 0) return {};
       host.reset();
@@ -237,11 +259,7 @@ struct Simulation::Impl {
       }
       // What the last step has lost is reported before anyone saves it.
       return check(update_neighbours(*backend, ranks));
-    } catch (const std::bad_alloc&) {
-      failed = true;
-      failure = out_of_memory(run.step);
-      return fail(failure);
-    }
+    });
   }
 };
 
@@ -323,7 +341,7 @@ Expected<std::vector<std::uint64_t>> Simulation::add_particles(std::span<const N
   }
   if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});
 
-  try {
+  return s.guarded([&]() -> Expected<std::vector<std::uint64_t>> {
     ParticleSet added;
     added.reserve(particles.size());
     for (const NewParticle& p : particles) {
@@ -338,53 +356,59 @@ Expected<std::vector<std::uint64_t>> Simulation::add_particles(std::span<const N
     s.run.next_id += added.size();
     for (const NewParticle& p : particles) s.initial_momentum += s.mass_of(p.material) * p.velocity;
     return std::move(added.id);
-  } catch (const std::bad_alloc&) {
-    s.failed = true;
-    s.failure = out_of_memory(s.run.step);
-    return fail(s.failure);
-  }
+  });
 }
 
 Expected<void> Simulation::remove_particles(std::span<const std::uint64_t> ids) {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
-  std::vector<std::uint64_t> gone(ids.begin(), ids.end());
-  std::sort(gone.begin(), gone.end());
-  gone.erase(std::unique(gone.begin(), gone.end()), gone.end());
-  for (const std::uint64_t id : gone) {
-    if (const auto there = s.find(id); !there) return fail(there.error());
-  }
-  s.host.reset();
-  s.initial_momentum -= s.backend->remove(gone).sums.momentum.value();
-  return {};
+  return s.guarded([&]() -> Expected<void> {
+    std::vector<std::uint64_t> gone(ids.begin(), ids.end());
+    std::sort(gone.begin(), gone.end());
+    gone.erase(std::unique(gone.begin(), gone.end()), gone.end());
+    for (const std::uint64_t id : gone) {
+      if (const auto there = s.find(id); !there) return fail(there.error());
+    }
+    s.host.reset();
+    s.initial_momentum -= s.backend->remove(gone).sums.momentum.value();
+    return {};
+  });
+}
+
+Expected<ParticleAt> Simulation::find(std::uint64_t id) const {
+  return impl_->guarded([&] { return impl_->find(id); });
 }
 
 Expected<void> Simulation::apply_impulse(std::uint64_t id, const Vec3d& impulse) {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
-  const auto before = s.find(id);
-  if (!before) return fail(before.error());
-  ParticleAt after = *before;
-  after.velocity += (1 / s.mass_of(after.material)) * impulse;
-  // Not where it is: a particle that presses into a soft wall may stand outside the domain and can be pushed all the
-  // same.
-  if (!is_finite(after.velocity, s.single())) {
-    return fail(Error::Kind::bad_input, fmt::format("particle {}", id),
-                "velocity " + shown(after.velocity) + " is not finite");
-  }
-  s.edit(*before, after);
-  return {};
+  return s.guarded([&]() -> Expected<void> {
+    const auto before = s.find(id);
+    if (!before) return fail(before.error());
+    ParticleAt after = *before;
+    after.velocity += (1 / s.mass_of(after.material)) * impulse;
+    // Not where it is: a particle that presses into a soft wall may stand outside the domain and can be pushed all the
+    // same.
+    if (!is_finite(after.velocity, s.single())) {
+      return fail(Error::Kind::bad_input, fmt::format("particle {}", id),
+                  "velocity " + shown(after.velocity) + " is not finite");
+    }
+    s.edit(*before, after);
+    return {};
+  });
 }
 
 Expected<void> Simulation::set_particle(std::uint64_t id, const Vec3d& position, const Vec3d& velocity) {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
-  const auto before = s.find(id);
-  if (!before) return fail(before.error());
-  std::string fault = particle_fault(s.scene, before->material, position, velocity);
-  if (!fault.empty()) return fail(Error::Kind::bad_input, fmt::format("particle {}", id), std::move(fault));
-  s.edit(*before, {id, before->material, position, velocity});
-  return {};
+  return s.guarded([&]() -> Expected<void> {
+    const auto before = s.find(id);
+    if (!before) return fail(before.error());
+    std::string fault = particle_fault(s.scene, before->material, position, velocity);
+    if (!fault.empty()) return fail(Error::Kind::bad_input, fmt::format("particle {}", id), std::move(fault));
+    s.edit(*before, {id, before->material, position, velocity});
+    return {};
+  });
 }
 
 Expected<void> Simulation::set_material(const Material& material) {
@@ -433,7 +457,6 @@ Expected<void> Simulation::set_collider_motion(const std::string& name, const Mo
 SimulationState Simulation::state() const {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
-  (void)s.flush();  // evaluates the accelerations of particles just added; a failure is the next step's to report
   return {particles(),      s.run.step,       s.run.next_id,     s.run.ledger,       s.scene.structure,
           broken_springs(), s.initial_energy, s.initial_elastic, s.initial_momentum, s.run.emission.state()};
 }
@@ -479,13 +502,9 @@ std::uint64_t Simulation::state_hash() const {
 
 Expected<Measurements> Simulation::measure() const {
   const FloatingPointGuard guard;
-  try {
-    if (auto flushed = impl_->flush(); !flushed) return fail(flushed.error());
-    Impl& s = *impl_;
-    return s.backend->measure(place_colliders(s.run, s.scene, s.run.step));
-  } catch (const std::bad_alloc&) {
-    return fail(out_of_memory(impl_->run.step));
-  }
+  Impl& s = *impl_;
+  if (auto flushed = s.flush(); !flushed) return fail(flushed.error());
+  return s.guarded([&] { return s.backend->measure(place_colliders(s.run, s.scene, s.run.step)); });
 }
 
 std::vector<std::uint64_t> Simulation::broken_springs() const { return impl_->backend->broken_springs(); }

@@ -88,6 +88,8 @@ class Simulation {
   Expected<std::vector<std::uint64_t>> add_particles(std::span<const NewParticle> particles);
   /// Removes particles by id; none of them is removed where one is unknown.
   Expected<void> remove_particles(std::span<const std::uint64_t> ids);
+  /// One particle as it is. For a few of many: it does not copy the others, as particles() does.
+  Expected<ParticleAt> find(std::uint64_t id) const;
   /// v += impulse / m (N s) of one particle.
   Expected<void> apply_impulse(std::uint64_t id, const Vec3d& impulse);
   /// Moves one particle and sets its velocity (m, m/s): for what is led by hand.
@@ -98,7 +100,7 @@ class Simulation {
   /// Where the colliders of the scene are now, in its order.
   std::span<const ColliderPose> collider_poses() const;
   /// Gives the collider `name` another motion, from now on: a HeldMotion puts it where a hand holds it. Like a material
-  /// it belongs to the scene, not to the state: to go on from a snapshot, change it again.
+  /// it belongs to the scene, not to the state: to go on from a saved state, change it again.
   Expected<void> set_collider_motion(const std::string& name, const Motion& motion);
 
   /// The complete state, and back to one: the same bits follow.

@@ -4,7 +4,9 @@
 #include "hooke/core/simulation_thread.h"
 
 #include <condition_variable>
+#include <cstddef>
 #include <deque>
+#include <exception>
 #include <limits>
 #include <mutex>
 #include <thread>
@@ -23,8 +25,11 @@ struct SimulationThread::Impl {
   mutable std::mutex mutex;  // of the mailbox and all below
   std::condition_variable changed;
   std::deque<Command> commands;
-  std::int64_t steps_left;  // 0 while paused
-  bool wanted = false;  // a newer state in the mailbox
+  std::int64_t steps_left;  // beside the one in hand
+  std::uint64_t orders = 0;  // to pause, resume or step, so far
+  bool busy;            // with a command, a step or a snapshot
+  bool fresh = true;    // the mailbox holds the state as it is
+  bool wanted = false;  // a fresh one in the mailbox
   End end = End::none;
   std::optional<Error> failure;
   std::thread thread;
@@ -33,45 +38,85 @@ struct SimulationThread::Impl {
       : simulation(std::move(started)),
         mailbox(simulation.snapshot()),
         steps_left(paused ? 0 : kNoLimit),
+        busy(!paused),
         thread([this] { work(); }) {}
+
+  bool is_idle() const { return commands.empty() && steps_left == 0 && !(wanted && !fresh); }
 
   void work() {
     std::unique_lock lock(mutex);
     for (;;) {
-      changed.wait(lock, [&] { return end != End::none || !commands.empty() || steps_left > 0 || wanted; });
+      busy = !is_idle();
+      changed.wait(lock, [&] { return end != End::none || !is_idle(); });
+      busy = true;
       if (end == End::now || (end == End::after_commands && commands.empty())) return;
-      carry_out_commands(lock);
-      if (steps_left > 0 && end == End::none) take_step(lock);
-      if (wanted) publish(lock);
+      if (!commands.empty()) {
+        carry_out(lock);
+      } else if (steps_left > 0) {
+        take_step(lock);
+      }
+      // A state that stays as it is gets into the mailbox unasked.
+      if (!fresh && commands.empty() && (wanted || steps_left == 0)) publish(lock);
     }
   }
 
-  // Those that have come so far: others have a step between.
-  void carry_out_commands(std::unique_lock<std::mutex>& lock) {
-    std::deque<Command> now;
-    now.swap(commands);
-    if (now.empty()) return;
-    lock.unlock();
-    for (const Command& command : now) command(simulation);
-    lock.lock();
+  // Between them as many commands as have come, so that steps don't wait for those that come meanwhile for ever.
+  void carry_out(std::unique_lock<std::mutex>& lock) {
+    for (std::size_t left = commands.size(); left > 0 && end != End::now; --left) {
+      Command command = std::move(commands.front());
+      commands.pop_front();
+      fresh = false;
+      lock.unlock();
+      const std::optional<Error> thrown = error_of([&] { command(simulation); });
+      command = nullptr;  // what it holds may call us back
+      lock.lock();
+      if (thrown) fail_with(*thrown);
+    }
   }
 
   void take_step(std::unique_lock<std::mutex>& lock) {
+    if (steps_left != kNoLimit) --steps_left;
+    fresh = false;
+    const std::uint64_t orders_before = orders;
     lock.unlock();
-    Expected<void> taken = simulation.step();
+    std::optional<Error> failed;
+    const std::optional<Error> thrown = error_of([&] {
+      if (auto taken = simulation.step(); !taken) failed = std::move(taken).error();
+    });
     lock.lock();
-    failure.reset();
-    if (!taken) failure = std::move(taken).error();
-    if (failure) steps_left = 0;
-    if (steps_left > 0 && steps_left != kNoLimit) --steps_left;
+    failure = thrown ? thrown : failed;
+    if (failure && orders == orders_before) steps_left = 0;  // a later order may come with another state
   }
 
   void publish(std::unique_lock<std::mutex>& lock) {
     wanted = false;
+    fresh = true;
     lock.unlock();
-    std::shared_ptr<const Snapshot> now = simulation.snapshot();
+    std::shared_ptr<const Snapshot> now;
+    const std::optional<Error> thrown = error_of([&] { now = simulation.snapshot(); });
     lock.lock();
-    mailbox = std::move(now);
+    if (thrown) return fail_with(*thrown);
+    mailbox.swap(now);
+    lock.unlock();
+    now.reset();  // may free much
+    lock.lock();
+  }
+
+  void fail_with(const Error& error) {
+    failure = error;
+    steps_left = 0;
+  }
+
+  template <class Body>
+  static std::optional<Error> error_of(const Body& body) {
+    try {
+      body();
+      return {};
+    } catch (const std::exception& thrown) {
+      return Error{Error::Kind::run_failed, {{"simulation thread", thrown.what()}}};
+    } catch (...) {
+      return Error{Error::Kind::run_failed, {{"simulation thread", "a command has thrown what is no exception"}}};
+    }
   }
 
   template <class Change>
@@ -81,6 +126,15 @@ struct SimulationThread::Impl {
       what();
     }
     changed.notify_all();
+  }
+
+  // Changes how many steps are left.
+  template <class Left>
+  void order(const Left& left) {
+    change([&] {
+      ++orders;
+      steps_left = left(steps_left);
+    });
   }
 
   void stop(End how) {
@@ -102,27 +156,27 @@ void SimulationThread::post(Command command) {
 }
 
 void SimulationThread::pause() {
-  impl_->change([&] { impl_->steps_left = 0; });
+  impl_->order([](std::int64_t) { return std::int64_t{0}; });
 }
 
 void SimulationThread::resume() {
-  impl_->change([&] { impl_->steps_left = Impl::kNoLimit; });
+  impl_->order([](std::int64_t) { return Impl::kNoLimit; });
 }
 
 void SimulationThread::step(std::int64_t count) {
   HOOKE_ASSERT(count > 0, count);
-  impl_->change([&] { impl_->steps_left = impl_->steps_left == Impl::kNoLimit ? count : impl_->steps_left + count; });
+  impl_->order([count](std::int64_t left) { return left == Impl::kNoLimit ? count : left + count; });
 }
 
 bool SimulationThread::is_paused() const {
   const std::lock_guard lock(impl_->mutex);
-  return impl_->steps_left == 0;
+  return !impl_->busy && impl_->is_idle();
 }
 
 std::shared_ptr<const Snapshot> SimulationThread::latest() {
   std::shared_ptr<const Snapshot> now;
   impl_->change([&] {
-    impl_->wanted = true;
+    impl_->wanted = !impl_->fresh;
     now = impl_->mailbox;
   });
   return now;

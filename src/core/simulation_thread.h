@@ -18,8 +18,8 @@ namespace hooke {
 
 /// Steps a simulation on a thread of its own, as fast as it goes, for a window or another reader that must not wait for
 /// it, nor it for the reader. Commands are carried out between steps, in the order in which they came; the latest state
-/// lies in a mailbox. No lock is held across a step. Any thread may call any member but finish() and the destructor,
-/// which are the last call.
+/// lies in a mailbox. No lock is held across a step or a command. Any thread may call any member but finish() and the
+/// destructor, which are the last call.
 ///
 ///     hooke::SimulationThread thread(std::move(simulation));
 ///     while (window.is_open()) {
@@ -28,11 +28,11 @@ namespace hooke {
 ///     }
 class SimulationThread {
  public:
-  /// What is done with the simulation between two steps.
+  /// What is done with the simulation between two steps. What it throws is a failure().
   using Command = std::function<void(Simulation&)>;
 
   explicit SimulationThread(Simulation simulation, bool paused = false);
-  /// Ends after the step in hand; what waits is not carried out.
+  /// Ends after the step or the command in hand; what waits is not carried out.
   ~SimulationThread();
   SimulationThread(const SimulationThread&) = delete;
   SimulationThread& operator=(const SimulationThread&) = delete;
@@ -40,8 +40,9 @@ class SimulationThread {
   /// Queues a command: an edit, another material or motion, a restore. Returns at once.
   void post(Command command);
 
-  /// The same with an answer, which is ready when the command has been carried out; a broken promise where the thread
-  /// ends before. A command that waits for the answer of another one waits for ever.
+  /// The same with an answer, which is ready when the command has been carried out; what the command throws is thrown
+  /// by get(), std::future_error where the thread ends before. A command that waits for the answer of another one waits
+  /// for ever.
   template <class Ask, class Answer = std::invoke_result_t<Ask, Simulation&>>
   std::future<Answer> ask(Ask command) {
     auto task = std::make_shared<std::packaged_task<Answer(Simulation&)>>(std::move(command));
@@ -56,16 +57,19 @@ class SimulationThread {
   void resume();
   /// Takes so many steps (> 0), beside those that earlier calls have asked for, then pauses.
   void step(std::int64_t count = 1);
+  /// Whether nothing is done and nothing waits: latest() is the state as it stays.
   bool is_paused() const;
 
   /// The latest state that was put into the mailbox, never null. Asks for a newer one to be put there after the step in
-  /// hand: while nobody looks, none is made.
+  /// hand, if there is one: while nobody looks and steps go on, none is made.
   std::shared_ptr<const Snapshot> latest();
 
-  /// What the last step failed with: the thread has paused, and steps again only when a command has restored a state.
+  /// What the last step or command failed with. The thread pauses where one fails; a state that a command restores can
+  /// go on.
   std::optional<Error> failure() const;
 
-  /// Ends the thread after the step in hand, what waits being carried out. The simulation as it is then.
+  /// Ends the thread after the step in hand and the commands that wait. Steps that were asked for and have not been
+  /// taken are not. The simulation as it is then.
   Simulation finish();
 
  private:

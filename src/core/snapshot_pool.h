@@ -27,6 +27,7 @@ class SnapshotPool {
  private:
   class Spares {
    public:
+    Spares() { all_.reserve(kMost); }  // so that nobody who lets go can run out of memory
     std::unique_ptr<Snapshot> pop() {
       const std::lock_guard lock(mutex_);
       if (all_.empty()) return nullptr;

@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 
-#include "hooke/core/nearest_displacement.h"
 #include "hooke/core/simulation.h"
 
 namespace hooke {
@@ -141,7 +140,7 @@ void consider_sheets(const Structure& structure, const Scene& scene, const Parti
         for (std::size_t c = 0; c < 3; ++c) at[c] = particles.find(surface.particles[surface.triangles[t + c]]);
         if (std::find(at.begin(), at.end(), particles.size()) != at.end()) continue;
         const auto edge = [&](std::size_t c) {
-          return nearest_displacement(scene.domain, particles.position[at[c]], particles.position[at[0]]);
+          return nearest_displacement(particles.position[at[c]], particles.position[at[0]], scene.domain.period());
         };
         const Vec3d twice = cross(edge(1), edge(2));
         for (std::size_t c = 0; c < 3; ++c) area[surface.triangles[t + c]] += std::sqrt(dot(twice, twice)) / 6;

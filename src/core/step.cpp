@@ -69,12 +69,13 @@ Instant place_colliders(RunState& run, const Scene& scene, std::int64_t step) {
 Condition update_neighbours(Backend& backend, Communicator& ranks) {
   if (!ranks.any(backend.neighbours_stale())) return {};
   ranks.migrate(backend);
-  return backend.build_neighbours();
+  return ranks.first(backend.build_neighbours());
 }
 
 Condition start_particles(const Scene& scene, Backend& backend, Communicator& ranks, std::uint64_t first_new_id,
                           RunState& run) {
   if (scene.integrator != Integrator::velocity_verlet) return {};
+  if (const Condition found = update_neighbours(backend, ranks); !found.good()) return found;
   StepReport report;
   backend.evaluate_accelerations(place_colliders(run, scene, run.step), first_new_id, report);
   ranks.sum(report);

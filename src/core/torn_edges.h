@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "hooke/base/assert.h"
-#include "hooke/core/nearest_displacement.h"
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
 #include "hooke/core/springs.h"
@@ -56,7 +55,7 @@ class TornEdges {
                                         [&](std::size_t s, const Ends& sought) { return ends_of(s) < sought; });
     if (found == edges_.end() || ends_of(*found) != edge) return false;
     const SpringSet& springs = scene_.structure->springs;
-    const Vec3d off = nearest_displacement(scene_.domain, p.position[i], p.position[k]);
+    const Vec3d off = nearest_displacement(p.position[i], p.position[k], scene_.domain.period());
     const double rest = springs.rest_length[*found];
     return spring_tears(std::sqrt(dot(off, off)) - rest, rest, springs.break_strain[*found]);
   }

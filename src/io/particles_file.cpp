@@ -226,7 +226,7 @@ void ParticlesFile::cut(std::size_t snapshots) {
   c.id.resize(end_of(c.id, c.id_offsets));
   c.material.resize(end_of(c.material, c.material_offsets));
   c.radius.resize(end_of(c.radius, c.radius_offsets));
-  const auto parts = static_cast<hsize_t>(c.part + 1);
+  const auto parts = static_cast<hsize_t>(c.part) + 1;
   c.number_of_points.resize(parts);
   for (VtkTopology& topology : c.topologies) {
     const bool vertices = &topology == &c.topologies.front();

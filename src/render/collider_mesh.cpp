@@ -71,9 +71,10 @@ TriangleMesh round_surface(ShapeGeometry<double> g) {
   }
   std::vector<std::array<double, 2>> line;
   for (const double end : {1.0, -1.0}) {
-    for (int i = 0; i <= kPieces / 4; ++i) {
+    constexpr int kQuarter = kPieces / 4;
+    for (int i = 0; i <= kQuarter; ++i) {
       const double angle =
-          std::numbers::pi / 2 * (end - static_cast<double>(i) / (kPieces / 4)) + (end < 0 ? std::numbers::pi / 2 : 0);
+          std::numbers::pi / 2 * (end - static_cast<double>(i) / kQuarter) + (end < 0 ? std::numbers::pi / 2 : 0);
       line.push_back({g.radius * std::cos(angle), end * g.half_length + g.radius * std::sin(angle)});
     }
   }

@@ -22,7 +22,7 @@ Expected<fs::path> find_scene_file(const fs::path& folder, const std::string& na
   std::error_code fault;
   const fs::path home = fs::canonical(folder.empty() ? fs::path(".") : folder, fault);
   if (fault) return refuse("the scene's folder can't be read: " + fault.message());
-  const fs::path file = fs::canonical(home / relative, fault);
+  fs::path file = fs::canonical(home / relative, fault);
   if (fault) return refuse("can't be opened: " + fault.message());
   if (!allow_outside && std::mismatch(home.begin(), home.end(), file.begin(), file.end()).first != home.end()) {
     return refuse("leads out of the scene's folder through a symbolic link (--allow-outside lifts this)");

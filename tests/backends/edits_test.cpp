@@ -95,6 +95,51 @@ TEST_P(EditedScenes, HaveTheBitsOfTheReference) {
 INSTANTIATE_TEST_SUITE_P(Kinds, EditedScenes, all_busy_kinds(),
                          [](const auto& instance) { return instance.param.name(); });
 
+// What was fixed in a place is gone with its particle.
+TEST(Edits, FreeThePlacesOfFixedParticles) {
+  Scene scene = open_scene();
+  scene.gravity = {0, -9.8, 0};
+  Material post = scene.materials[0];
+  post.name = "post";
+  post.interacts = false;
+  Material spark = post;
+  spark.name = "spark";
+  post.fixed = true;
+  scene.materials = {post, spark};
+  ParticleSet particles;
+  add(particles, {0, 0, 0}, {0, 0, 0});
+  add(particles, {5, 0, 0}, {0, 0, 0});
+  for (const Engine& engine : {kReference, kCpuDouble}) {
+    Simulation s = simulate(scene, particles, engine);
+    ASSERT_TRUE(advance(s, 2));
+    const std::uint64_t gone[] = {1};
+    ASSERT_TRUE(s.remove_particles(gone));
+    const NewParticle added[] = {{1, {1, 0, 0}, {0, 0, 0}}};
+    ASSERT_TRUE(s.add_particles(added));
+    ASSERT_TRUE(advance(s, 50));
+    EXPECT_EQ(s.positions()[0], (Vec3d{5, 0, 0})) << engine.name();
+    EXPECT_LT(s.positions()[1].y, 0) << engine.name();
+  }
+}
+
+// Thousands between two steps are looked after together.
+TEST(Edits, ByTheThousandHaveTheBitsOfAStateLaidOutAnew) {
+  const Scene scene = open_scene();
+  Simulation edited = simulate(scene, lattice(scene, {16, 16, 16}, {0, 0, 0}, 1.01, 0, 5), kCpuSingle);
+  Simulation laid_out = simulate(scene, lattice(scene, {16, 16, 16}, {0, 0, 0}, 1.01, 0, 5), kCpuSingle);
+  for (Simulation* s : {&edited, &laid_out}) {
+    ASSERT_TRUE(advance(*s, 1));
+    for (std::uint64_t id = 1; id <= 4096; id += 2) {
+      const auto u = random4(9, id);
+      ASSERT_TRUE(s->set_particle(id, {20 * u[0], 20 * u[1], 20 + 20 * u[2]}, {0, 0, 0}));
+    }
+  }
+  ASSERT_TRUE(laid_out.restore(laid_out.state()));
+  ASSERT_TRUE(advance(edited, 5));
+  ASSERT_TRUE(advance(laid_out, 5));
+  EXPECT_EQ(edited.state_hash(), laid_out.state_hash());
+}
+
 // A hand that holds a ball builds no list.
 TEST(Edits, OfAPoolAtRestKeepItsList) {
   Scene scene = open_scene();

@@ -5,9 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <set>
+#include <memory>
+#include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -145,12 +148,48 @@ TEST_F(SimulationThreads, EndInTheMidstOfARun) {
   std::future<int> never;
   {
     SimulationThread thread(pool());
-    (void)thread.latest();
-    thread.post([](Simulation&) { std::this_thread::sleep_for(50ms); });
-    std::this_thread::sleep_for(10ms);
+    std::promise<void> begun;
+    thread.post([&](Simulation&) {
+      begun.set_value();
+      std::this_thread::sleep_for(100ms);
+    });
     never = thread.ask([](Simulation&) { return 1; });
+    begun.get_future().wait();
   }
   EXPECT_THROW((void)never.get(), std::future_error);
+}
+
+// Orders that come while a step is in hand are about the steps after it.
+TEST_F(SimulationThreads, LoseNoStepThatWasAskedFor) {
+  for (int round = 0; round < 20; ++round) {
+    SimulationThread thread(pool());
+    while (thread.latest()->step < 2) {}
+    thread.pause();
+    ASSERT_TRUE(wait_until([&] { return thread.is_paused(); }));
+    const std::int64_t before = thread.latest()->step;
+    thread.step();
+    thread.pause();  // it may have begun or not
+    thread.step(2);
+    ASSERT_TRUE(wait_until([&] { return thread.is_paused(); }));
+    const std::int64_t taken = thread.latest()->step - before;
+    EXPECT_TRUE(taken == 2 || taken == 3) << taken;
+  }
+}
+
+TEST_F(SimulationThreads, OutliveWhatCommandsThrow) {
+  SimulationThread thread(pool(), true);
+  thread.post([](Simulation&) { throw std::runtime_error("out of luck"); });
+  EXPECT_EQ(thread.ask([](Simulation&) { return 7; }).get(), 7);
+  ASSERT_TRUE(thread.failure());
+  EXPECT_NE(thread.failure()->text().find("out of luck"), std::string::npos);
+  // A command that calls back when it is thrown away.
+  struct Grip {
+    SimulationThread* thread;
+    ~Grip() { thread->pause(); }
+  };
+  thread.post([grip = std::make_shared<Grip>(&thread)](Simulation&) {});
+  thread.step(2);
+  ASSERT_TRUE(wait_until([&] { return thread.is_paused(); }));
 }
 
 TEST(SnapshotsOfASimulation, OutliveIt) {

@@ -58,7 +58,8 @@ void AppliedForces<Real>::add(std::size_t slot, std::size_t ranks, bool fixed, s
     place_.back() = static_cast<std::uint32_t>(slot);
   }
   springs_.grow(ranks);
-  if (!fixed) return;
+  fields_.grow(ranks);
+  if (!fixed) return held_.release(slot);
   if (held_.none()) held_.clear(room);
   held_.hold(slot);
   held_ranks_.push_back(static_cast<std::uint32_t>(ranks - 1));

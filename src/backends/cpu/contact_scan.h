@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
 #include <span>
 
 #include "hooke/backends/cpu/force_pass.h"
 #include "hooke/neighbours/neighbour_list.h"
-#include "hooke/physics/contact.h"
-#include "hooke/physics/periodic.h"
-#include "hooke/physics/wall.h"
+#include "hooke/physics/contact_walk.h"
 
 namespace hooke {
 
@@ -24,7 +21,17 @@ ContactLaw<double> law_of(const PairRow<Real>& row) {
 template <class Real>
 class ContactScan {
  public:
-  ContactScan(const ForcePass<Real>& pass, const ParticleRecord<Real>* records) : pass_(pass), records_(records) {}
+  ContactScan(const ForcePass<Real>& pass, const ParticleRecord<Real>* records) : pass_(pass), records_(records) {
+    walls_.min = vec_cast<double>(pass.min);
+    walls_.max = vec_cast<double>(pass.max);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      walls_.across[a] = pass.wall[axis];
+      if (!pass.periodic[axis]) continue;
+      component(images_.period, axis) = component(pass.length, axis);
+      images_.most[a] = pass.periodic_kind == PeriodicKind::images ? pass.images[axis] : 0;
+    }
+  }
 
   /// visit(p, normal, overlap) for every neighbour p that acts on particle i, by id and image: those touch it, overlap
   /// > 0, or cohesion reaches from one to the other. `rows` are those of its group in the neighbour list.
@@ -33,22 +40,23 @@ class ContactScan {
     constexpr std::size_t kLanes = NeighbourList::kLanes;
     for (std::size_t at = i % kLanes; at < rows.size(); at += kLanes) {
       const std::size_t p = rows[at] / record_offset<Real>(1);
-      if (!is_nowhere(records_[p])) visit_images(i, p, visit);
+      if (is_nowhere(records_[p])) continue;
+      const PairRow<Real>& row = pair(i, p);
+      for_each_image(vec_cast<double>(records_[i].x), vec_cast<double>(records_[p].x), images_,
+                     [&](const ImageIndex& image, const Vec3d& x_ip) {
+                       if (i == p && image == ImageIndex{}) return;
+                       const auto [overlap, normal] =
+                           pair_geometry(x_ip, row.reach, records_[i].rank > records_[p].rank ? 1.0 : -1.0);
+                       if (overlap > -static_cast<double>(row.range)) visit(p, normal, overlap);
+                     });
     }
   }
 
   /// visit(normal, overlap) for every wall that acts on particle i.
   template <class Visit>
   void for_each_wall(std::size_t i, const Visit& visit) const {
-    const double radius = wall(i).reach, range = wall(i).range;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!pass_.wall[axis]) continue;
-      const double x = component(records_[i].x, axis);
-      const double lower = lower_wall_overlap<double>(x, component(pass_.min, axis), radius);
-      const double upper = upper_wall_overlap<double>(x, component(pass_.max, axis), radius);
-      if (lower > -range) visit(wall_normal(axis, 1.0), lower);
-      if (upper > -range) visit(wall_normal(axis, -1.0), upper);
-    }
+    hooke::for_each_wall(walls_, vec_cast<double>(records_[i].x), wall(i).reach, wall(i).range,
+                         [&](int, const Vec3d& normal, double overlap) { visit(normal, overlap); });
   }
 
   /// visit(collider, face, overlap) for every face of a collider that acts on particle i, in the scene's order.
@@ -85,44 +93,10 @@ class ContactScan {
     return true;
   }
 
-  template <class Visit>
-  void visit_images(std::size_t i, std::size_t p, const Visit& visit) const {
-    int from[3] = {0, 0, 0};
-    int to[3] = {0, 0, 0};
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!pass_.periodic[axis]) continue;
-      if (pass_.periodic_kind == PeriodicKind::images) {
-        from[axis] = -pass_.images[axis];
-        to[axis] = pass_.images[axis];
-      } else {
-        from[axis] = to[axis] = static_cast<int>(nearest_image(
-            component(records_[i].x, axis), component(records_[p].x, axis), component(pass_.length, axis)));
-      }
-    }
-    for (int sx = from[0]; sx <= to[0]; ++sx) {
-      for (int sy = from[1]; sy <= to[1]; ++sy) {
-        for (int sz = from[2]; sz <= to[2]; ++sz) {
-          if (i != p || sx != 0 || sy != 0 || sz != 0) visit_image(i, p, {double(sx), double(sy), double(sz)}, visit);
-        }
-      }
-    }
-  }
-
-  template <class Visit>
-  void visit_image(std::size_t i, std::size_t p, const Vec3d& s, const Visit& visit) const {
-    const Vec3d x_i = vec_cast<double>(records_[i].x);
-    const Vec3d x_p = vec_cast<double>(records_[p].x);
-    const Vec3d length = vec_cast<double>(pass_.length);
-    const Vec3d x_ip{image_displacement(x_i.x, x_p.x, s.x, length.x), image_displacement(x_i.y, x_p.y, s.y, length.y),
-                     image_displacement(x_i.z, x_p.z, s.z, length.z)};
-    const double distance = std::sqrt(dot(x_ip, x_ip));
-    const double overlap = static_cast<double>(pair(i, p).reach) - distance;
-    if (overlap > -static_cast<double>(pair(i, p).range))
-      visit(p, contact_normal(x_ip, distance, records_[i].rank > records_[p].rank ? 1.0 : -1.0), overlap);
-  }
-
   const ForcePass<Real>& pass_;
   const ParticleRecord<Real>* records_;
+  PeriodicImages images_;
+  Walls walls_;
 };
 
 }  // namespace hooke

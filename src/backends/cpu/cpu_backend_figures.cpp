@@ -14,7 +14,7 @@ namespace hooke {
 template <class Real>
 Expected<Measurements> CpuBackend<Real>::measure(const Instant& now) {
   place_at(now);
-  if (!list_.good()) {
+  if (neighbours_stale()) {
     if (const Condition found = build_neighbours(); !found.good()) {
       return fail(Error::Kind::run_failed, fmt::format("particle {}", found.particle), "is at no finite position");
     }

@@ -68,7 +68,7 @@ class CpuBackend final : public Backend {
 
   void half_kick_and_drift() override;
   void finish_motion(RemovalSums& left) override;
-  bool neighbours_stale() const override { return !list_.good(); }
+  bool neighbours_stale() override;
   Condition build_neighbours() override;
   void apply_forces(const Instant& now, StepReport& report) override;
   void evaluate_accelerations(const Instant& now, std::uint64_t first_new_id, StepReport& report) override;
@@ -99,7 +99,7 @@ class CpuBackend final : public Backend {
   // Springs, fields, attraction, and what is held --------------------------------------------------------------------
 
   void lay_out_structure();
-  bool apply_others(bool may_tear, StepReport& report);
+  void apply_others(bool may_tear, StepReport& report);
   void settle_segment(std::size_t s, AppliedSums& sums);
 
   // The force pass and what it reports -------------------------------------------------------------------------------

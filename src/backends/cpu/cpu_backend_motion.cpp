@@ -43,6 +43,12 @@ void CpuBackend<Real>::finish_motion(RemovalSums& left) {
 }
 
 template <class Real>
+bool CpuBackend<Real>::neighbours_stale() {
+  threads_.run([&] { list_.mend_if_due(particles_.records.data()); });
+  return !list_.good();
+}
+
+template <class Real>
 Condition CpuBackend<Real>::build_neighbours() {
   Condition condition;
   threads_.run([&] {
@@ -90,14 +96,16 @@ void CpuBackend<Real>::follow_motion() {
 
 template <class Real>
 void CpuBackend<Real>::lay_out_structure() {
+  particles_.slots.recycle();
   if (!applied_.needs_layout()) return;
   const Stopwatch sorting(times_.sort);
   applied_.lay_out(particles_.records, particles_.slots.room(), particles_.ids.size());
-  particles_.slots.recycle();
 }
 
 template void CpuBackend<float>::half_kick_and_drift();
 template void CpuBackend<double>::half_kick_and_drift();
+template bool CpuBackend<float>::neighbours_stale();
+template bool CpuBackend<double>::neighbours_stale();
 template Condition CpuBackend<float>::build_neighbours();
 template Condition CpuBackend<double>::build_neighbours();
 template void CpuBackend<float>::finish_motion(RemovalSums& left);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "hooke/backends/cpu/contact_reports.h"
+#include "hooke/base/assert.h"
 #include "hooke/base/huge_pages.h"
 #include "hooke/base/stopwatch.h"
 
@@ -17,7 +18,7 @@ void CpuBackend<Real>::apply_forces(const Instant& now, StepReport& report) {
   const Stopwatch forcing(times_.force);
   place_at(now);
   aim_pass(verlet() ? particles_.acceleration.data() : nullptr);
-  const bool released = apply_others(true, report);
+  apply_others(true, report);
   run_pass(report, [&](std::size_t s, const SegmentReport& segment) {
     std::optional<Departures> left;  // large, and seldom of use
     Condition found;
@@ -36,19 +37,15 @@ void CpuBackend<Real>::apply_forces(const Instant& now, StepReport& report) {
     report.condition = Condition::first(report.condition, found);
   });
   particles_.records.swap(particles_.next);
-  if (verlet() && released) {  // nobody has moved; rows are mended before the next forces, but somebody may look
-    threads_.run([&] { list_.mend_released(particles_.records.data()); });
-  }
 }
 
 template <class Real>
 void CpuBackend<Real>::evaluate_accelerations(const Instant& now, std::uint64_t first_new_id, StepReport& report) {
-  if (!list_.good()) report.condition = build_neighbours();
-  if (!report.condition.good()) return;
+  HOOKE_ASSERT(!neighbours_stale());
   LargeVector<Vec3<Real>> evaluated(particles_.acceleration.size());
   place_at(now);
   aim_pass(evaluated.data());
-  (void)apply_others(false, report);
+  apply_others(false, report);
   run_pass(report, [](std::size_t, const SegmentReport&) {});
   for (std::size_t i = 0; i < particles_.slots.end(); ++i) {
     if (!is_nowhere(particles_.records[i]) && particles_.ids[rank_of(particles_.records[i].rank)] >= first_new_id)
@@ -74,21 +71,17 @@ void CpuBackend<Real>::aim_pass(Vec3<Real>* acceleration) {
   pass_.next_step = list_.next_step();
 }
 
-// Sums the forces that the pass adds. Returns whether pairs that springs kept apart may touch from the next step on.
+// Sums the forces that the pass adds. Pairs that springs kept apart and no longer do may touch from the next step on.
 template <class Real>
-bool CpuBackend<Real>::apply_others(bool may_tear, StepReport& report) {
-  bool released = false;
+void CpuBackend<Real>::apply_others(bool may_tear, StepReport& report) {
   if (!applied_.none()) {
     report.applied.emplace();
     threads_.run([&] {
-      const auto& pairs = applied_.apply(particles_.records, particles_.slots.end(), particles_.count(), particles_.ids,
-                                         may_tear, report.applied->springs);
-      list_.release(pairs);
-      released = !pairs.empty();
+      list_.release(applied_.apply(particles_.records, particles_.slots.end(), particles_.count(), particles_.ids,
+                                   may_tear, report.applied->springs));
     });
   }
   pass_.applied = applied_.forces();
-  return released;
 }
 
 template <class Real>

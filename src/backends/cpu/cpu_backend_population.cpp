@@ -24,25 +24,20 @@ std::optional<ParticleAt> CpuBackend<Real>::find(std::uint64_t id) const {
 template <class Real>
 void CpuBackend<Real>::edit(std::span<const ParticleAt> edited) {
   threads_.run([&] { particles_.find_slots(); });
-  bool any_strays = false;
   for (const ParticleAt& to : edited) {
     const std::size_t slot = particles_.slot_of(to.id);
     HOOKE_ASSERT(slot != particles_.kNoSlot, to.id);
-    const Vec3<Real> x = particles_.records[slot].x;
+    const Vec3<Real> before = particles_.records[slot].x;
     particles_.set(slot, to.position, to.velocity);
-    const Vec3<Real>& now = particles_.records[slot].x;
-    if (particles_.slots.is_loose(slot) || (now.x == x.x && now.y == x.y && now.z == x.z)) continue;
-    list_.note_moved(slot);
-    any_strays = true;
+    if (!particles_.slots.is_loose(slot) && particles_.records[slot].x != before) list_.note_moved(slot);
   }
-  if (any_strays) threads_.run([&] { list_.mend_released(particles_.records.data()); });
 }
 
 template <class Real>
 RemovalSums CpuBackend<Real>::insert(const ParticleSet& newborn) {
   RemovalSums born;
   if (newborn.empty()) return born;
-  if (!particles_.has_room_for(newborn)) make_room(newborn.size());
+  if (!particles_.has_room_for(newborn)) make_room(newborn.size() + particles_.count() / 16 + 256);
   std::vector<std::uint32_t> touching;
   for (std::size_t k = 0; k < newborn.size(); ++k) {
     const Material& m = scene_.materials[newborn.material[k]];
@@ -57,9 +52,8 @@ RemovalSums CpuBackend<Real>::insert(const ParticleSet& newborn) {
     born.add_particle(m.mass, vec_cast<double>(particles_.records[slot].x),
                       vec_cast<double>(particles_.records[slot].v), scene_.gravity);
   }
-  if (!touching.empty()) threads_.run([&] { list_.mend_released(particles_.records.data()); });
   particles_.recount();
-  // They are born into no overlap, but perhaps to where cohesion reaches.
+  // Those that are born find room without an overlap, but perhaps where cohesion reaches.
   if (rules_.widest_range > 0) add_elastic(touching, born.elastic);
   return born;
 }
@@ -116,7 +110,7 @@ void CpuBackend<Real>::find_inside(const ShapeBounds& box, std::vector<Occupant>
 template <class Real>
 void CpuBackend<Real>::make_room(std::size_t births) {
   ParticleSet all;
-  particles_.download(all);
+  threads_.run([&] { particles_.download(all); });
   take(all, births);
 }
 
@@ -150,7 +144,7 @@ template <class Real>
 void CpuBackend<Real>::add_elastic(std::vector<std::uint32_t>& slots, ExactSum& sum) {
   const auto is_listed = [&](std::uint32_t slot) { return !particles_.slots.is_loose(slot); };
   if (applied_.springs().empty() && std::none_of(slots.begin(), slots.end(), is_listed)) return;
-  if (!list_.good() && !rebuild_under(slots)) return;
+  if (neighbours_stale() && !rebuild_under(slots)) return;
   std::sort(slots.begin(), slots.end());
   for_ranges(slots.size(), 64, [&](std::size_t first, std::size_t last) {
     const ContactScan<Real> scan(pass_, particles_.records.data());

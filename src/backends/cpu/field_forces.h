@@ -32,6 +32,11 @@ class FieldForces {
   /// Finds the triangles that the particles of these ids span; those that lack a corner are none.
   void bind(const IdTable& ids);
 
+  /// More ids have come, with ranks below `ranks`: no triangle is theirs.
+  void grow(std::size_t ranks) {
+    if (needs_places()) first_.resize(ranks + 1, first_.back());
+  }
+
   void set_time(double seconds) { time_ = seconds; }
 
   /// Sums the forces on the first `count` records; `place` tells where each rank is (needs_places()).

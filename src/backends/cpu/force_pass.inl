@@ -282,17 +282,21 @@ struct Touching {
   bool others = true, wall = false, collider = false;
 };
 
+// The index of a cause's power among the sums of a pass.
+HOOKE_HD constexpr int power_of(Cause cause) { return static_cast<int>(cause); }
+
 // What is summed over a segment's particles, a column each. Packs that touch nothing of a kind are left out of its own.
 template <class Real>
 struct PassColumns {
   std::size_t count = 0, contact_count = 0, wall_count = 0, collider_count = 0;
-  alignas(64) Real of[PassSum::count][ExactParts::kMost];
+  alignas(64) Real of[PassSum::kCount][ExactParts::kMost];
 
   HOOKE_HD std::size_t count_of(int sum) const {
-    const int power = sum < 2 * PassSum::powers ? sum % PassSum::powers : PassSum::powers;
-    if (power <= PassSum::contact_friction) return contact_count;
-    if (power == PassSum::wall || (sum >= PassSum::wall_force && sum < PassSum::wall_force + 3)) return wall_count;
-    if (power == PassSum::collider || (sum >= PassSum::collider_force && sum < PassSum::collider_force + 3)) {
+    const int power = sum < 2 * PassSum::kPowers ? sum % PassSum::kPowers : PassSum::kPowers;
+    if (power <= power_of(Cause::contact_friction)) return contact_count;
+    if (power == power_of(Cause::wall) || (sum >= PassSum::kWallForce && sum < PassSum::kWallForce + 3))
+      return wall_count;
+    if (power == power_of(Cause::collider) || (sum >= PassSum::kColliderForce && sum < PassSum::kColliderForce + 3)) {
       return collider_count;
     }
     return count;
@@ -322,23 +326,23 @@ struct Forces {
   HOOKE_HD void put_powers(int first, const Vec3<P>& twice_mean, bool has_drag, const Touching& touching,
                            PassColumns<Real>& to) const {
     if (touching.others) put_contacts(first, contacts, twice_mean, to);
-    to.put(first + PassSum::gravity, dot(weight, twice_mean));
-    if (has_drag) to.put(first + PassSum::drag, dot(drag, twice_mean));
-    if (touching.wall) to.put(first + PassSum::wall, dot(walls, twice_mean));
-    if (touching.collider) to.put(first + PassSum::collider, dot(colliders, twice_mean));
+    to.put(first + power_of(Cause::gravity), dot(weight, twice_mean));
+    if (has_drag) to.put(first + power_of(Cause::drag), dot(drag, twice_mean));
+    if (touching.wall) to.put(first + power_of(Cause::wall), dot(walls, twice_mean));
+    if (touching.collider) to.put(first + power_of(Cause::collider), dot(colliders, twice_mean));
   }
 
  private:
   HOOKE_HD static void put_contacts(int first, const ContactForces<P>& by, const Vec3<P>& twice_mean,
                                     PassColumns<Real>& to) {
-    to.put(first + PassSum::contact_spring, dot(by.spring, twice_mean));
-    to.put(first + PassSum::contact_shear, dot(by.shear, twice_mean));
-    to.put(first + PassSum::contact_damping, dot(by.damping, twice_mean));
+    to.put(first + power_of(Cause::contact_spring), dot(by.spring, twice_mean));
+    to.put(first + power_of(Cause::contact_shear), dot(by.shear, twice_mean));
+    to.put(first + power_of(Cause::contact_damping), dot(by.damping, twice_mean));
   }
   HOOKE_HD static void put_contacts(int first, const SurfaceForces<P>& by, const Vec3<P>& twice_mean,
                                     PassColumns<Real>& to) {
     put_contacts(first, by.linear, twice_mean, to);
-    to.put(first + PassSum::contact_friction, dot(by.friction, twice_mean));
+    to.put(first + power_of(Cause::contact_friction), dot(by.friction, twice_mean));
   }
 };
 
@@ -415,11 +419,11 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
   }
   forces.put_powers(0, own.v + after, pass.has_drag, touching, columns);
   if (pass.acceleration != nullptr) {
-    forces.put_powers(PassSum::next, after + next, pass.has_drag, touching, columns);
+    forces.put_powers(PassSum::kNext, after + next, pass.has_drag, touching, columns);
   }
-  if (touching.wall) columns.put(PassSum::wall_force, forces.walls);
-  if (touching.collider) columns.put(PassSum::collider_force, forces.colliders);
-  if (pass.has_drag) columns.put(PassSum::drag_force, select_vector(present, forces.drag, zero));
+  if (touching.wall) columns.put(PassSum::kWallForce, forces.walls);
+  if (touching.collider) columns.put(PassSum::kColliderForce, forces.colliders);
+  if (pass.has_drag) columns.put(PassSum::kDragForce, select_vector(present, forces.drag, zero));
   columns.end_pack(touching);
   Real* out_record = reinterpret_cast<Real*>(pass.out + first);
   const TwoQuads<Real> record{{x.x, x.y, x.z, own.material}, {v.x, v.y, v.z, own.rank}};
@@ -429,11 +433,11 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
 // Whether the scene has anything for that column.
 template <class Real>
 bool is_summed(const ForcePass<Real>& pass, int sum) {
-  if (sum >= PassSum::drag_force) return pass.has_drag;
-  if (sum >= PassSum::wall_force) return true;
-  if (sum % PassSum::powers == PassSum::drag && !pass.has_drag) return false;
-  if (sum % PassSum::powers == PassSum::contact_friction && pass.linear) return false;
-  return sum < PassSum::next || pass.acceleration != nullptr;
+  if (sum >= PassSum::kDragForce) return pass.has_drag;
+  if (sum >= PassSum::kWallForce) return true;
+  if (sum % PassSum::kPowers == power_of(Cause::drag) && !pass.has_drag) return false;
+  if (sum % PassSum::kPowers == power_of(Cause::contact_friction) && pass.linear) return false;
+  return sum < PassSum::kNext || pass.acceleration != nullptr;
 }
 
 template <class Real, Materials kMaterials, PeriodicKind kPeriodic>
@@ -448,7 +452,7 @@ void run_segment(const ForcePass<Real>& pass, const SegmentWork<Real>& work) {
     work.notes[g] = notes;
     work.far[g] = static_cast<std::uint16_t>(far);
   }
-  for (int sum = 0; sum < PassSum::count; ++sum) {
+  for (int sum = 0; sum < PassSum::kCount; ++sum) {
     if (is_summed(pass, sum)) add_parts(columns.of[sum], columns.count_of(sum), work.sums[sum]);
   }
 }

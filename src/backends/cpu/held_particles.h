@@ -23,6 +23,12 @@ class HeldParticles {
     lanes_[i / kLanes] = static_cast<std::uint16_t>(lanes_[i / kLanes] | 1U << i % kLanes);
   }
 
+  /// Another one is there now, which is not held.
+  void release(std::size_t i) {
+    if (none()) return;
+    lanes_[i / kLanes] = static_cast<std::uint16_t>(lanes_[i / kLanes] & ~(1U << i % kLanes));
+  }
+
   bool none() const { return lanes_.empty(); }
   bool holds(std::size_t i) const { return !none() && (lanes_[i / kLanes] >> i % kLanes & 1U) != 0; }
   /// A bit for each of the 16 particles of a group, one entry a group; null where none is held.

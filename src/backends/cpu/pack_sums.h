@@ -38,7 +38,7 @@ HOOKE_HD Widened widen(const Pack<float>& a) {
 
 // The processor remembers whether anything was rounded. Nothing that reads or writes memory is moved across these.
 HOOKE_HD void forget_rounding() {
-  _mm_setcsr(_mm_getcsr() & ~static_cast<unsigned>(_MM_EXCEPT_INEXACT));
+  _mm_setcsr(_mm_getcsr() & ~_MM_EXCEPT_INEXACT);
   asm volatile("" ::: "memory");
 }
 HOOKE_HD bool has_rounded() {

@@ -58,8 +58,8 @@ void ParticleState<Real>::download(ParticleSet& out) const {
   });
   for (std::size_t b = 0; b < blocks; ++b) start[b + 1] += start[b];
 
-  out.resize(count_);
-  out.acceleration.resize(verlet() ? count_ : 0);
+  out.resize(start.back());
+  out.acceleration.resize(verlet() ? start.back() : 0);
   for_blocks([&](std::size_t b, std::size_t first, std::size_t last) {
     std::size_t k = start[b];
     for (std::size_t rank = first; rank < last; ++rank) {

@@ -129,6 +129,7 @@ void PassRules<Real>::configure_domain(const Domain& domain) {
     pass.periodic[axis] = boundary == Boundary::periodic;
     pass.open_or_periodic[axis] = boundary != Boundary::spring;
     pass.images[axis] = 0;
+    component(pass.period, axis) = pass.periodic[axis] ? component(pass.length, axis) : Real(0);
     if (!pass.periodic[axis]) continue;
     const double length = component(pass.length, axis);
     pass.images[axis] = static_cast<int>(2 * largest_reach() / length) + 1;

@@ -15,7 +15,7 @@ namespace hooke {
 struct SegmentReport {
   std::array<unsigned char, NeighbourList::kGroups> notes;  // GroupNote bits
   std::array<std::uint16_t, NeighbourList::kGroups> far;    // a bit a particle
-  std::array<ExactParts, PassSum::count> sums;
+  std::array<ExactParts, PassSum::kCount> sums;
 
   void clear() {
     notes.fill(0);

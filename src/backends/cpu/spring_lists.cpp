@@ -22,6 +22,7 @@ template <class Real>
 void SpringLists<Real>::configure(const Scene& scene, const ForcePass<Real>& rules, SpringPassFunction<Real> run) {
   run_ = run;
   pass_.length = rules.length;
+  period_ = rules.period;
   pass_.any_periodic = false;
   for (int axis = 0; axis < 3; ++axis) {
     pass_.periodic[axis] = rules.periodic[axis];
@@ -254,12 +255,7 @@ void SpringLists<Real>::settle_torn(const Record* records, std::size_t g, Spring
 template <class Real>
 double SpringLists<Real>::energy_of(std::uint32_t spring, const Record& i, const Record& p) const {
   const SpringKind<Real>& kind = kinds_[kind_[spring]];
-  Vec3<Real> x_ip = i.x - p.x;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!pass_.periodic[axis]) continue;
-    const Real x_i = component(i.x, axis), x_p = component(p.x, axis), length = component(pass_.length, axis);
-    component(x_ip, axis) = image_displacement(x_i, x_p, nearest_image(x_i, x_p, length), length);
-  }
+  const Vec3<Real> x_ip = nearest_displacement(i.x, p.x, period_);
   const Real extension = sqrt_of(dot(x_ip, x_ip)) - rest_length_[spring];
   return spring_acts(extension, kind.side) ? static_cast<double>(spring_energy(extension, kind.stiffness)) : 0.0;
 }

@@ -82,6 +82,7 @@ class SpringLists {
 
   SpringPassFunction<Real> run_ = nullptr;
   SpringPass<Real> pass_;
+  Vec3<Real> period_{};  // m, as of the force pass
   std::shared_ptr<const Structure> structure_;
   std::vector<SpringKind<Real>> kinds_;
   bool tearable_ = false;

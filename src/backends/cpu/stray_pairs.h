@@ -104,13 +104,7 @@ class StrayPairs {
   bool touch(std::size_t i, std::size_t p) const { return are_nearer(i, p, reach_of(i) + reach_of(p) + margin()); }
 
   bool are_nearer(std::size_t i, std::size_t p, double reach) const {
-    Vec3<Real> d = records_[i].x - records_[p].x;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!rules_.pass.periodic[axis]) continue;
-      const Real x_i = component(records_[i].x, axis), x_p = component(records_[p].x, axis);
-      const Real length = component(rules_.pass.length, axis);
-      component(d, axis) = image_displacement(x_i, x_p, nearest_image(x_i, x_p, length), length);
-    }
+    const Vec3<Real> d = nearest_displacement(records_[i].x, records_[p].x, rules_.pass.period);
     return dot(d, d) < static_cast<Real>(reach) * static_cast<Real>(reach);
   }
 

@@ -77,6 +77,7 @@ void VerletList<Real>::build(const Record* records, std::size_t count, std::size
   strayed_.assign(room / kLanes, 0);
   mended_.clear(strayed_.size());
   released_.clear();
+  mending_due_ = false;
   const std::size_t many = count / kStrayCost + kLanes;  // a list with more strays does not last
   strays_.reserve(many);
   room_.reserve(many);
@@ -262,6 +263,7 @@ unsigned VerletList<Real>::strays_of_group(const Record* records, std::size_t g)
 // Finds the pairs of strays that touch and rows that lack them.
 template <class Real>
 void VerletList<Real>::mend(const Record* records) {
+  mending_due_ = false;
   mended_.clear(strayed_.size());
   if (strays_.empty() && released_.empty()) return;
   const auto steps = static_cast<Real>(steps_);

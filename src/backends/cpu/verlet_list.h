@@ -75,34 +75,35 @@ class VerletList {
 
   /// Where the next particle can be born, at least.
   std::size_t first_free() const { return (count_ + kWindow - 1) / kWindow * kWindow; }
-  /// A particle is born in slot i, first_free() or later: a stray from the start. Rows get it when they are mended
-  /// next.
+  /// A particle is born in slot i, first_free() or later: a stray from the start.
   void add(std::size_t i, std::uint32_t rank) {
     if (!listed_) return;
     HOOKE_ASSERT(i >= first_free(), i, first_free());
     if (i >= end_ || rules_->pass.periodic_kind == PeriodicKind::images) return forget();
     order_[i] = rank;
     listed_at_.put(i, {Real(0), Real(0), Real(0)});
-    note_far(i / kLanes, 1U << i % kLanes);
+    add_stray(i);
   }
 
-  /// Particle i has been moved by other than a step: a stray from now on. Rows get it when they are mended next.
+  /// Particle i has been moved by other than a step: a stray from now on.
   void note_moved(std::size_t i) {
     if (!listed_) return;
     if (rules_->pass.periodic_kind == PeriodicKind::images) return forget();
-    note_far(i / kLanes, 1U << i % kLanes);
+    add_stray(i);
   }
 
-  /// These pairs (indices) were kept apart and may touch from now on: rows get them when they are mended next.
+  /// These pairs (indices) were kept apart and may touch from now on.
   void release(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
     for (const auto& [i, p] : pairs) {
       released_.push_back({i, order_[p], record_offset<Real>(p)});
       released_.push_back({p, order_[i], record_offset<Real>(i)});
+      mending_due_ = true;
     }
   }
-  /// Mends rows for what was released or added, where particles have not moved since they were mended last.
-  void mend_released(const Record* records) {
-    if (listed_) mend(records);
+  /// Before rows are read: mends them for what was added, moved or released since they were mended last. Says in good()
+  /// whether the list goes on.
+  void mend_if_due(const Record* records) {
+    if (listed_ && mending_due_) mend(records);
   }
 
   // Moving ----------------------------------------------------------------------------------------------------------
@@ -125,6 +126,13 @@ class VerletList {
 
  private:
   void strike_apart();
+
+  void add_stray(std::size_t i) {
+    note_far(i / kLanes, 1U << i % kLanes);
+    mending_due_ = true;
+    if (kStrayCost * strays_.size() > count_ + kStrayCost * kLanes)
+      forget();  // looking after them costs more than a list
+  }
 
   // Costs, in units of what listing one particle takes.
   static constexpr std::size_t kStrayCost = 6;  // looking after one stray for one step
@@ -176,16 +184,7 @@ class VerletList {
 
   // How far a record has moved since its neighbours were listed, beyond `expected`, m.
   Vec3<Real> displacement(const Record& p, std::size_t i, const Vec3<Real>& expected) const {
-    const ForcePass<Real>& pass = rules_->pass;
-    const Vec3<Real> from = listed_at_[i] + expected;
-    Vec3<Real> moved = p.x - from;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!pass.periodic[axis]) continue;
-      const Real now = component(p.x, axis), then = component(from, axis);
-      const Real length = component(pass.length, axis);
-      component(moved, axis) = image_displacement(now, then, nearest_image(now, then, length), length);
-    }
-    return moved;
+    return nearest_displacement(p.x, listed_at_[i] + expected, rules_->pass.period);
   }
   bool is_off(const Record& p, std::size_t i, const Anchor& anchor, Real steps) const {
     const Vec3<Real> off = displacement(p, i, anchor.at(steps));
@@ -244,6 +243,7 @@ class VerletList {
   std::vector<std::uint16_t> strayed_;  // by group: a bit a lane
   MendedRows mended_;
   std::vector<std::uint32_t> strays_;
+  bool mending_due_ = false;  // rows lack what was added, moved or released
   std::vector<MendedRows::Lack> released_;  // what rows lack of pairs that were kept apart when they were listed
   typename StrayPairs<Real>::Room room_;
   std::mutex mutex_;  // around strays_

@@ -4,7 +4,6 @@
 #include "hooke/backends/reference/reference_backend.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -18,12 +17,11 @@
 #include "hooke/core/placed_colliders.h"
 #include "hooke/core/state_hash.h"
 #include "hooke/core/sums.h"
-#include "hooke/physics/contact.h"
+#include "hooke/physics/contact_walk.h"
 #include "hooke/physics/drag.h"
 #include "hooke/physics/enclosure.h"
 #include "hooke/physics/integrate.h"
 #include "hooke/physics/periodic.h"
-#include "hooke/physics/wall.h"
 
 namespace hooke {
 namespace {
@@ -40,10 +38,13 @@ class ReferenceBackend final : public Backend {
     sinks_.clear();
     for (const Sink& sink : scene.sinks) sinks_.push_back(geometry_of(sink.shape, false, {0, 0, 0}));
     const double reach = 2 * largest_radius() + table_.widest_range();
+    walls_ = scene.domain.walls();
+    images_.period = scene.domain.period();
     for (int axis = 0; axis < 3; ++axis) {
       // Inside the domain, images further away than this can't touch.
       const bool periodic = scene.domain.boundary[static_cast<std::size_t>(axis)] == Boundary::periodic;
-      images_[static_cast<std::size_t>(axis)] = periodic ? static_cast<int>(reach / scene.domain.length(axis)) + 1 : 0;
+      images_.most[static_cast<std::size_t>(axis)] =
+          periodic ? static_cast<std::int32_t>(reach / scene.domain.length(axis)) + 1 : 0;
       component(period_, axis) = periodic ? scene.domain.length(axis) : std::numeric_limits<double>::infinity();
     }
   }
@@ -127,7 +128,7 @@ class ReferenceBackend final : public Backend {
     left.add(remove_where([&](std::size_t i) { return is_outside_open_face(p_.position[i]); }, false));
   }
 
-  bool neighbours_stale() const override { return true; }  // there is no list: every pair is looked at, every step
+  bool neighbours_stale() override { return true; }  // there is no list: every pair is looked at, every step
 
   Condition build_neighbours() override {
     for (std::size_t i = 0; i < p_.size(); ++i) {
@@ -215,6 +216,7 @@ class ReferenceBackend final : public Backend {
   StageTimes stage_times() const override { return times_; }
 
  private:
+  // A cause whose forces are found for all particles at once.
   struct Acting {
     Cause cause;
     std::vector<Vec3d> force;  // N, a particle each; empty where the scene has nothing of it
@@ -224,8 +226,24 @@ class ReferenceBackend final : public Backend {
     std::vector<Acting> applied;  // in the order of their sum
   };
 
+  // A particle as it meets another one, a wall or a face of a collider.
+  struct Meeting {
+    Condition::Kind kind;  // what an approach is that is too fast
+    std::uint64_t partner;  // id, or index of the collider
+    double overlap;  // m
+    Vec3d normal;  // to the particle
+    Vec3d w;  // m/s, of the partner relative to the particle
+    const ContactLaw<double>* law;
+    double radius;  // m, the smaller one
+  };
+
+  // What acts on one particle, N.
+  struct ParticleForces {
+    SurfaceForces<double> contacts;
+    Vec3d walls{0, 0, 0}, colliders{0, 0, 0}, drag{0, 0, 0}, applied{0, 0, 0};
+  };
+
   bool verlet() const { return scene_.integrator == Integrator::velocity_verlet; }
-  bool has_one_material() const { return scene_.materials.size() == 1; }
   bool is_held(std::size_t i) const { return material(i).fixed || springs_.is_held(p_.id[i]); }
   const Material& material(std::size_t i) const { return scene_.materials[p_.material[i]]; }
   double largest_radius() const {
@@ -241,96 +259,115 @@ class ReferenceBackend final : public Backend {
     return table_.collider(p_.material[i], scene_.colliders[c].material);
   }
 
-  // Of a contact with a wall or a collider: all contacts of a scene follow the same law.
-  Vec3d force(double overlap, const Vec3d& normal, const Vec3d& w, const ContactLaw<double>& law) const {
-    return table_.is_linear() ? contact_forces(overlap, normal, w, law.linear).total()
-                              : contact_forces(overlap, normal, w, law).total();
-  }
-
-  // Forces on each particle in canonical order, cause by cause: contacts by (neighbour id, image), walls, colliders,
-  // drag, springs by index, fields and attraction; then gravity.
+  // Accelerations of all particles (docs/theory.md eq. 1), and what the report says of them.
   Forces accelerations(const Instant& now, StepReport& report) {
     place_colliders_at(now);
     report.mass = total_mass();
     report.applied.emplace();
     Forces out;
-    out.a.resize(p_.size());
     out.applied.push_back({Cause::springs, springs_.forces(p_, report.applied->springs)});
     out.applied.push_back({Cause::field, field_forces(scene_, p_, now.time)});
     out.applied.push_back({Cause::attraction, attraction_.forces(p_)});
-    const double dt = scene_.time_step;
     for (std::size_t i = 0; i < p_.size(); ++i) {
-      const Material& m = material(i);
-      const Vec3d& v = p_.velocity[i];
-      ContactVectors<double> alike;  // contacts, where all have the same coefficients
-      SurfaceForces<double> contacts;
-      Vec3d walls{0, 0, 0}, colliders{0, 0, 0};
-
-      for_each_contact(i, [&](std::size_t p, const Vec3d& normal, double overlap) {
-        const Vec3d w = p_.velocity[p] - v;
-        if (!table_.is_linear()) {
-          contacts += contact_forces(overlap, normal, w, pair(i, p));
-        } else if (has_one_material()) {
-          alike += contact_vectors(overlap, normal, w);
-        } else {
-          contacts.linear += contact_forces(overlap, normal, w, pair(i, p).linear);
-        }
-        const double approach = dot(w, normal);
-        if (overlap > 0 && approach > std::min(m.radius, material(p).radius) / dt) {
-          report.condition =
-              Condition::first(report.condition, {Condition::Kind::approach_too_fast, p_.id[i], p_.id[p], approach});
-        }
-      });
-
-      for_each_wall(i, [&](const Vec3d& normal, double overlap) {
-        walls += force(overlap, normal, -v, table_.wall(p_.material[i]));
-        const double approach = dot(-v, normal);
-        if (overlap > 0 && approach > m.radius / dt) {
-          report.condition =
-              Condition::first(report.condition, {Condition::Kind::wall_approach_too_fast, p_.id[i], 0, approach});
-        }
-      });
-
-      for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double overlap) {
-        const Vec3d w = face.velocity - v;
-        colliders += force(overlap, face.normal, w, collider_pair(i, c));
-        const double approach = dot(w, face.normal);
-        if (overlap > 0 && approach > m.radius / dt) {
-          report.condition =
-              Condition::first(report.condition, {Condition::Kind::collider_approach_too_fast, p_.id[i], c, approach});
-        }
-      });
-      if (table_.is_linear() && has_one_material()) contacts.linear = contact_forces(alike, pair(i, i).linear);
-      const Vec3d by_contacts = table_.is_linear() ? contacts.linear.total() : contacts.total();
-
-      const Vec3d drag = drag_force(v, m.drag);
-      Vec3d applied{0, 0, 0};
-      for (const Acting& acting : out.applied) {
-        if (!acting.force.empty()) applied += acting.force[i];
-      }
-      const Vec3d sum = (((by_contacts + walls) + colliders) + drag) + applied;
-      out.a[i] = (1 / m.mass) * sum + scene_.gravity;
-
-      report.sums.wall_force.add(walls);
-      report.sums.collider_force.add(colliders);
-      report.sums.drag_force.add(drag);
-      const auto add_powers = [&](ByCause<ExactSum, kPassCauses>& power, const Vec3d& before, const Vec3d& after) {
-        const Vec3d twice_mean = before + after;
-        power[Cause::contact_spring].add(dot(contacts.linear.spring, twice_mean));
-        power[Cause::contact_shear].add(dot(contacts.linear.shear, twice_mean));
-        power[Cause::contact_damping].add(dot(contacts.linear.damping, twice_mean));
-        power[Cause::contact_friction].add(dot(contacts.friction, twice_mean));
-        power[Cause::wall].add(dot(walls, twice_mean));
-        power[Cause::collider].add(dot(colliders, twice_mean));
-        power[Cause::drag].add(dot(drag, twice_mean));
-        power[Cause::gravity].add(m.mass * dot(scene_.gravity, twice_mean));
-      };
-      const bool held = is_held(i);
-      const Vec3d after = held ? v : kick(v, out.a[i], verlet() ? dt / 2 : dt);
-      add_powers(report.sums.power, v, after);
-      if (verlet()) add_powers(report.sums.next_power, after, held ? v : kick(after, out.a[i], dt / 2));
+      const std::vector<Meeting> meetings = meetings_of(i);
+      const ParticleForces forces = forces_on(i, meetings, out.applied);
+      out.a.push_back((1 / material(i).mass) * total(forces) + scene_.gravity);
+      report.condition = Condition::first(report.condition, check_approach(i, meetings));
+      book(i, forces, out.a[i], report.sums);
     }
     return out;
+  }
+
+  // In canonical order: other particles by id and image, walls, colliders.
+  std::vector<Meeting> meetings_of(std::size_t i) const {
+    const Vec3d& v = p_.velocity[i];
+    const double radius = material(i).radius;
+    std::vector<Meeting> all;
+    for_each_contact(i, [&](std::size_t p, const Vec3d& normal, double overlap) {
+      all.push_back({Condition::Kind::approach_too_fast, p_.id[p], overlap, normal, p_.velocity[p] - v, &pair(i, p),
+                     std::min(radius, material(p).radius)});
+    });
+    for_each_wall(i, [&](const Vec3d& normal, double overlap) {
+      all.push_back(
+          {Condition::Kind::wall_approach_too_fast, 0, overlap, normal, -v, &table_.wall(p_.material[i]), radius});
+    });
+    for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double overlap) {
+      all.push_back({Condition::Kind::collider_approach_too_fast, c, overlap, face.normal, face.velocity - v,
+                     &collider_pair(i, c), radius});
+    });
+    return all;
+  }
+
+  // Summed in the order of the meetings, cause by cause. In a scene of one material, contacts are summed before their
+  // coefficients are applied: the definition, not a shortcut (docs/theory.md section 2).
+  ParticleForces forces_on(std::size_t i, const std::vector<Meeting>& meetings,
+                           const std::vector<Acting>& applied) const {
+    const bool linear = table_.is_linear(), alike = linear && scene_.materials.size() == 1;
+    ParticleForces on;
+    ContactVectors<double> vectors;
+    for (const Meeting& m : meetings) {
+      const auto force = [&] { return contact_forces(m.overlap, m.normal, m.w, *m.law); };
+      const auto linear_force = [&] { return contact_forces(m.overlap, m.normal, m.w, m.law->linear); };
+      if (m.kind == Condition::Kind::approach_too_fast) {
+        if (alike) {
+          vectors += contact_vectors(m.overlap, m.normal, m.w);
+        } else if (linear) {
+          on.contacts.linear += linear_force();
+        } else {
+          on.contacts += force();
+        }
+      } else {
+        Vec3d& sum = m.kind == Condition::Kind::wall_approach_too_fast ? on.walls : on.colliders;
+        sum += linear ? linear_force().total() : force().total();
+      }
+    }
+    if (alike) on.contacts.linear = contact_forces(vectors, pair(i, i).linear);
+    on.drag = drag_force(p_.velocity[i], material(i).drag);
+    for (const Acting& acting : applied) {
+      if (!acting.force.empty()) on.applied += acting.force[i];
+    }
+    return on;
+  }
+
+  Vec3d total(const ParticleForces& on) const {
+    const Vec3d contacts = table_.is_linear() ? on.contacts.linear.total() : on.contacts.total();
+    return (((contacts + on.walls) + on.colliders) + on.drag) + on.applied;
+  }
+
+  // The first approach that a step can't resolve, if there is one.
+  Condition check_approach(std::size_t i, const std::vector<Meeting>& meetings) const {
+    Condition found;
+    for (const Meeting& m : meetings) {
+      const double approach = dot(m.w, m.normal);
+      if (m.overlap > 0 && approach > m.radius / scene_.time_step) {
+        found = Condition::first(found, {m.kind, p_.id[i], m.partner, approach});
+      }
+    }
+    return found;
+  }
+
+  // The forces, and their powers in the kick that comes with an acceleration `a`, and in the one after it.
+  void book(std::size_t i, const ParticleForces& on, const Vec3d& a, StepSums& sums) const {
+    sums.wall_force.add(on.walls);
+    sums.collider_force.add(on.colliders);
+    sums.drag_force.add(on.drag);
+    const auto add_powers = [&](ByCause<ExactSum, kPassCauses>& power, const Vec3d& before, const Vec3d& after) {
+      const Vec3d twice_mean = before + after;
+      power[Cause::contact_spring].add(dot(on.contacts.linear.spring, twice_mean));
+      power[Cause::contact_shear].add(dot(on.contacts.linear.shear, twice_mean));
+      power[Cause::contact_damping].add(dot(on.contacts.linear.damping, twice_mean));
+      power[Cause::contact_friction].add(dot(on.contacts.friction, twice_mean));
+      power[Cause::wall].add(dot(on.walls, twice_mean));
+      power[Cause::collider].add(dot(on.colliders, twice_mean));
+      power[Cause::drag].add(dot(on.drag, twice_mean));
+      power[Cause::gravity].add(material(i).mass * dot(scene_.gravity, twice_mean));
+    };
+    const double dt = scene_.time_step;
+    const Vec3d& v = p_.velocity[i];
+    const bool held = is_held(i);
+    const Vec3d after = held ? v : kick(v, a, verlet() ? dt / 2 : dt);
+    add_powers(sums.power, v, after);
+    if (verlet()) add_powers(sums.next_power, after, held ? v : kick(after, a, dt / 2));
   }
 
   // What the applied forces on particle i do in a kick from `before` to `after`, and in the half kick to come.
@@ -359,41 +396,25 @@ class ReferenceBackend final : public Backend {
   template <class Visit>
   void for_each_contact(std::size_t i, Visit&& visit) const {
     if (!material(i).interacts) return;
-    const Domain& domain = scene_.domain;
     // Looked at no closer beyond this, m: twice as far as contacts reach, so that rounding can't matter.
     const double far = 2 * (2 * largest_radius() + table_.widest_range());
     for (std::size_t p = 0; p < p_.size(); ++p) {
-      if (is_farther(far, p_.position[i], p_.position[p])) continue;
-      for (int sx = -images_[0]; sx <= images_[0]; ++sx) {
-        for (int sy = -images_[1]; sy <= images_[1]; ++sy) {
-          for (int sz = -images_[2]; sz <= images_[2]; ++sz) {
-            const Vec3d x_ip{image_displacement<double>(p_.position[i].x, p_.position[p].x, sx, domain.length(0)),
-                             image_displacement<double>(p_.position[i].y, p_.position[p].y, sy, domain.length(1)),
-                             image_displacement<double>(p_.position[i].z, p_.position[p].z, sz, domain.length(2))};
-            if (!material(p).interacts || (p == i && sx == 0 && sy == 0 && sz == 0)) continue;
-            const double distance = sqrt_of(dot(x_ip, x_ip));
-            const double overlap = (material(i).radius + material(p).radius) - distance;
-            if (!(overlap > -pair(i, p).surface.range) || springs_.keep_apart(p_.id[i], p_.id[p])) continue;
-            visit(p, contact_normal(x_ip, distance, p_.id[i] > p_.id[p] ? 1.0 : -1.0), overlap);
-          }
-        }
-      }
+      if (is_farther(far, p_.position[i], p_.position[p]) || !material(p).interacts) continue;
+      for_each_image(p_.position[i], p_.position[p], images_, [&](const ImageIndex& image, const Vec3d& x_ip) {
+        if (p == i && image == ImageIndex{}) return;
+        const auto [overlap, normal] =
+            pair_geometry(x_ip, material(i).radius + material(p).radius, p_.id[i] > p_.id[p] ? 1.0 : -1.0);
+        if (!(overlap > -pair(i, p).surface.range) || springs_.keep_apart(p_.id[i], p_.id[p])) return;
+        visit(p, normal, overlap);
+      });
     }
   }
 
-  // visit(normal, overlap) for every wall that acts on particle i: x, y, z, the lower face first.
+  // visit(normal, overlap) for every wall that acts on particle i.
   template <class Visit>
   void for_each_wall(std::size_t i, Visit&& visit) const {
-    const double range = table_.wall(p_.material[i]).surface.range;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (scene_.domain.boundary[static_cast<std::size_t>(axis)] != Boundary::spring) continue;
-      const double x = component(p_.position[i], axis);
-      const double radius = material(i).radius;
-      const double lower = lower_wall_overlap(x, component(scene_.domain.min, axis), radius);
-      const double upper = upper_wall_overlap(x, component(scene_.domain.max, axis), radius);
-      if (lower > -range) visit(wall_normal(axis, 1.0), lower);
-      if (upper > -range) visit(wall_normal(axis, -1.0), upper);
-    }
+    hooke::for_each_wall(walls_, p_.position[i], material(i).radius, table_.wall(p_.material[i]).surface.range,
+                         [&](int, const Vec3d& normal, double overlap) { visit(normal, overlap); });
   }
 
   // visit(collider, face, overlap) for every face of a collider that acts on particle i, in the scene's order, image by
@@ -481,7 +502,8 @@ class ReferenceBackend final : public Backend {
   ReferenceSprings springs_;
   ReferenceAttraction attraction_;
   Vec3d period_{};  // m; infinite along an axis that isn't periodic
-  std::array<int, 3> images_{};  // images -n to n of every particle are looked at, a periodic axis
+  PeriodicImages images_;
+  Walls walls_;
   PlacedColliders<double> colliders_;
   std::vector<ShapeGeometry<double>> sinks_;
   ParticleSet p_;

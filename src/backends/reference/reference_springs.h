@@ -134,13 +134,7 @@ class ReferenceSprings {
       if (broken_[s]) continue;
       const std::size_t i = p.find(springs().a[s]), j = p.find(springs().b[s]);
       if (i == p.size() || j == p.size()) continue;
-      Vec3d x_ij = p.position[i] - p.position[j];
-      for (int axis = 0; axis < 3; ++axis) {
-        if (domain_.boundary[static_cast<std::size_t>(axis)] != Boundary::periodic) continue;
-        const double x_i = component(p.position[i], axis), x_j = component(p.position[j], axis);
-        const double length = domain_.length(axis);
-        component(x_ij, axis) = image_displacement(x_i, x_j, nearest_image(x_i, x_j, length), length);
-      }
+      const Vec3d x_ij = nearest_displacement(p.position[i], p.position[j], domain_.period());
       const double distance = sqrt_of(dot(x_ij, x_ij));
       visit(s, i, j, contact_normal(x_ij, distance, p.id[i] > p.id[j] ? 1.0 : -1.0),
             distance - springs().rest_length[s]);

@@ -12,7 +12,7 @@ TankEdges::TankEdges() : array_(gl::make_vertex_array()), buffer_(gl::make_buffe
   for (GLuint end = 0; end < 2; ++end) {
     glEnableVertexAttribArray(end);
     glVertexAttribPointer(end, 3, GL_FLOAT, GL_FALSE, 2 * sizeof(Vec3f),
-                          reinterpret_cast<const void*>(end * sizeof(Vec3f)));
+                          reinterpret_cast<const void*>(end * sizeof(Vec3f)));  // NOLINT(performance-no-int-to-ptr)
     glVertexAttribDivisor(end, 1);
   }
 }
