@@ -152,8 +152,8 @@ class Backend {
   virtual void apply_forces(const Instant& now, StepReport& report) = 0;
 
   /// Velocity Verlet: evaluates the accelerations a(x, v) at `now` of the particles with an id >= `first_new_id`, which
-  /// have none of a last step. Nothing moves. Reports the sums of the evaluation over all particles. The neighbour list
-  /// is not stale.
+  /// have none of a last step. Nothing moves. Reports the sums of the evaluation over all particles. After
+  /// build_neighbours() where the list was stale.
   virtual void evaluate_accelerations(const Instant& now, std::uint64_t first_new_id, StepReport& report) = 0;
 
   // The observer ----------------------------------------------------------------------------------------------------

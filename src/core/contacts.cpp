@@ -16,10 +16,10 @@
 #include "hooke/base/ascending.h"
 #include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
+#include "hooke/core/contact_walk.h"
 #include "hooke/core/placed_colliders.h"
 #include "hooke/core/springs.h"
 #include "hooke/neighbours/cell_grid.h"
-#include "hooke/physics/contact_walk.h"
 
 namespace hooke {
 

@@ -13,11 +13,11 @@
 #include "hooke/base/vec3.h"
 #include "hooke/core/attraction.h"
 #include "hooke/core/colliders.h"
+#include "hooke/core/contact_walk.h"
 #include "hooke/core/emitters.h"
 #include "hooke/core/fields.h"
 #include "hooke/core/materials.h"
 #include "hooke/core/springs.h"
-#include "hooke/physics/contact_walk.h"
 
 namespace hooke {
 

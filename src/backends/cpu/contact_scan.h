@@ -5,8 +5,8 @@
 #include <span>
 
 #include "hooke/backends/cpu/force_pass.h"
+#include "hooke/core/contact_walk.h"
 #include "hooke/neighbours/neighbour_list.h"
-#include "hooke/physics/contact_walk.h"
 
 namespace hooke {
 

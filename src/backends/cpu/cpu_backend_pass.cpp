@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "hooke/backends/cpu/contact_reports.h"
-#include "hooke/base/assert.h"
 #include "hooke/base/huge_pages.h"
 #include "hooke/base/stopwatch.h"
 
@@ -41,7 +40,6 @@ void CpuBackend<Real>::apply_forces(const Instant& now, StepReport& report) {
 
 template <class Real>
 void CpuBackend<Real>::evaluate_accelerations(const Instant& now, std::uint64_t first_new_id, StepReport& report) {
-  HOOKE_ASSERT(!neighbours_stale());
   LargeVector<Vec3<Real>> evaluated(particles_.acceleration.size());
   place_at(now);
   aim_pass(evaluated.data());
