@@ -45,7 +45,7 @@ class ContactSearch {
     HOOKE_ASSERT(is_ascending(now.broken_springs), now.broken_springs.size());
     if (particles.empty()) return;
     place_colliders(now.time);
-    find_apart(now.broken_springs);
+    find_exclusions(now.broken_springs);
     lay_out_grid();
     sort_spheres();
   }
@@ -180,20 +180,20 @@ class ContactSearch {
     return largest;
   }
 
-  void find_apart(std::span<const std::uint64_t> broken) {
+  void find_exclusions(std::span<const std::uint64_t> broken) {
     if (!scene_.structure) return;
     const SpringSet& springs = scene_.structure->springs;
     for (std::size_t s = 0; s < springs.size(); ++s) {
       if (springs.contact[s] != 0 || std::binary_search(broken.begin(), broken.end(), s)) continue;
-      apart_.emplace_back(std::minmax(springs.a[s], springs.b[s]));
+      exclusions_.emplace_back(std::minmax(springs.a[s], springs.b[s]));
     }
-    std::sort(apart_.begin(), apart_.end());
+    std::sort(exclusions_.begin(), exclusions_.end());
   }
 
-  bool keeps_apart(std::uint32_t a, std::uint32_t b) const {
-    if (apart_.empty()) return false;
+  bool excludes(std::uint32_t a, std::uint32_t b) const {
+    if (exclusions_.empty()) return false;
     const auto ids = std::minmax(particles_.id[a], particles_.id[b]);
-    return std::binary_search(apart_.begin(), apart_.end(), IdPair(ids));
+    return std::binary_search(exclusions_.begin(), exclusions_.end(), IdPair(ids));
   }
 
   void lay_out_grid() {
@@ -258,7 +258,7 @@ class ContactSearch {
                        std::vector<Touch>& touches) const {
     const ContactLaw<double>& law = table_.pair(i.material, p.material);
     const auto [overlap, normal] = pair_geometry(x_ip, i.radius + p.radius, i.index > p.index ? 1.0 : -1.0);
-    if (!(overlap > -law.surface.range) || keeps_apart(i.index, p.index)) return;  // indices go with ids
+    if (!(overlap > -law.surface.range) || excludes(i.index, p.index)) return;  // indices go with ids
     const Vec3d force = contact_force(overlap, normal, p.v - i.v, law);
     touches.push_back({{i.index, p.index, Face::none, image, overlap, force}, dot(force, normal)});
   }
@@ -298,7 +298,7 @@ class ContactSearch {
   ContactTable table_;
   double furthest_, reach_ = 0;  // m
   PlacedColliders<double> colliders_;
-  std::vector<IdPair> apart_;  // smaller id first, ascending: a spring keeps them from touching
+  std::vector<IdPair> exclusions_;  // smaller id first, ascending: a spring keeps them from touching
   bool any_periodic_ = false;
   Vec3d period_{kNever, kNever, kNever};  // m, of periodic axes
   PeriodicImages images_;

@@ -8,8 +8,8 @@
 #include <memory>
 #include <vector>
 
-#include "hooke/backends/cpu/apart_pairs.h"
 #include "hooke/backends/cpu/attraction_tree.h"
+#include "hooke/backends/cpu/exclusions.h"
 #include "hooke/backends/cpu/held_particles.h"
 #include "hooke/backends/cpu/id_table.h"
 #include "hooke/backends/cpu/particle_slots.h"
@@ -80,8 +80,8 @@ TEST(CpuPreconditions, TablesOfIdsAscend) {
 }
 
 TEST(CpuPreconditions, PairsAreOfRanksAndKeptApart) {
-  EXPECT_ASSERTS(ApartPairs(2, {{0, 2}}), "a = 0, b = 2, ranks = 2");
-  ApartPairs pairs(3, {{0, 1}});
+  EXPECT_ASSERTS(Exclusions(2, {{0, 2}}), "a = 0, b = 2, ranks = 2");
+  Exclusions pairs(3, {{0, 1}});
   EXPECT_ASSERTS(pairs.release(0, 2), "a = 0, b = 2");
 }
 

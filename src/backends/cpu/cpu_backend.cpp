@@ -20,7 +20,7 @@ void CpuBackend<Real>::configure(const Scene& scene) {
   pass_ = rules_.pass;
   particles_.configure(scene_, rules_);
   colliders_.configure(scene, pass_.material_count);
-  list_.configure(rules_, loops_.search_window, applied_.springs().apart());
+  list_.configure(rules_, loops_.search_window, applied_.springs().exclusions());
   applied_.configure(scene, rules_.pass, loops_);
   sinks_ = PlacedSinks(scene.sinks);
 }

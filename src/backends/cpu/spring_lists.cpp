@@ -75,7 +75,7 @@ void SpringLists<Real>::bind(const IdTable& ids) {
     sides_[next[a]++] = {s, b};
     sides_[next[b]++] = {s, a};
   });
-  apart_ = ApartPairs(ids.size(), apart);
+  exclusions_ = Exclusions(ids.size(), apart);
 }
 
 template <class Real>
@@ -83,7 +83,7 @@ void SpringLists<Real>::grow(std::size_t ranks) {
   if (empty()) return;
   HOOKE_ASSERT(ranks + 1 >= first_side_.size(), ranks, first_side_.size());
   first_side_.resize(ranks + 1, first_side_.back());
-  apart_.grow(ranks);
+  exclusions_.grow(ranks);
 }
 
 template <class Real>
@@ -202,7 +202,7 @@ void SpringLists<Real>::take(const std::shared_ptr<const Structure>& structure) 
   rest_length_.clear();
   sides_.clear();
   first_side_.clear();
-  apart_ = {};
+  exclusions_ = {};
   tearable_ = false;
   if (!structure) return;
   const SpringSet& springs = structure->springs;
@@ -245,7 +245,7 @@ void SpringLists<Real>::settle_torn(const Record* records, std::size_t g, Spring
       sums.broken_energy.add(energy_of(side.spring, own, other));
       if (structure_->springs.contact[side.spring] == 0) {
         const std::lock_guard lock(mutex_);
-        apart_.release(rank, side.partner);
+        exclusions_.release(rank, side.partner);
         released_.emplace_back(static_cast<std::uint32_t>(g * kLanes + lane), partner);
       }
     }

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "hooke/backends/cpu/apart_pairs.h"
+#include "hooke/backends/cpu/exclusions.h"
 #include "hooke/backends/cpu/force_pass.h"
 #include "hooke/backends/cpu/id_table.h"
 #include "hooke/backends/cpu/spring_pass.h"
@@ -46,7 +46,7 @@ class SpringLists {
   void grow(std::size_t ranks);
 
   /// Pairs that springs keep from touching.
-  const ApartPairs& apart() const { return apart_; }
+  const Exclusions& exclusions() const { return exclusions_; }
 
   /// Lays the springs out for `count` particles in their order of now; `place` is that of each rank, kNowherePlace
   /// where a particle is gone. The last of `size` records fills short rows.
@@ -91,7 +91,7 @@ class SpringLists {
   std::vector<std::uint8_t> broken_;  // by spring
   LargeVector<Side> sides_;  // of rank r: first_side_[r] to first_side_[r + 1]
   std::vector<std::uint32_t> first_side_;
-  ApartPairs apart_;
+  Exclusions exclusions_;
 
   std::vector<std::pair<std::uint32_t, std::uint32_t>> released_;  // by the last apply(): indices of their ends
 

@@ -17,7 +17,7 @@ bool StrayPairs<Real>::is_listed(std::size_t i, std::size_t p) const {
 // Where one of two lacks the other, so does the other.
 template <class Real>
 void StrayPairs<Real>::note_lacks(std::size_t i, std::size_t p, std::vector<Lack>& lacks) const {
-  if (is_listed(i, p) || apart_.hold(ranks_[i], ranks_[p])) return;
+  if (is_listed(i, p) || exclusions_.hold(ranks_[i], ranks_[p])) return;
   const std::lock_guard lock(mutex_);
   for (const auto& [of, other] : {std::pair{i, p}, std::pair{p, i}}) {
     lacks.push_back(

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "hooke/backends/cpu/apart_pairs.h"
+#include "hooke/backends/cpu/exclusions.h"
 #include "hooke/backends/cpu/mended_rows.h"
 #include "hooke/backends/cpu/pass_rules.h"
 #include "hooke/base/parallel.h"
@@ -31,14 +31,14 @@ class StrayPairs {
 
  public:
   StrayPairs(const PassRules<Real>& rules, const Record* records, const CellList& cells, const WindowOrder& slots,
-             const std::uint32_t* ranks, const NeighbourList& list, const ApartPairs& apart)
+             const std::uint32_t* ranks, const NeighbourList& list, const Exclusions& exclusions)
       : rules_(rules),
         records_(records),
         cells_(cells),
         slots_(slots),
         ranks_(ranks),
         list_(list),
-        apart_(apart) {}
+        exclusions_(exclusions) {}
 
   /// Room that is kept from one search to the next.
   struct Room {
@@ -127,7 +127,7 @@ class StrayPairs {
   const WindowOrder& slots_;
   const std::uint32_t* ranks_;
   const NeighbourList& list_;
-  const ApartPairs& apart_;
+  const Exclusions& exclusions_;
   mutable std::mutex mutex_;  // around what is lacking
 };
 

@@ -61,7 +61,7 @@ void VerletList<Real>::build(const Record* records, std::size_t count, std::size
     }
   });
   build_neighbour_list(cells_, neighbour_rule(columns), search_, list_);
-  strike_apart();
+  strike_exclusions();
   list_.add_empty_segments((end_ + NeighbourList::kSegment - 1) / NeighbourList::kSegment);
 
   limits_.diameter = 2 * rules_->largest_reach();
@@ -135,7 +135,7 @@ std::uint64_t VerletList<Real>::count_missed(const Record* records) const {
       const auto rows = this->rows(i / NeighbourList::kSegment, i % NeighbourList::kSegment / kLanes);
       cells.for_points_near(vec_cast<double>(records[i].x), reach_of(records[i]), [&](std::size_t k) {
         const std::uint32_t p = order[k];
-        if (p != i && pairs.overlap(i, p) && !apart_->hold(rank_of(records[i].rank), rank_of(records[p].rank)) &&
+        if (p != i && pairs.overlap(i, p) && !exclusions_->hold(rank_of(records[i].rank), rank_of(records[p].rank)) &&
             !is_in_lane(rows, i % kLanes, record_offset<Real>(p)))
           ++missed;
       });
@@ -146,13 +146,13 @@ std::uint64_t VerletList<Real>::count_missed(const Record* records) const {
 
 // Takes pairs that springs keep apart out of the rows.
 template <class Real>
-void VerletList<Real>::strike_apart() {
-  if (apart_->empty()) return;
+void VerletList<Real>::strike_exclusions() {
+  if (exclusions_->empty()) return;
   parallel_ranges(count_, kLanes, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const std::span<std::uint32_t> rows = list_.rows_to_edit(i / NeighbourList::kSegment, i / kLanes % kGroups);
-      apart_->strike(order_[i], rows.data() + i % kLanes, rows.size() / kLanes, kLanes, filling_,
-                     [this](std::uint32_t entry) { return order_[entry / record_offset<Real>(1)]; });
+      exclusions_->strike(order_[i], rows.data() + i % kLanes, rows.size() / kLanes, kLanes, filling_,
+                          [this](std::uint32_t entry) { return order_[entry / record_offset<Real>(1)]; });
     }
   });
 }

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "hooke/backends/cpu/apart_pairs.h"
 #include "hooke/backends/cpu/column_store.h"
+#include "hooke/backends/cpu/exclusions.h"
 #include "hooke/backends/cpu/mended_rows.h"
 #include "hooke/backends/cpu/pass_rules.h"
 #include "hooke/backends/cpu/stray_pairs.h"
@@ -41,9 +41,9 @@ class VerletList {
   using Anchor = GroupAnchor<Real>;
 
   /// Pairs that are kept apart are never listed.
-  void configure(const PassRules<Real>& rules, WindowSearchFunction<Real> search, const ApartPairs& apart) {
+  void configure(const PassRules<Real>& rules, WindowSearchFunction<Real> search, const Exclusions& exclusions) {
     rules_ = &rules;
-    apart_ = &apart;
+    exclusions_ = &exclusions;
     search_ = search;
     skin_ratio_ = kFirstSkin;
     listed_ = false;
@@ -125,7 +125,7 @@ class VerletList {
   std::uint64_t count_missed(const Record* records) const;
 
  private:
-  void strike_apart();
+  void strike_exclusions();
 
   void add_stray(std::size_t i) {
     note_far(i / kLanes, 1U << i % kLanes);
@@ -195,7 +195,7 @@ class VerletList {
   unsigned strays_of_group(const Record* records, std::size_t g) const;
 
   StrayPairs<Real> stray_pairs(const Record* records) const {
-    return {*rules_, records, cells_, slots_, order_.data(), list_, *apart_};
+    return {*rules_, records, cells_, slots_, order_.data(), list_, *exclusions_};
   }
 
   void mend(const Record* records);
@@ -221,7 +221,7 @@ class VerletList {
 
   const PassRules<Real>* rules_ = nullptr;
   WindowSearchFunction<Real> search_ = nullptr;
-  const ApartPairs* apart_ = nullptr;
+  const Exclusions* exclusions_ = nullptr;
   double skin_ratio_ = kFirstSkin, skin_ = 0;  // of the smallest diameter; m
   double coarseness_ = 0;  // m
 

@@ -404,7 +404,7 @@ class ReferenceBackend final : public Backend {
         if (p == i && image == ImageIndex{}) return;
         const auto [overlap, normal] =
             pair_geometry(x_ip, material(i).radius + material(p).radius, p_.id[i] > p_.id[p] ? 1.0 : -1.0);
-        if (!(overlap > -pair(i, p).surface.range) || springs_.keep_apart(p_.id[i], p_.id[p])) return;
+        if (!(overlap > -pair(i, p).surface.range) || springs_.excludes(p_.id[i], p_.id[p])) return;
         visit(p, normal, overlap);
       });
     }

@@ -28,11 +28,11 @@ class ReferenceSprings {
     domain_ = scene.domain;
     structure_ = scene.structure;
     broken_.assign(springs().size(), false);
-    apart_.clear();
+    exclusions_.clear();
     for (std::size_t s = 0; s < springs().size(); ++s) {
-      if (springs().contact[s] == 0) apart_.push_back({pair_of(s), s});
+      if (springs().contact[s] == 0) exclusions_.push_back({pair_of(s), s});
     }
-    std::sort(apart_.begin(), apart_.end());
+    std::sort(exclusions_.begin(), exclusions_.end());
   }
 
   /// Indices, ascending.
@@ -98,10 +98,10 @@ class ReferenceSprings {
   }
 
   /// Whether a spring keeps these two from touching.
-  bool keep_apart(std::uint64_t a, std::uint64_t b) const {
+  bool excludes(std::uint64_t a, std::uint64_t b) const {
     const auto pair = std::minmax(a, b);
-    const auto found = std::lower_bound(apart_.begin(), apart_.end(), Apart{{pair.first, pair.second}, 0});
-    for (auto k = found; k != apart_.end() && k->first == Pair{pair.first, pair.second}; ++k) {
+    const auto found = std::lower_bound(exclusions_.begin(), exclusions_.end(), Apart{{pair.first, pair.second}, 0});
+    for (auto k = found; k != exclusions_.end() && k->first == Pair{pair.first, pair.second}; ++k) {
       if (!broken_[k->second]) return true;
     }
     return false;
@@ -144,7 +144,7 @@ class ReferenceSprings {
   Domain domain_;
   std::shared_ptr<const Structure> structure_;
   std::vector<bool> broken_;  // by spring
-  std::vector<Apart> apart_;  // pairs that don't touch, with their spring
+  std::vector<Apart> exclusions_;  // pairs that don't touch, with their spring
 };
 
 }  // namespace hooke

@@ -13,11 +13,11 @@
 namespace hooke {
 
 /// Pairs of particles, by rank, that don't touch each other because a spring keeps them apart.
-class ApartPairs {
+class Exclusions {
  public:
-  ApartPairs() = default;
+  Exclusions() = default;
   /// Of so many particles, above all of the pairs; each pair counts both ways.
-  ApartPairs(std::size_t ranks, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
+  Exclusions(std::size_t ranks, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
     if (pairs.empty()) return;
     first_.assign(ranks + 1, 0);
     for (const auto& [a, b] : pairs) {
