@@ -43,7 +43,7 @@ void AppliedForces<Real>::bind(const IdTable& ids, const Records& records, std::
   }
   for (std::size_t i = 0; any_fixed_ && i < count; ++i) {
     const Record& p = records[i];
-    if (!is_nowhere(p) && fixed_[static_cast<std::size_t>(p.material)]) {
+    if (!is_vacant(p) && fixed_[static_cast<std::size_t>(p.material)]) {
       held.push_back(static_cast<std::uint32_t>(rank_of(p.rank)));
     }
   }
@@ -54,7 +54,7 @@ void AppliedForces<Real>::bind(const IdTable& ids, const Records& records, std::
 template <class Real>
 void AppliedForces<Real>::add(std::size_t slot, std::size_t ranks, bool fixed, std::size_t room) {
   if (needs_layout()) {
-    place_.resize(ranks, SpringLists<Real>::kNowherePlace);
+    place_.resize(ranks, SpringLists<Real>::kVacant);
     place_.back() = static_cast<std::uint32_t>(slot);
   }
   springs_.grow(ranks);
@@ -120,10 +120,10 @@ void AppliedForces<Real>::measure(const Records& records, std::size_t count, std
 
 template <class Real>
 void AppliedForces<Real>::find_places(const Records& records, std::size_t count, std::size_t ranks) {
-  place_.assign(ranks, SpringLists<Real>::kNowherePlace);
+  place_.assign(ranks, SpringLists<Real>::kVacant);
   parallel_ranges(count, kSegment, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      if (!is_nowhere(records[i])) place_[rank_of(records[i].rank)] = static_cast<std::uint32_t>(i);
+      if (!is_vacant(records[i])) place_[rank_of(records[i].rank)] = static_cast<std::uint32_t>(i);
     }
   });
 }
@@ -132,7 +132,7 @@ template <class Real>
 void AppliedForces<Real>::find_held(std::size_t count) {
   held_.clear(count);
   for (const std::uint32_t rank : held_ranks_) {
-    if (place_[rank] != SpringLists<Real>::kNowherePlace) held_.hold(place_[rank]);
+    if (place_[rank] != SpringLists<Real>::kVacant) held_.hold(place_[rank]);
   }
 }
 
@@ -141,7 +141,7 @@ void AppliedForces<Real>::hold_still(std::size_t first, std::size_t last, const 
                                      Vec3<Real>* acceleration, AppliedSums& sums) const {
   if (held_.none()) return;
   for (std::size_t i = first; i < last; ++i) {
-    if (!held_.holds(i) || is_nowhere(before[i])) continue;
+    if (!held_.holds(i) || is_vacant(before[i])) continue;
     sums.add_held(mass_[static_cast<std::size_t>(before[i].material)], vec_cast<double>(before[i].v),
                   vec_cast<double>(after[i].v), kick_);
     after[i] = before[i];

@@ -61,7 +61,7 @@ void AttractionForces<Real>::gather(const LargeVector<Record>& records, std::siz
   }
   std::size_t at = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    if (!is_nowhere(records[i])) points_[at++] = point_of(records, i);
+    if (!is_vacant(records[i])) points_[at++] = point_of(records, i);
   }
 }
 

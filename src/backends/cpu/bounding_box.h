@@ -29,7 +29,7 @@ Condition bounding_box(const ParticleRecord<Real>* records, std::size_t count, c
     Condition found;
     for (std::size_t i = first; i < last; ++i) {
       const ParticleRecord<Real>& p = records[i];
-      if (is_nowhere(p)) continue;
+      if (is_vacant(p)) continue;
       for (int axis = 0; axis < 3; ++axis) {
         const Real x = component(p.x, axis);
         if (!(std::abs(x) < static_cast<Real>(kFurthest))) {

@@ -40,7 +40,7 @@ class ContactScan {
     constexpr std::size_t kLanes = NeighbourList::kLanes;
     for (std::size_t at = i % kLanes; at < rows.size(); at += kLanes) {
       const std::size_t p = rows[at] / record_offset<Real>(1);
-      if (is_nowhere(records_[p])) continue;
+      if (is_vacant(records_[p])) continue;
       const PairRow<Real>& row = pair(i, p);
       for_each_image(vec_cast<double>(records_[i].x), vec_cast<double>(records_[p].x), images_,
                      [&](const ImageIndex& image, const Vec3d& x_ip) {

@@ -24,7 +24,7 @@ Expected<Measurements> CpuBackend<Real>::measure(const Instant& now) {
     const ContactScan<Real> scan(pass_, particles_.records.data());
     MeasurementSums part;
     for (std::size_t i = first; i < last; ++i) {
-      if (is_nowhere(particles_.records[i])) continue;
+      if (is_vacant(particles_.records[i])) continue;
       measure_particle(scan, i, rows_of(i / kSegment, i % kSegment / kLanes), particles_.records[i], scene_, part);
     }
     const std::lock_guard lock(mutex_);

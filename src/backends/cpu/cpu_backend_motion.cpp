@@ -19,7 +19,7 @@ void CpuBackend<Real>::half_kick_and_drift() {
       unsigned far = 0;
       for (std::size_t i = start; i < std::min(start + kLanes, last); ++i) {
         Record& p = particles_.records[i];
-        if (is_nowhere(p)) continue;
+        if (is_vacant(p)) continue;
         const bool held = applied_.held().holds(i);
         if (!held) {
           p.v = kick(p.v, particles_.acceleration[i], Real(0.5) * pass_.dt);

@@ -46,7 +46,7 @@ void CpuBackend<Real>::evaluate_accelerations(const Instant& now, std::uint64_t 
   apply_others(false, report);
   run_pass(report, [](std::size_t, const SegmentReport&) {});
   for (std::size_t i = 0; i < particles_.slots.end(); ++i) {
-    if (!is_nowhere(particles_.records[i]) && particles_.ids[rank_of(particles_.records[i].rank)] >= first_new_id)
+    if (!is_vacant(particles_.records[i]) && particles_.ids[rank_of(particles_.records[i].rank)] >= first_new_id)
       particles_.acceleration[i] = evaluated[i];
   }
 }
@@ -130,7 +130,7 @@ Condition CpuBackend<Real>::look_closely(std::size_t s, std::size_t g) const {
   Condition found;
   const std::size_t first = s * kSegment + g * kLanes;
   for (std::size_t i = first; i < std::min(first + kLanes, particles_.slots.end_of(s)); ++i) {
-    if (!is_nowhere(particles_.records[i])) {
+    if (!is_vacant(particles_.records[i])) {
       found =
           Condition::first(found, approach_too_fast(scan, i, rows, particles_.records.data(), scene_, particles_.ids));
     }
@@ -142,7 +142,7 @@ template <class Real>
 void CpuBackend<Real>::apply_boundaries_to_group(std::size_t s, std::size_t g, Departures& left) {
   const std::size_t first = s * kSegment + g * kLanes;
   for (std::size_t i = first; i < std::min(first + kLanes, particles_.slots.end_of(s)); ++i) {
-    if (!is_nowhere(particles_.next[i])) apply_boundaries(particles_.next[i], i, left);
+    if (!is_vacant(particles_.next[i])) apply_boundaries(particles_.next[i], i, left);
   }
 }
 

@@ -85,7 +85,7 @@ RemovalSums CpuBackend<Real>::remove_sunk() {
   for_ranges(particles_.slots.end(), kSegment, [&](std::size_t first, std::size_t last) {
     Departures part;
     for (std::size_t i = first; i < last; ++i) {
-      if (!is_nowhere(particles_.records[i]) && sinks_.take(vec_cast<double>(particles_.records[i].x)))
+      if (!is_vacant(particles_.records[i]) && sinks_.take(vec_cast<double>(particles_.records[i].x)))
         leave_at_end_of_step(i, part);
     }
     collect(sunk, part);
@@ -100,7 +100,7 @@ void CpuBackend<Real>::find_inside(const ShapeBounds& box, std::vector<Occupant>
     for (std::size_t i = first; i < last; ++i) {
       const Record& p = particles_.records[i];
       const Vec3d x = vec_cast<double>(p.x);
-      if (!is_nowhere(p) && is_inside(box, x)) found.push_back({x, particles_.material_of(p).radius});
+      if (!is_vacant(p) && is_inside(box, x)) found.push_back({x, particles_.material_of(p).radius});
     }
     const std::lock_guard lock(mutex_);
     out.insert(out.end(), found.begin(), found.end());
@@ -168,7 +168,7 @@ bool CpuBackend<Real>::rebuild_under(std::vector<std::uint32_t>& slots) {
   if (!build_neighbours().good()) return false;
   slots.clear();
   for (std::size_t i = 0; i < particles_.slots.end(); ++i) {
-    if (!is_nowhere(particles_.records[i]) &&
+    if (!is_vacant(particles_.records[i]) &&
         std::binary_search(ranks.begin(), ranks.end(), rank_of(particles_.records[i].rank))) {
       slots.push_back(static_cast<std::uint32_t>(i));
     }

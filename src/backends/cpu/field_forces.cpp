@@ -60,7 +60,7 @@ void FieldForces<Real>::apply(const LargeVector<Record>& records, std::size_t co
       for (std::size_t i = first; i < last; ++i) {
         const Record& p = records[i];
         if (none_yet) force_[i] = {Real(0), Real(0), Real(0)};
-        if (is_nowhere(p)) continue;
+        if (is_vacant(p)) continue;
         const auto material = static_cast<std::size_t>(p.material);
         if (field.acts_on(material, p.x)) force_[i] += field.force(material, p.x, p.v);
         if (!on_sheets) continue;
@@ -83,7 +83,7 @@ void FieldForces<Real>::apply_to_triangles(const PlacedField<Real>& field, const
       bool whole = true;
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t at = place[triangles_[t][k]];
-        whole = whole && at < records.size() && !is_nowhere(records[at]);
+        whole = whole && at < records.size() && !is_vacant(records[at]);
         corner[k] = &records[whole ? at : 0];
       }
       if (!whole) continue;

@@ -162,7 +162,7 @@ struct ContactLoop {
           Met met;
           meet(table, other, -x_ip, met);
           // Too far from itself for any contact.
-          if (sx == 0 && sy == 0 && sz == 0) met.gap = select(itself, P(static_cast<Real>(-kNowhere)), met.gap);
+          if (sx == 0 && sy == 0 && sz == 0) met.gap = select(itself, P(static_cast<Real>(-kVacantPosition)), met.gap);
           add(met, acting);
         }
       }
@@ -355,7 +355,7 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& wor
 
   const Real* own_record = reinterpret_cast<const Real*>(pass.in + first);
   const Lanes<Real> own = load_lanes<Real>([=](int lane) { return own_record + 8 * lane; });
-  const Mask<Real> present = own.x.x < P(static_cast<Real>(kNowhere));
+  const Mask<Real> present = own.x.x < P(static_cast<Real>(kVacantPosition));
 
   Acting<Real, kMaterials> acting;
   if (!work.alone) {

@@ -130,7 +130,7 @@ std::vector<std::uint32_t> ParticleState<Real>::slots_by_rank() const {
   std::vector<std::uint32_t> at(ids.size(), kNoSlot);
   parallel_ranges(slots.end(), kSegment, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      if (!is_nowhere(records[i])) at[rank_of(records[i].rank)] = static_cast<std::uint32_t>(i);
+      if (!is_vacant(records[i])) at[rank_of(records[i].rank)] = static_cast<std::uint32_t>(i);
     }
   });
   return at;
@@ -139,7 +139,7 @@ std::vector<std::uint32_t> ParticleState<Real>::slots_by_rank() const {
 template <class Real>
 void ParticleState<Real>::set(std::size_t slot, const Vec3d& position, const Vec3d& velocity) {
   Record& p = records[slot];
-  HOOKE_ASSERT(!is_nowhere(p), slot);
+  HOOKE_ASSERT(!is_vacant(p), slot);
   p.x = vec_cast<Real>(position);
   p.v = vec_cast<Real>(velocity);
   wrap_periodic(rules_->pass, p);
@@ -159,9 +159,9 @@ std::size_t ParticleState<Real>::add(std::size_t slot, const ParticleSet& newbor
 template <class Real>
 void ParticleState<Real>::remove(std::size_t slot) {
   Record& p = records[slot];
-  HOOKE_ASSERT(!is_nowhere(p), slot);
+  HOOKE_ASSERT(!is_vacant(p), slot);
   --count_of_[static_cast<std::size_t>(p.material)];
-  p = nowhere_record<Real>(p.rank);
+  p = vacant_record<Real>(p.rank);
   slots.leave(slot);
 }
 
@@ -183,7 +183,7 @@ std::uint64_t ParticleState<Real>::hash() const {
     std::uint64_t sum = 0;
     for (std::size_t i = first; i < last; ++i) {
       const Record& p = records[i];
-      if (!is_nowhere(p)) sum += particle_hash(ids[rank_of(p.rank)], p.x, p.v);
+      if (!is_vacant(p)) sum += particle_hash(ids[rank_of(p.rank)], p.x, p.v);
     }
     hash += sum;
   });
@@ -201,7 +201,7 @@ template <class Real>
 void ParticleState<Real>::fill_unused(LargeVector<Record>& all) const {
   const auto fill = [&](std::size_t first, std::size_t last) {
     std::fill(all.begin() + static_cast<std::ptrdiff_t>(first), all.begin() + static_cast<std::ptrdiff_t>(last),
-              nowhere_record<Real>(Real(0)));
+              vacant_record<Real>(Real(0)));
   };
   fill(slots.listed_end(), slots.first_loose());
   fill(slots.loose_end(), all.size() - 1);

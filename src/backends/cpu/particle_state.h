@@ -85,7 +85,7 @@ class ParticleState {
   std::vector<std::uint32_t> slots_by_rank() const;
   // Whether the particle of a rank is in a slot that it had once.
   bool is_at(std::uint32_t slot, std::size_t rank) const {
-    return slot != kNoSlot && !is_nowhere(records[slot]) && rank_of(records[slot].rank) == rank;
+    return slot != kNoSlot && !is_vacant(records[slot]) && rank_of(records[slot].rank) == rank;
   }
   void put(std::size_t slot, std::size_t rank, const ParticleSet& particles, std::size_t k);
   void fill_unused(LargeVector<Record>& all) const;

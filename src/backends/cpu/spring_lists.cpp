@@ -99,7 +99,7 @@ void SpringLists<Real>::lay_out(const Record* records, std::size_t count, std::s
       std::uint32_t most = 0;
       for (std::size_t i = g * kLanes; i < std::min(count, (g + 1) * kLanes); ++i) {
         const std::uint32_t rank = rank_of(records[i].rank);
-        if (!is_nowhere(records[i])) most = std::max(most, first_side_[rank + 1] - first_side_[rank]);
+        if (!is_vacant(records[i])) most = std::max(most, first_side_[rank + 1] - first_side_[rank]);
       }
       first_row_[g + 1] = most;
     }
@@ -112,13 +112,13 @@ void SpringLists<Real>::lay_out(const Record* records, std::size_t count, std::s
     for (std::size_t g = first; g < last; ++g) {
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
         const std::size_t i = g * kLanes + lane;
-        const bool here = i < count && !is_nowhere(records[i]);
+        const bool here = i < count && !is_vacant(records[i]);
         const std::uint32_t rank = here ? rank_of(records[i].rank) : 0;
         const std::uint32_t from = here ? first_side_[rank] : 0, to = here ? first_side_[rank + 1] : 0;
         for (std::uint32_t r = first_row_[g]; r < first_row_[g + 1]; ++r) {
           SpringRow<Real>& row = rows_[r];
           const std::uint32_t k = from + (r - first_row_[g]);
-          const bool ties = k < to && broken_[sides_[k].spring] == 0 && place[sides_[k].partner] != kNowherePlace;
+          const bool ties = k < to && broken_[sides_[k].spring] == 0 && place[sides_[k].partner] != kVacant;
           row.partner[lane] = ties ? record_offset<Real>(place[sides_[k].partner]) : filling;
           row.kind[lane] = ties ? kind_[sides_[k].spring] : kNoSpring;
           row.rest_length[lane] = ties ? rest_length_[sides_[k].spring] : Real(1);
@@ -266,11 +266,11 @@ template <class Visit>
 void SpringLists<Real>::for_each_side(const Record* records, const std::vector<std::uint32_t>& place, std::size_t rank,
                                       const Visit& visit) const {
   const std::uint32_t i = place[rank];
-  if (i == kNowherePlace || is_nowhere(records[i])) return;
+  if (i == kVacant || is_vacant(records[i])) return;
   for (std::uint32_t k = first_side_[rank]; k < first_side_[rank + 1]; ++k) {
     const Side& side = sides_[k];
     const std::uint32_t p = place[side.partner];
-    if (broken_[side.spring] == 0 && p != kNowherePlace && !is_nowhere(records[p])) visit(side, i, p);
+    if (broken_[side.spring] == 0 && p != kVacant && !is_vacant(records[p])) visit(side, i, p);
   }
 }
 

@@ -29,7 +29,7 @@ class SpringLists {
   static constexpr std::size_t kLanes = 16, kGroups = 64, kSegment = kLanes * kGroups;
 
  public:
-  static constexpr std::uint32_t kNowherePlace = ~std::uint32_t{0};
+  static constexpr std::uint32_t kVacant = ~std::uint32_t{0};
 
   void configure(const Scene& scene, const ForcePass<Real>& rules, SpringPassFunction<Real> run);
 
@@ -48,7 +48,7 @@ class SpringLists {
   /// Pairs that springs keep from touching.
   const Exclusions& exclusions() const { return exclusions_; }
 
-  /// Lays the springs out for `count` particles in their order of now; `place` is that of each rank, kNowherePlace
+  /// Lays the springs out for `count` particles in their order of now; `place` is that of each rank, kVacant
   /// where a particle is gone. The last of `size` records fills short rows.
   void lay_out(const Record* records, std::size_t count, std::size_t size, const std::vector<std::uint32_t>& place);
 

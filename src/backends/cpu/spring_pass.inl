@@ -35,7 +35,7 @@ HOOKE_HD void run_spring_pack(const SpringPass<Real>& pass, const SpringWork<Rea
   const P& x = own.first.a;
   const P& y = own.first.b;
   const P& z = own.first.c;
-  const P nowhere(static_cast<Real>(kNowhere)), zero(Real(0));
+  const P nowhere(static_cast<Real>(kVacantPosition)), zero(Real(0));
   Vec3<P> force{zero, zero, zero};
   P power = zero;
   const std::uint32_t end = work.first_row[group + 1], last = work.first_row[work.group_count];

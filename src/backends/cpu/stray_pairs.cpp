@@ -46,7 +46,7 @@ void StrayPairs<Real>::find_among(std::span<const std::uint32_t> strays, Room& r
   sorted.clear();
   const auto reach = static_cast<Real>(2 * rules_.largest_reach() + margin());
   for (const std::uint32_t i : strays) {
-    if (!is_nowhere(records_[i])) add_with_images(i, records_[i].x, 0, reach, sorted);
+    if (!is_vacant(records_[i])) add_with_images(i, records_[i].x, 0, reach, sorted);
   }
   std::sort(sorted.begin(), sorted.end(), [](const Stray& a, const Stray& b) { return a.is_before(b.row, b.x.x); });
   parallel_ranges(sorted.size(), 256, [&](std::size_t first, std::size_t last) {

@@ -76,7 +76,7 @@ class StrayPairs {
     std::atomic<bool> lost{false};
     parallel_ranges(strays.size(), kGrain, [&](std::size_t first, std::size_t last) {
       for (const std::uint32_t i : strays.subspan(first, last - first)) {
-        if (is_nowhere(records_[i])) continue;
+        if (is_vacant(records_[i])) continue;
         if (is_somewhere(records_[i])) {
           find_around(i, place_of(i), strayed, room.lacks);
         } else {

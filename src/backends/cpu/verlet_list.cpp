@@ -18,7 +18,7 @@ template <class Real>
 auto VerletList<Real>::key_of(const CellList& cells, const Record* records) const {
   return [&cells, records, &level_of = rules_->level_of](std::size_t i) {
     const Record& p = records[i];
-    if (is_nowhere(p)) return cells.key_end();
+    if (is_vacant(p)) return cells.key_end();
     return cells.key_of(vec_cast<double>(p.x), level_of[static_cast<std::size_t>(p.material)]);
   };
 }
@@ -131,7 +131,7 @@ std::uint64_t VerletList<Real>::count_missed(const Record* records) const {
   std::atomic<std::uint64_t> missed{0};
   parallel_ranges(end_, kLanes, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      if (is_nowhere(records[i])) continue;
+      if (is_vacant(records[i])) continue;
       const auto rows = this->rows(i / NeighbourList::kSegment, i % NeighbourList::kSegment / kLanes);
       cells.for_points_near(vec_cast<double>(records[i].x), reach_of(records[i]), [&](std::size_t k) {
         const std::uint32_t p = order[k];
@@ -222,7 +222,7 @@ void VerletList<Real>::follow(const Record* records) {
         GroupMotion motion;
         Extent extent;
         for (std::size_t i = w * kWindow; i < std::min((w + 1) * kWindow, count_); ++i) {
-          if (is_nowhere(records[i])) continue;
+          if (is_vacant(records[i])) continue;
           const Vec3<Real> u = displacement(records[i], i, {Real(0), Real(0), Real(0)});
           extent.add(u);
           motion.moved += u;
@@ -255,7 +255,7 @@ unsigned VerletList<Real>::strays_of_group(const Record* records, std::size_t g)
   if (!born && moved_[window].furthest2(anchor.offset) <= anchor.limit2(Real(0))) return far;
   const std::size_t end = born ? (g + 1) * kLanes : std::min((g + 1) * kLanes, count_);
   for (std::size_t i = g * kLanes; i < end; ++i) {
-    if (!is_nowhere(records[i]) && (born || is_off(records[i], i, anchor, Real(0)))) far |= 1U << i % kLanes;
+    if (!is_vacant(records[i]) && (born || is_off(records[i], i, anchor, Real(0)))) far |= 1U << i % kLanes;
   }
   return far;
 }
