@@ -14,7 +14,7 @@
 namespace hooke {
 namespace {
 
-constexpr std::uint32_t kDummy = 0x3ffffff0U;
+constexpr std::uint32_t kFiller = 0x3ffffff0U;
 
 struct Setting {
   const char* name;
@@ -106,7 +106,7 @@ class Lists {
     std::copy(std::begin(setting.periodic), std::end(setting.periodic), rule_.periodic);
     rule_.length = vec_cast<Real>(size);
     rule_.stride = kStride;
-    rule_.dummy = kDummy / kStride;
+    rule_.filler = kFiller / kStride;
   }
 
   void build(const Isa& isa, bool list_self, NeighbourList& list) {
@@ -156,7 +156,7 @@ class Lists {
       for (std::size_t row = segment.first_row[group]; row < segment.first_row[group + 1]; ++row) {
         lane.push_back(segment.entries[row * NeighbourList::kLanes + slot % NeighbourList::kLanes]);
       }
-      while (!lane.empty() && lane.back() == kDummy) lane.pop_back();
+      while (!lane.empty() && lane.back() == kFiller) lane.pop_back();
       std::vector<std::uint32_t> listed = near[i];
       if (!list_self) std::erase(listed, static_cast<std::uint32_t>(slot) * kStride);
       ASSERT_EQ(lane, listed) << isa.name << ", point " << i;

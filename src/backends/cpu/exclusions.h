@@ -52,20 +52,20 @@ class Exclusions {
   }
 
   /// Takes the particle of this rank's pairs out of its row of a neighbour list, whose `count` entries are `stride`
-  /// apart; `filling` stands for none.
+  /// apart; `filler` stands for none.
   template <class RankOfEntry>
-  void strike(std::uint32_t rank, std::uint32_t* row, std::size_t count, std::size_t stride, std::uint32_t filling,
+  void strike(std::uint32_t rank, std::uint32_t* row, std::size_t count, std::size_t stride, std::uint32_t filler,
               const RankOfEntry& rank_of_entry) const {
     std::uint64_t some = 0;  // a bit for each partner, shared by some
     for (auto p = begin(rank); p != begin(rank + 1); ++p) some |= std::uint64_t{1} << (*p & 63U);
     if (some == 0) return;
     std::size_t kept = 0;
-    for (std::size_t k = 0; k < count && row[k * stride] != filling; ++k) {
+    for (std::size_t k = 0; k < count && row[k * stride] != filler; ++k) {
       const std::uint32_t entry = row[k * stride], other = rank_of_entry(entry);
       if ((some >> (other & 63U) & 1U) != 0 && hold(rank, other)) continue;
       row[kept++ * stride] = entry;
     }
-    for (; kept < count && row[kept * stride] != filling; ++kept) row[kept * stride] = filling;
+    for (; kept < count && row[kept * stride] != filler; ++kept) row[kept * stride] = filler;
   }
 
  private:

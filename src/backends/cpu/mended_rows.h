@@ -43,10 +43,10 @@ class MendedRows {
     return std::span(entries_).subspan(m.first, m.count);
   }
 
-  /// Adds what is lacking to rows of the list, whose entries are offsets of records. `ranks` are by record; `filling`
+  /// Adds what is lacking to rows of the list, whose entries are offsets of records. `ranks` are by record; `filler`
   /// stands for none.
   template <class Real>
-  void mend(std::vector<Lack>& lacks, const NeighbourList& list, std::uint32_t filling, const std::uint32_t* ranks);
+  void mend(std::vector<Lack>& lacks, const NeighbourList& list, std::uint32_t filler, const std::uint32_t* ranks);
 
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
@@ -56,12 +56,12 @@ class MendedRows {
   };
 
   template <class RankOfEntry>
-  static void insert(const Lack& lack, std::uint32_t* rows, std::size_t count, std::uint32_t filling,
+  static void insert(const Lack& lack, std::uint32_t* rows, std::size_t count, std::uint32_t filler,
                      const RankOfEntry& rank_of_entry);
 
   std::vector<std::uint32_t> at_;  // by group: index into mended_
   std::vector<Mended> mended_;
-  std::vector<std::uint32_t> entries_;  // kRowsAhead rows of `filling` behind the last
+  std::vector<std::uint32_t> entries_;  // kRowsAhead rows of `filler` behind the last
 };
 
 }  // namespace hooke

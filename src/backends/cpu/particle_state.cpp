@@ -25,7 +25,7 @@ void ParticleState<Real>::place(const ParticleSet& particles, std::size_t births
   const bool tied = scene_->structure != nullptr;  // to slots, until all are laid out again
   slots.lay_out(count_ - loose_count_, room_for_births(true) + births, loose_count_, room_for_births(false) + births,
                 tied);
-  records.resize(slots.room() + ParticleSlots::kLanes);  // a pack more, for searches to read; the last is the dummy
+  records.resize(slots.room() + ParticleSlots::kLanes);  // a pack more, for searches to read; the last is the filler
   next.resize(records.size());
   acceleration.assign(verlet() ? records.size() : 0, {Real(0), Real(0), Real(0)});
   std::size_t next_listed = 0, next_loose = slots.first_loose();
@@ -205,7 +205,7 @@ void ParticleState<Real>::fill_unused(LargeVector<Record>& all) const {
   };
   fill(slots.listed_end(), slots.first_loose());
   fill(slots.loose_end(), all.size() - 1);
-  all.back() = filling_record<Real>();
+  all.back() = filler_record<Real>();
 }
 
 template <class Real>

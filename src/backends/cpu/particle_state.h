@@ -25,7 +25,7 @@ class ParticleState {
   static constexpr std::size_t kSegment = ParticleSlots::kSegment;
 
  public:
-  LargeVector<Record> records, next;  ///< the state, and where a pass writes the next; both end with a dummy
+  LargeVector<Record> records, next;  ///< the state, and where a pass writes the next; both end with a filler
   LargeVector<Vec3<Real>> acceleration;  ///< of the last evaluation, m/s^2; velocity Verlet only, else empty
   IdTable ids;  ///< by rank
   ParticleSlots slots;

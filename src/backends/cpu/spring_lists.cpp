@@ -107,7 +107,7 @@ void SpringLists<Real>::lay_out(const Record* records, std::size_t count, std::s
   first_row_[0] = 0;
   for (std::size_t g = 0; g < groups; ++g) first_row_[g + 1] += first_row_[g];
   rows_.resize(first_row_.back());
-  const auto filling = record_offset<Real>(static_cast<std::uint32_t>(size - 1));
+  const auto filler = record_offset<Real>(static_cast<std::uint32_t>(size - 1));
   parallel_ranges(groups, kGroups, [&](std::size_t first, std::size_t last) {
     for (std::size_t g = first; g < last; ++g) {
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -119,7 +119,7 @@ void SpringLists<Real>::lay_out(const Record* records, std::size_t count, std::s
           SpringRow<Real>& row = rows_[r];
           const std::uint32_t k = from + (r - first_row_[g]);
           const bool ties = k < to && broken_[sides_[k].spring] == 0 && place[sides_[k].partner] != kVacant;
-          row.partner[lane] = ties ? record_offset<Real>(place[sides_[k].partner]) : filling;
+          row.partner[lane] = ties ? record_offset<Real>(place[sides_[k].partner]) : filler;
           row.kind[lane] = ties ? kind_[sides_[k].spring] : kNoSpring;
           row.rest_length[lane] = ties ? rest_length_[sides_[k].spring] : Real(1);
         }

@@ -71,7 +71,7 @@ class StrayPairs {
   /// bit in `strayed` are found where place_of(i) says. False where a stray is lost.
   template <class PlaceOf>
   bool find(std::span<const std::uint32_t> strays, std::span<const std::uint16_t> strayed, const PlaceOf& place_of,
-            std::uint32_t filling, const std::vector<Lack>& lacks, Room& room, MendedRows& mended) const {
+            std::uint32_t filler, const std::vector<Lack>& lacks, Room& room, MendedRows& mended) const {
     room.lacks.assign(lacks.begin(), lacks.end());
     std::atomic<bool> lost{false};
     parallel_ranges(strays.size(), kGrain, [&](std::size_t first, std::size_t last) {
@@ -86,7 +86,7 @@ class StrayPairs {
     });
     if (lost) return false;
     find_among(strays, room);
-    mended.mend<Real>(room.lacks, list_, filling, ranks_);
+    mended.mend<Real>(room.lacks, list_, filler, ranks_);
     return true;
   }
 

@@ -42,7 +42,7 @@ void VerletList<Real>::build(const Record* records, std::size_t count, std::size
   HOOKE_ASSERT(scratch.size() >= size * sizeof(Record), scratch.size(), size);
   count_ = count;
   end_ = std::max(count, end);
-  filling_ = record_offset<Real>(static_cast<std::uint32_t>(size - 1));
+  filler_ = record_offset<Real>(static_cast<std::uint32_t>(size - 1));
   const std::size_t room = (end_ + kLanes - 1) / kLanes * kLanes;
   listed_at_.resize(room);
   std::vector<std::uint32_t>& ranks = order_;  // of no use any more as the order of the sort
@@ -151,7 +151,7 @@ void VerletList<Real>::strike_exclusions() {
   parallel_ranges(count_, kLanes, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const std::span<std::uint32_t> rows = list_.rows_to_edit(i / NeighbourList::kSegment, i / kLanes % kGroups);
-      exclusions_->strike(order_[i], rows.data() + i % kLanes, rows.size() / kLanes, kLanes, filling_,
+      exclusions_->strike(order_[i], rows.data() + i % kLanes, rows.size() / kLanes, kLanes, filler_,
                           [this](std::uint32_t entry) { return order_[entry / record_offset<Real>(1)]; });
     }
   });
@@ -197,7 +197,7 @@ NeighbourRule<Real> VerletList<Real>::neighbour_rule(const SearchColumns& column
   rule.length = rules_->pass.length;
   rule.list_self = rules_->pass.periodic_kind == PeriodicKind::images;
   rule.stride = record_offset<Real>(1);
-  rule.dummy = filling_ / rule.stride;
+  rule.filler = filler_ / rule.stride;
   return rule;
 }
 
@@ -279,7 +279,7 @@ void VerletList<Real>::mend(const Record* records) {
     }
     return {vec_cast<double>(records[i].x - middle), anywhere};
   };
-  if (!stray_pairs(records).find(strays_, strayed_, place_of, filling_, released_, room_, mended_)) forget();
+  if (!stray_pairs(records).find(strays_, strayed_, place_of, filler_, released_, room_, mended_)) forget();
 }
 
 template class VerletList<float>;

@@ -227,7 +227,7 @@ class VerletList {
 
   std::size_t count_ = 0;  // listed
   std::size_t end_ = 0;  // of the room for those born since
-  std::uint32_t filling_ = 0;  // of short lanes: an entry
+  std::uint32_t filler_ = 0;  // of short lanes: an entry
   CellList cells_;
   WindowOrder slots_;
   std::vector<std::uint32_t> order_;  // while sorting: where each was before; then: ranks

@@ -296,7 +296,7 @@ class Search {
   std::uint64_t* const keys_ = window_.keys;
   std::int32_t* const near_ = window_.near;
   const std::size_t near_room_ = window_.near_room;
-  const std::uint64_t last_key_ = row_key(0x3fffffffU, rule_.dummy);
+  const std::uint64_t last_key_ = row_key(0x3fffffffU, rule_.filler);
   const WordVector ascending_words_ = ascending_words();
   Vec3<P> middle_;  // the block's
 };
