@@ -12,7 +12,7 @@
 namespace hooke {
 
 template <class Real>
-void MotionBounds<Real>::lay_out(const Columns<Real>& listed_at, std::size_t count, std::size_t group,
+void MotionBounds<Real>::lay_out(const Columns<Real>& position_at_build, std::size_t count, std::size_t group,
                                  const Limits& limits) {
   HOOKE_ASSERT(group > 0);
   HOOKE_ASSERT(limits.diameter > 0 && limits.skin >= 0, limits.diameter, limits.skin);
@@ -31,7 +31,7 @@ void MotionBounds<Real>::lay_out(const Columns<Real>& listed_at, std::size_t cou
     width = 2.5 * widest;
   }
   for (std::size_t l = 1; l < kLevels; ++l) map_blocks(levels_[l - 1], levels_[l]);
-  find_blocks(listed_at, count, group);
+  find_blocks(position_at_build, count, group);
 }
 
 template <class Real>
@@ -60,7 +60,7 @@ void MotionBounds<Real>::map_blocks(const Level& narrow, Level& wide) {
 
 // The narrowest blocks that the points of each group are in.
 template <class Real>
-void MotionBounds<Real>::find_blocks(const Columns<Real>& listed_at, std::size_t count, std::size_t group) {
+void MotionBounds<Real>::find_blocks(const Columns<Real>& position_at_build, std::size_t count, std::size_t group) {
   const std::size_t groups = (count + group - 1) / group;
   std::vector<std::vector<std::uint32_t>> chunks((groups + kGrain - 1) / kGrain);
   first_block_.assign(groups + 1, 0);
@@ -69,7 +69,7 @@ void MotionBounds<Real>::find_blocks(const Columns<Real>& listed_at, std::size_t
     for (std::size_t start = first; start < last; start += kGrain) {
       std::vector<std::uint32_t>& blocks = chunks[start / kGrain];
       const std::size_t end = std::min(start + kGrain, last);
-      levels_[0].grid.keys_of(listed_at, start * group, std::min(end * group, count), keys.data());
+      levels_[0].grid.keys_of(position_at_build, start * group, std::min(end * group, count), keys.data());
       for (std::size_t g = start; g < end; ++g) {
         const auto before = static_cast<std::ptrdiff_t>(blocks.size());
         for (std::size_t i = g * group; i < std::min((g + 1) * group, count); ++i) {

@@ -57,7 +57,7 @@ class MotionBounds {
 
   /// Takes the places of the points when the list was built, m, in cell order; `group` (> 0) consecutive ones are a
   /// group.
-  void lay_out(const Columns<Real>& listed_at, std::size_t count, std::size_t group, const Limits& limits);
+  void lay_out(const Columns<Real>& position_at_build, std::size_t count, std::size_t group, const Limits& limits);
 
   /// Lets anchors follow the particles: motion(g) is the GroupMotion of group g. `anchors` has one for each group, or
   /// more. Returns for how many steps from now they are good; negative where they are not even now.
@@ -155,7 +155,7 @@ class MotionBounds {
   }
 
   static void map_blocks(const Level& narrow, Level& wide);
-  void find_blocks(const Columns<Real>& listed_at, std::size_t count, std::size_t group);
+  void find_blocks(const Columns<Real>& position_at_build, std::size_t count, std::size_t group);
   std::size_t group_count() const { return first_block_.size() - 1; }
   std::span<const std::uint32_t> blocks_of(std::size_t g) const {
     return std::span(blocks_).subspan(first_block_[g], first_block_[g + 1] - first_block_[g]);

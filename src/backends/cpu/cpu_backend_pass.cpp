@@ -64,7 +64,7 @@ void CpuBackend<Real>::aim_pass(Vec3<Real>* acceleration) {
   pass_.out = particles_.next.data();
   pass_.acceleration = acceleration;
   pass_.held = applied_.held().lanes();
-  pass_.listed_at = list_.listed_at();
+  pass_.position_at_build = list_.position_at_build();
   pass_.anchors = list_.anchors();
   pass_.next_step = list_.next_step();
 }

@@ -262,8 +262,9 @@ HOOKE_HD Mask<Real> is_far(const ForcePass<Real>& pass, const Vec3<Pack<Real>>& 
   using P = Pack<Real>;
   const GroupAnchor<Real>& anchor = pass.anchors[first / kWindow];
   const Vec3<Real> moved = anchor.at(pass.next_step);
-  const Vec3<P> expected{load(pass.listed_at.x + first) + P(moved.x), load(pass.listed_at.y + first) + P(moved.y),
-                         load(pass.listed_at.z + first) + P(moved.z)};
+  const Vec3<P> expected{load(pass.position_at_build.x + first) + P(moved.x),
+                         load(pass.position_at_build.y + first) + P(moved.y),
+                         load(pass.position_at_build.z + first) + P(moved.z)};
   Vec3<P> off = x - expected;
   if constexpr (kPeriodic != PeriodicKind::none) {
     const auto displacement = [&](const P& now, const P& then, bool periodic, Real length) {

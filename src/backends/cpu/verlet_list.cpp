@@ -44,17 +44,17 @@ void VerletList<Real>::build(const Record* records, std::size_t count, std::size
   end_ = std::max(count, end);
   filler_ = record_offset<Real>(static_cast<std::uint32_t>(size - 1));
   const std::size_t room = (end_ + kLanes - 1) / kLanes * kLanes;
-  listed_at_.resize(room);
+  position_at_build_.resize(room);
   std::vector<std::uint32_t>& ranks = order_;  // of no use any more as the order of the sort
   ranks.reserve(room);  // a growing vector would take twice that
   ranks.resize(room);
   const SearchColumns columns(scratch, count + kLanes, rules_->largest_touching > rules_->smallest_radius);
   parallel_ranges(count, NeighbourList::kSegment, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      listed_at_.put(i, records[i].x);
+      position_at_build_.put(i, records[i].x);
       ranks[i] = rank_of(records[i].rank);
     }
-    columns.fill(slots_, first, last, listed_at_, ranks.data());
+    columns.fill(slots_, first, last, position_at_build_, ranks.data());
     if (columns.radius == nullptr) return;
     for (std::size_t p = first; p < last; ++p) {
       columns.radius[p] = static_cast<Real>(reach_of(records[slots_.slot_of(p)]));

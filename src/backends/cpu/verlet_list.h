@@ -81,7 +81,7 @@ class VerletList {
     HOOKE_ASSERT(i >= first_free(), i, first_free());
     if (i >= end_ || rules_->pass.periodic_kind == PeriodicKind::images) return forget();
     order_[i] = rank;
-    listed_at_.put(i, {Real(0), Real(0), Real(0)});
+    position_at_build_.put(i, {Real(0), Real(0), Real(0)});
     add_stray(i);
   }
 
@@ -109,7 +109,7 @@ class VerletList {
   // Moving ----------------------------------------------------------------------------------------------------------
 
   const Anchor* anchors() const { return anchors_.data(); }  ///< one a window
-  Columns<Real> listed_at() const { return listed_at_.columns(); }
+  Columns<Real> position_at_build() const { return position_at_build_.columns(); }
   /// Steps that anchors will have gone once particles have moved by one step more.
   Real next_step() const { return static_cast<Real>(steps_ + 1); }
 
@@ -184,7 +184,7 @@ class VerletList {
 
   // How far a record has moved since its neighbours were listed, beyond `expected`, m.
   Vec3<Real> displacement(const Record& p, std::size_t i, const Vec3<Real>& expected) const {
-    return nearest_displacement(p.x, listed_at_[i] + expected, rules_->pass.period);
+    return nearest_displacement(p.x, position_at_build_[i] + expected, rules_->pass.period);
   }
   bool is_off(const Record& p, std::size_t i, const Anchor& anchor, Real steps) const {
     const Vec3<Real> off = displacement(p, i, anchor.at(steps));
@@ -232,7 +232,7 @@ class VerletList {
   WindowOrder slots_;
   std::vector<std::uint32_t> order_;  // while sorting: where each was before; then: ranks
   NeighbourList list_;
-  ColumnStore<Real> listed_at_;  // m
+  ColumnStore<Real> position_at_build_;  // m
   bool listed_ = false;
   std::uint64_t builds_ = 0;
 
