@@ -77,7 +77,7 @@ struct Acting {
 template <class Real, class Law>
 struct Meeting {
   using P = Pack<Real>;
-  P gap;        // how far they overlap, m, below 0 where they don't
+  P overlap;    // m, below 0 where they do not touch
   Vec3<P> way;  // times `scale` it is the contact's normal
   P scale;
   Vec3<P> w;  // v_p - v_i, m/s
@@ -123,7 +123,7 @@ struct ContactLoop {
   HOOKE_HD void meet(const Table& table, const Lanes<Real>& other, const Vec3<P>& x_pi, Met& met) const {
     const typename Table::Pair pair = table.lookup(other.material);
     const P distance = sqrt_of(dot(x_pi, x_pi));
-    met.gap = pair.reach - distance;
+    met.overlap = pair.reach - distance;
     if constexpr (kTies) {
       met.way = contact_normal(-x_pi, distance, select(own.rank > other.rank, P(Real(1)), P(Real(-1))));
       met.scale = P(Real(1));
@@ -162,7 +162,8 @@ struct ContactLoop {
           Met met;
           meet(table, other, -x_ip, met);
           // Too far from itself for any contact.
-          if (sx == 0 && sy == 0 && sz == 0) met.gap = select(itself, P(static_cast<Real>(-kVacantPosition)), met.gap);
+          if (sx == 0 && sy == 0 && sz == 0)
+            met.overlap = select(itself, P(static_cast<Real>(-kVacantPosition)), met.overlap);
           add(met, acting);
         }
       }
@@ -172,8 +173,8 @@ struct ContactLoop {
   // What the law is given is 0 where nothing acts, and so is what the linear law makes of it: fewer masks than for each
   // of its parts.
   HOOKE_HD void add(const Met& met, Acting<Real, kMaterials>& acting) const {
-    const Mask<Real> here = acts<Real>(met.gap, met.law);
-    const P overlap = only_where(here, met.gap);
+    const Mask<Real> here = acts<Real>(met.overlap, met.law);
+    const P overlap = only_where(here, met.overlap);
     const Vec3<P> normal = only_where(here, met.scale) * met.way;
     const Vec3<P> w = only_where(here, met.w);
     if constexpr (have_surfaces(kMaterials)) {
