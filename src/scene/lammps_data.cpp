@@ -11,8 +11,8 @@
 #include <numbers>
 
 #include "hooke/scene/json_reader.h"
-#include "hooke/scene/nearest.h"
 #include "hooke/scene/particle_format.h"
+#include "hooke/scene/spelling.h"
 #include "hooke/scene/words.h"
 
 namespace hooke {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "hooke/scene/json_reader.h"
-#include "hooke/scene/nearest.h"
+#include "hooke/scene/spelling.h"
 
 namespace hooke {
 

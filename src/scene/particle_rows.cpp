@@ -12,7 +12,7 @@
 
 #include "hooke/base/assert.h"
 #include "hooke/scene/json_reader.h"
-#include "hooke/scene/nearest.h"
+#include "hooke/scene/spelling.h"
 #include "hooke/scene/words.h"
 
 namespace hooke {

@@ -13,10 +13,10 @@
 #include "hooke/scene/block_source.h"
 #include "hooke/scene/cluster_source.h"
 #include "hooke/scene/json_path.h"
-#include "hooke/scene/nearest.h"
 #include "hooke/scene/particle_file.h"
 #include "hooke/scene/scene_builder.h"
 #include "hooke/scene/scene_path.h"
+#include "hooke/scene/spelling.h"
 
 namespace hooke {
 namespace {

@@ -15,7 +15,7 @@
 #include "hooke/scene/emitter_builder.h"
 #include "hooke/scene/field_builder.h"
 #include "hooke/scene/json_path.h"
-#include "hooke/scene/nearest.h"
+#include "hooke/scene/spelling.h"
 
 namespace hooke {
 namespace {

@@ -13,8 +13,8 @@
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
-#include "hooke/scene/nearest.h"
 #include "hooke/scene/schema.h"
+#include "hooke/scene/spelling.h"
 
 namespace hooke {
 namespace {

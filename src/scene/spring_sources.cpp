@@ -11,8 +11,8 @@
 #include "hooke/scene/csv_fields.h"
 #include "hooke/scene/file_scanner.h"
 #include "hooke/scene/json_path.h"
-#include "hooke/scene/nearest.h"
 #include "hooke/scene/scene_path.h"
+#include "hooke/scene/spelling.h"
 #include "hooke/scene/structure_maker.h"
 
 namespace hooke {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-#include "hooke/scene/nearest.h"
+#include "hooke/scene/spelling.h"
 
 #include <algorithm>
 
