@@ -6,9 +6,9 @@
 #include <exception>
 #include <new>
 
-#include "hooke/scene/crowd.h"
 #include "hooke/scene/findings.h"
 #include "hooke/scene/json_reader.h"
+#include "hooke/scene/overlap_check.h"
 #include "hooke/scene/overrides.h"
 #include "hooke/scene/particle_sources.h"
 #include "hooke/scene/scene_builder.h"
@@ -43,7 +43,7 @@ Expected<LoadedScene> parse(std::string_view text, const std::string& name, cons
   LoadOptions ties = options;
   ties.with_particles = options.with_particles && !findings.touches("particles");  // whose ids are to be relied on
   loaded.scene.structure = load_structure(json, loaded.scene, folder, ties, findings, loaded.particles);
-  if (findings.empty()) refuse_crowd(loaded.scene, loaded.particles, options, findings);
+  if (findings.empty()) refuse_overlaps(loaded.scene, loaded.particles, options, findings);
   if (!findings.empty()) return refuse();
   loaded.resolved = pretty(json);
   return loaded;

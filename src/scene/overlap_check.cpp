@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-#include "hooke/scene/crowd.h"
+#include "hooke/scene/overlap_check.h"
 
 #include <fmt/format.h>
 
@@ -41,7 +41,7 @@ double most_pairs(const Scene& scene, const ParticleSet& particles) {
 
 }  // namespace
 
-void refuse_crowd(const Scene& scene, const ParticleSet& particles, const LoadOptions& options, Findings& findings) {
+void refuse_overlaps(const Scene& scene, const ParticleSet& particles, const LoadOptions& options, Findings& findings) {
   if (particles.empty()) return;
   const std::uint64_t limit = options.memory_limit != 0 ? options.memory_limit : available_memory();
   const double available = static_cast<double>(limit);

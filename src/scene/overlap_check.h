@@ -11,6 +11,6 @@ namespace hooke {
 
 /// Adds a finding where so many pairs of particles overlap that no list of them fits into memory: how many, and which
 /// pair overlaps most. Scenes that are not so crowded cost next to nothing.
-void refuse_crowd(const Scene& scene, const ParticleSet& particles, const LoadOptions& options, Findings& findings);
+void refuse_overlaps(const Scene& scene, const ParticleSet& particles, const LoadOptions& options, Findings& findings);
 
 }  // namespace hooke
