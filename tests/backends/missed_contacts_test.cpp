@@ -183,7 +183,7 @@ INSTANTIATE_TEST_SUITE_P(All, Spray,
                          spray_name);
 
 // A stream passes some grains that are held. They stay where they are while what is around them moves on: it is they
-// that stray.
+// that outlier.
 class Stream : public testing::TestWithParam<std::tuple<Integrator, Precision, Boundary>> {};
 
 TEST_P(Stream, MissesNoContactWithGrainsThatAreHeld) {
@@ -210,7 +210,8 @@ TEST_P(Stream, MissesNoContactWithGrainsThatAreHeld) {
     ASSERT_EQ(measured(simulation).contacts, true_contacts(simulation)) << "after step " << step;
   }
   EXPECT_GT(measured(simulation).contacts, 10U);
-  EXPECT_LE(simulation.neighbour_statistics().rebuilds, 10U) << "a list is kept for several steps: strays are at stake";
+  EXPECT_LE(simulation.neighbour_statistics().rebuilds, 10U)
+      << "a list is kept for several steps: outliers are at stake";
 }
 
 std::string stream_name(const testing::TestParamInfo<Stream::ParamType>& instance) {

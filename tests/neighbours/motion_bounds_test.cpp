@@ -69,13 +69,13 @@ class Bounded {
   }
 
   // Whether point i, having moved by u, is further from its anchor than allowed, so many steps after that followed.
-  bool strays(std::size_t i, const Vec3d& u, double steps) const {
+  bool outliers(std::size_t i, const Vec3d& u, double steps) const {
     const Vec3d off = u - anchors_[i / kGroup].at(steps);
     return !(dot(off, off) <= anchors_[i / kGroup].limit2(steps));
   }
-  std::size_t stray_count(const Motion& motion, double followed, double steps) const {
+  std::size_t outlier_count(const Motion& motion, double followed, double steps) const {
     std::size_t count = 0;
-    for (std::size_t i = 0; i < x_.size(); ++i) count += strays(i, motion(x_[i], i, followed + steps), steps) ? 1 : 0;
+    for (std::size_t i = 0; i < x_.size(); ++i) count += outliers(i, motion(x_[i], i, followed + steps), steps) ? 1 : 0;
     return count;
   }
 
@@ -130,8 +130,8 @@ const Motion kMotions[] = {
     [](const Vec3d& x, std::uint64_t, double t) { return Vec3d{x.x < 4 ? 0.02 * t * t : -0.02 * t * t, 1, 0}; },
 };
 
-// Whoever touches without being listed: one of the two strays, or the anchors are no longer good.
-TEST(MotionBounds, NeverMissATouchOfTwoThatDontStray) {
+// Whoever touches without being listed: one of the two outliers, or the anchors are no longer good.
+TEST(MotionBounds, NeverMissATouchOfTwoThatDontOutlier) {
   int questions = 0, kept = 0;
   for (const Setting& setting : kSettings) {
     for (const bool periodic : {false, true}) {
@@ -143,10 +143,10 @@ TEST(MotionBounds, NeverMissATouchOfTwoThatDontStray) {
             ++kept;
             for (const auto& [i, p] : bounded.touching(motion, followed + steps)) {
               ++questions;
-              const auto strays = [&](std::size_t k) {
-                return bounded.strays(k, motion(bounded.points()[k], k, followed + steps), steps);
+              const auto outliers = [&](std::size_t k) {
+                return bounded.outliers(k, motion(bounded.points()[k], k, followed + steps), steps);
               };
-              ASSERT_TRUE(strays(i) || strays(p)) << i << ", " << p << " after " << steps << " of " << good_for;
+              ASSERT_TRUE(outliers(i) || outliers(p)) << i << ", " << p << " after " << steps << " of " << good_for;
             }
           }
         }
@@ -157,8 +157,8 @@ TEST(MotionBounds, NeverMissATouchOfTwoThatDontStray) {
   EXPECT_GT(kept, 500) << "the question was put";
 }
 
-// What a search around a stray relies on: who touches it and does not stray is where it is looked for.
-TEST(MotionBounds, SayWhereNeighboursOfStraysAre) {
+// What a search around an outlier relies on: who touches it and does not outlier is where it is looked for.
+TEST(MotionBounds, SayWhereNeighboursOfOutliersAre) {
   int mild = 0, far = 0;
   for (const bool periodic : {false, true}) {
     Bounded bounded(400, {9, 9, 9}, periodic);
@@ -168,7 +168,7 @@ TEST(MotionBounds, SayWhereNeighboursOfStraysAre) {
         const auto moved = [&](std::size_t k) { return motion(bounded.points()[k], k, steps); };
         for (const auto& [a, b] : bounded.touching(motion, steps)) {
           for (const auto& [i, p] : {std::pair{a, b}, std::pair{b, a}}) {
-            if (!bounded.strays(i, moved(i), steps) || bounded.strays(p, moved(p), steps)) continue;
+            if (!bounded.outliers(i, moved(i), steps) || bounded.outliers(p, moved(p), steps)) continue;
             const GroupAnchor<double>& anchor = bounded.anchors()[i / kGroup];
             const Vec3d off = moved(i) - anchor.at(steps), now = bounded.points()[i] + moved(i);
             const bool is_mild = std::sqrt(dot(off, off)) < MotionBounds<double>::kMild * kSkin;
@@ -187,14 +187,14 @@ TEST(MotionBounds, SayWhereNeighboursOfStraysAre) {
 }
 
 // One fast grain takes the list from nobody else.
-TEST(MotionBounds, LetOnlyTheFastGrainStray) {
+TEST(MotionBounds, LetOnlyTheFastGrainOutlier) {
   Bounded bounded(2000, {60, 3, 20}, false);
   const Motion motion = [](const Vec3d&, std::uint64_t i, double t) {
     return i == 1234 ? Vec3d{0.4 * t, 0, 0} : Vec3d{};
   };
   ASSERT_GT(bounded.follow(motion, 0), 10);
-  EXPECT_EQ(bounded.stray_count(motion, 0, 1), 1U);
-  EXPECT_EQ(bounded.stray_count(motion, 0, 10), 1U);
+  EXPECT_EQ(bounded.outlier_count(motion, 0, 1), 1U);
+  EXPECT_EQ(bounded.outlier_count(motion, 0, 10), 1U);
 }
 
 TEST(MotionBounds, FollowWhatMovesTogether) {
@@ -204,8 +204,8 @@ TEST(MotionBounds, FollowWhatMovesTogether) {
       return t * Vec3d{5, -1, 0.2} + noise(i, 0.05);
     };
     ASSERT_GT(bounded.follow(together, 3), 15);
-    EXPECT_EQ(bounded.stray_count(together, 3, 0), 0U);
-    EXPECT_EQ(bounded.stray_count(together, 3, 15), 0U);
+    EXPECT_EQ(bounded.outlier_count(together, 3, 0), 0U);
+    EXPECT_EQ(bounded.outlier_count(together, 3, 15), 0U);
   }
 }
 
@@ -214,17 +214,17 @@ TEST(MotionBounds, FollowASmallShearOfALongPool) {
   // Ends of the pool move apart by more than a diameter, neighbours by a fiftieth.
   const Motion shear = [](const Vec3d& x, std::uint64_t, double t) { return Vec3d{0.002 * t * x.x, 0, 0}; };
   ASSERT_GT(bounded.follow(shear, 0), 10);
-  EXPECT_EQ(bounded.stray_count(shear, 0, 2), 0U);
+  EXPECT_EQ(bounded.outlier_count(shear, 0, 2), 0U);
 }
 
-TEST(MotionBounds, CallStrayWhatIsNotFinite) {
+TEST(MotionBounds, CallOutlierWhatIsNotFinite) {
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
     Bounded bounded(300, {9, 9, 9}, false);
     const Motion motion = [bad](const Vec3d&, std::uint64_t i, double) { return Vec3d{0, i == 123 ? bad : 0.0, 0}; };
     const std::int64_t good_for = bounded.follow(motion, 1);
-    EXPECT_TRUE(good_for < 0 || bounded.strays(123, motion({}, 123, 1), 0));
+    EXPECT_TRUE(good_for < 0 || bounded.outliers(123, motion({}, 123, 1), 0));
     ASSERT_GE(bounded.follow([](const Vec3d&, std::uint64_t, double) { return Vec3d{}; }, 0), 0);
-    EXPECT_TRUE(bounded.strays(123, {bad, bad, bad}, 1));
+    EXPECT_TRUE(bounded.outliers(123, {bad, bad, bad}, 1));
   }
 }
 
@@ -232,7 +232,7 @@ TEST(MotionBounds, IgnoreTheDeparted) {
   Bounded bounded(300, {9, 9, 9}, false);
   const Motion motion = [](const Vec3d&, std::uint64_t i, double t) { return Vec3d{0, i == 5 ? 1e9 * t : 0.0, 0}; };
   ASSERT_GT(bounded.follow(motion, 1, 5), 100);
-  EXPECT_EQ(bounded.stray_count(motion, 1, 0), 1U) << "all but the one that is gone are where they were";
+  EXPECT_EQ(bounded.outlier_count(motion, 1, 0), 1U) << "all but the one that is gone are where they were";
 }
 
 // Rounding would make anchors that are very far from where particles were listed too coarse.

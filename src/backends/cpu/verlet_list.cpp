@@ -74,12 +74,12 @@ void VerletList<Real>::build(const Record* records, std::size_t count, std::size
   // Those without a place are always far from it.
   anchors_.assign((end_ + kWindow - 1) / kWindow, Anchor{{}, {}, Real(-1), {}});
   moved_.resize(anchors_.size());
-  strayed_.assign(room / kLanes, 0);
-  mended_.clear(strayed_.size());
+  outlying_.assign(room / kLanes, 0);
+  mended_.clear(outlying_.size());
   released_.clear();
   mending_due_ = false;
-  const std::size_t many = count / kStrayCost + kLanes;  // a list with more strays does not last
-  strays_.reserve(many);
+  const std::size_t many = count / kOutlierCost + kLanes;  // a list with more outliers does not last
+  outliers_.reserve(many);
   room_.reserve(many);
   mended_.reserve(many);
   age_ = 0;
@@ -92,13 +92,14 @@ void VerletList<Real>::build(const Record* records, std::size_t count, std::size
 
 template <class Real>
 void VerletList<Real>::note_far(std::size_t group, unsigned far) {
-  HOOKE_ASSERT(group < strayed_.size() && far >> kLanes == 0, group, strayed_.size(), far);
-  const unsigned news = far & ~unsigned{strayed_[group]};
+  HOOKE_ASSERT(group < outlying_.size() && far >> kLanes == 0, group, outlying_.size(), far);
+  const unsigned news = far & ~unsigned{outlying_[group]};
   if (news == 0) return;
-  strayed_[group] = static_cast<std::uint16_t>(strayed_[group] | far);
+  outlying_[group] = static_cast<std::uint16_t>(outlying_[group] | far);
   const std::lock_guard lock(mutex_);
   for (unsigned left = news; left != 0; left &= left - 1) {
-    strays_.push_back(static_cast<std::uint32_t>(group * kLanes) + static_cast<std::uint32_t>(std::countr_zero(left)));
+    outliers_.push_back(static_cast<std::uint32_t>(group * kLanes) +
+                        static_cast<std::uint32_t>(std::countr_zero(left)));
   }
 }
 
@@ -107,16 +108,16 @@ void VerletList<Real>::moved(const Record* records) {
   if (!listed_) return;
   ++steps_;
   ++age_;
-  if (rules_->pass.periodic_kind == PeriodicKind::images && !strays_.empty()) return forget();
-  since_followed_ += kStrayCost * strays_.size();
+  if (rules_->pass.periodic_kind == PeriodicKind::images && !outliers_.empty()) return forget();
+  since_followed_ += kOutlierCost * outliers_.size();
   if (steps_ > horizon_ || (follow_helps_ && since_followed_ * kFollowShare > count_)) {
-    const std::size_t before = strays_.size();
+    const std::size_t before = outliers_.size();
     follow(records);
-    follow_helps_ = 2 * strays_.size() < before;
+    follow_helps_ = 2 * outliers_.size() < before;
   }
-  const std::size_t cost = kStrayCost * (strays_.size() + released_.size());
+  const std::size_t cost = kOutlierCost * (outliers_.size() + released_.size());
   spent_ += cost;
-  // What a step costs falls with the age of a list and rises with its strays: where both meet it has served best.
+  // What a step costs falls with the age of a list and rises with its outliers: where both meet it has served best.
   if (cost * age_ > count_ + spent_ || is_too_thick()) return forget();
   mend(records);
 }
@@ -127,7 +128,7 @@ std::uint64_t VerletList<Real>::count_missed(const Record* records) const {
   std::vector<std::uint32_t> order;
   lay_out_cells(cells, 0, end_);
   cells.sort(end_, key_of(cells, records), order);
-  const StrayPairs<Real> pairs = stray_pairs(records);
+  const OutlierPairs<Real> pairs = outlier_pairs(records);
   std::atomic<std::uint64_t> missed{0};
   parallel_ranges(end_, kLanes, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
@@ -212,7 +213,7 @@ void VerletList<Real>::find_coarseness() {
   coarseness_ = 8 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * furthest;
 }
 
-// Makes anchors follow the particles, and finds out who strays from where they are now.
+// Makes anchors follow the particles, and finds out who outliers from where they are now.
 template <class Real>
 void VerletList<Real>::follow(const Record* records) {
   using GroupMotion = typename MotionBounds<Real>::GroupMotion;
@@ -235,19 +236,19 @@ void VerletList<Real>::follow(const Record* records) {
       anchors_);
   steps_ = 0;
   since_followed_ = 0;
-  strays_.clear();
+  outliers_.clear();
   if (horizon_ < 0) return forget();
-  parallel_ranges(strayed_.size(), kGroups, [&](std::size_t first, std::size_t last) {
+  parallel_ranges(outlying_.size(), kGroups, [&](std::size_t first, std::size_t last) {
     for (std::size_t g = first; g < last; ++g) {
-      strayed_[g] = 0;
-      note_far(g, strays_of_group(records, g));
+      outlying_[g] = 0;
+      note_far(g, outliers_of_group(records, g));
     }
   });
 }
 
-// Those that stray from where their anchor is now, and those born since, a bit a lane.
+// Those that outlier from where their anchor is now, and those born since, a bit a lane.
 template <class Real>
-unsigned VerletList<Real>::strays_of_group(const Record* records, std::size_t g) const {
+unsigned VerletList<Real>::outliers_of_group(const Record* records, std::size_t g) const {
   const std::size_t window = g * kLanes / kWindow;
   const Anchor& anchor = anchors_[window];
   const bool born = g * kLanes >= first_free();
@@ -260,17 +261,17 @@ unsigned VerletList<Real>::strays_of_group(const Record* records, std::size_t g)
   return far;
 }
 
-// Finds the pairs of strays that touch and rows that lack them.
+// Finds the pairs of outliers that touch and rows that lack them.
 template <class Real>
 void VerletList<Real>::mend(const Record* records) {
   mending_due_ = false;
-  mended_.clear(strayed_.size());
-  if (strays_.empty() && released_.empty()) return;
+  mended_.clear(outlying_.size());
+  if (outliers_.empty() && released_.empty()) return;
   const auto steps = static_cast<Real>(steps_);
   const double mild = MotionBounds<Real>::kMild * limits_.skin, half = 0.5 * skin_ + coarseness_;
   const Vec3<Real> middle = motion_.middle(steps);
   const double anywhere = half + motion_.furthest_from_middle(static_cast<double>(steps_));
-  const auto place_of = [&](std::size_t i) -> typename StrayPairs<Real>::Place {
+  const auto place_of = [&](std::size_t i) -> typename OutlierPairs<Real>::Place {
     if (i >= count_) return {vec_cast<double>(records[i].x - middle), anywhere};
     const Anchor& anchor = anchors_[i / kWindow];
     const Vec3<Real> off = displacement(records[i], i, anchor.at(steps));
@@ -279,7 +280,7 @@ void VerletList<Real>::mend(const Record* records) {
     }
     return {vec_cast<double>(records[i].x - middle), anywhere};
   };
-  if (!stray_pairs(records).find(strays_, strayed_, place_of, filler_, released_, room_, mended_)) forget();
+  if (!outlier_pairs(records).find(outliers_, outlying_, place_of, filler_, released_, room_, mended_)) forget();
 }
 
 template class VerletList<float>;

@@ -14,8 +14,8 @@
 #include "hooke/backends/cpu/column_store.h"
 #include "hooke/backends/cpu/exclusions.h"
 #include "hooke/backends/cpu/mended_rows.h"
+#include "hooke/backends/cpu/outlier_pairs.h"
 #include "hooke/backends/cpu/pass_rules.h"
-#include "hooke/backends/cpu/stray_pairs.h"
 #include "hooke/base/assert.h"
 #include "hooke/neighbours/cell_list.h"
 #include "hooke/neighbours/motion_bounds.h"
@@ -27,8 +27,9 @@ namespace hooke {
 
 /// A neighbour list with a skin (Verlet, "Computer experiments on classical fluids", Phys. Rev. 159, 98, 1967), and
 /// what it takes to trust it for many steps. While every particle stays near its anchor (motion_bounds.h) the
-/// list misses nothing. Particles that stray are looked after one by one: in every step each looks for whoever touches
-/// it, and rows that lack the pair are mended. A new list is built when strays have become too many to be worth it.
+/// list misses nothing. Particles that outlier are looked after one by one: in every step each looks for whoever
+/// touches it, and rows that lack the pair are mended. A new list is built when outliers have become too many to be
+/// worth it.
 ///
 /// Which pairs are listed when changes no result: those that don't touch add an exact zero.
 template <class Real>
@@ -75,21 +76,21 @@ class VerletList {
 
   /// Where the next particle can be born, at least.
   std::size_t first_free() const { return (count_ + kWindow - 1) / kWindow * kWindow; }
-  /// A particle is born in slot i, first_free() or later: a stray from the start.
+  /// A particle is born in slot i, first_free() or later: an outlier from the start.
   void add(std::size_t i, std::uint32_t rank) {
     if (!listed_) return;
     HOOKE_ASSERT(i >= first_free(), i, first_free());
     if (i >= end_ || rules_->pass.periodic_kind == PeriodicKind::images) return forget();
     order_[i] = rank;
     position_at_build_.put(i, {Real(0), Real(0), Real(0)});
-    add_stray(i);
+    add_outlier(i);
   }
 
-  /// Particle i has been moved by other than a step: a stray from now on.
+  /// Particle i has been moved by other than a step: an outlier from now on.
   void note_moved(std::size_t i) {
     if (!listed_) return;
     if (rules_->pass.periodic_kind == PeriodicKind::images) return forget();
-    add_stray(i);
+    add_outlier(i);
   }
 
   /// These pairs (indices) were kept apart and may touch from now on.
@@ -118,7 +119,7 @@ class VerletList {
   void note_far(std::size_t group, unsigned far);
   /// Whether particle i has moved, in its next step, further from its anchor than that allows.
   bool is_far(const Record& p, std::size_t i) const { return is_off(p, i, anchors_[i / kWindow], next_step()); }
-  /// All particles have moved by a step, and those that strayed are noted. Says in good() whether the list goes on.
+  /// All particles have moved by a step, and those that outlying are noted. Says in good() whether the list goes on.
   void moved(const Record* records);
 
   /// Pairs that touch and are not on the list, counted the long way; for tests of all this.
@@ -127,15 +128,15 @@ class VerletList {
  private:
   void strike_exclusions();
 
-  void add_stray(std::size_t i) {
+  void add_outlier(std::size_t i) {
     note_far(i / kLanes, 1U << i % kLanes);
     mending_due_ = true;
-    if (kStrayCost * strays_.size() > count_ + kStrayCost * kLanes)
+    if (kOutlierCost * outliers_.size() > count_ + kOutlierCost * kLanes)
       forget();  // looking after them costs more than a list
   }
 
   // Costs, in units of what listing one particle takes.
-  static constexpr std::size_t kStrayCost = 6;  // looking after one stray for one step
+  static constexpr std::size_t kOutlierCost = 6;  // looking after one outlier for one step
   static constexpr std::size_t kFollowShare = 9;  // following the particles takes this part of a build
 
   static constexpr std::uint64_t kFollowTrial = 16;  // builds after which anchors may follow in vain once more
@@ -192,9 +193,9 @@ class VerletList {
   }
 
   void follow(const Record* records);
-  unsigned strays_of_group(const Record* records, std::size_t g) const;
+  unsigned outliers_of_group(const Record* records, std::size_t g) const;
 
-  StrayPairs<Real> stray_pairs(const Record* records) const {
+  OutlierPairs<Real> outlier_pairs(const Record* records) const {
     return {*rules_, records, cells_, slots_, order_.data(), list_, *exclusions_};
   }
 
@@ -240,17 +241,17 @@ class VerletList {
   MotionBounds<Real> motion_;
   std::vector<Anchor> anchors_;  // by window
   std::vector<Extent> moved_;  // likewise
-  std::vector<std::uint16_t> strayed_;  // by group: a bit a lane
+  std::vector<std::uint16_t> outlying_;  // by group: a bit a lane
   MendedRows mended_;
-  std::vector<std::uint32_t> strays_;
+  std::vector<std::uint32_t> outliers_;
   bool mending_due_ = false;  // rows lack what was added, moved or released
   std::vector<MendedRows::Lack> released_;  // what rows lack of pairs that were kept apart when they were listed
-  typename StrayPairs<Real>::Room room_;
-  std::mutex mutex_;  // around strays_
+  typename OutlierPairs<Real>::Room room_;
+  std::mutex mutex_;  // around outliers_
   std::int64_t steps_ = 0, horizon_ = 0;  // since anchors followed last; how many they are good for
-  bool follow_helps_ = true;  // against strays, as far as is known
+  bool follow_helps_ = true;  // against outliers, as far as is known
   std::size_t age_ = 0;  // steps since the last build
-  std::size_t since_followed_ = 0, spent_ = 0;  // on strays, since anchors followed and since the last build
+  std::size_t since_followed_ = 0, spent_ = 0;  // on outliers, since anchors followed and since the last build
 };
 
 extern template class VerletList<float>;

@@ -23,15 +23,15 @@ namespace hooke {
 
 /// Finds who touches particles that are no longer near where they were listed.
 template <class Real>
-class StrayPairs {
+class OutlierPairs {
   using Record = ParticleRecord<Real>;
   static constexpr std::size_t kLanes = NeighbourList::kLanes;
-  static constexpr std::size_t kGrain = 64;  // strays
+  static constexpr std::size_t kGrain = 64;  // outliers
   using Lack = MendedRows::Lack;
 
  public:
-  StrayPairs(const PassRules<Real>& rules, const Record* records, const CellList& cells, const WindowOrder& slots,
-             const std::uint32_t* ranks, const NeighbourList& list, const Exclusions& exclusions)
+  OutlierPairs(const PassRules<Real>& rules, const Record* records, const CellList& cells, const WindowOrder& slots,
+               const std::uint32_t* ranks, const NeighbourList& list, const Exclusions& exclusions)
       : rules_(rules),
         records_(records),
         cells_(cells),
@@ -42,7 +42,7 @@ class StrayPairs {
 
   /// Room that is kept from one search to the next.
   struct Room {
-    struct Stray {
+    struct Outlier {
       std::uint64_t row;  // of places, along x
       Vec3<Real> x;       // m
       std::uint32_t i;
@@ -51,41 +51,41 @@ class StrayPairs {
         return row != other_row ? row < other_row : x.x < other_x;
       }
     };
-    std::vector<Stray> sorted;
+    std::vector<Outlier> sorted;
     std::vector<Lack> lacks;
 
     /// So that searches for so many allocate nothing; memory that is not used is not taken.
-    void reserve(std::size_t strays) {
-      sorted.reserve(2 * strays);
-      lacks.reserve(4 * strays);
+    void reserve(std::size_t outliers) {
+      sorted.reserve(2 * outliers);
+      lacks.reserve(4 * outliers);
     }
   };
 
-  /// Where to look for who may touch a stray: they were listed within `range` (m) and the two radii of `at` (m).
+  /// Where to look for who may touch an outlier: they were listed within `range` (m) and the two radii of `at` (m).
   struct Place {
     Vec3d at;
     double range;
   };
 
-  /// Mends the rows that have `lacks`, and those that lack a stray, or somebody whom a stray touches. Those without a
-  /// bit in `strayed` are found where place_of(i) says. False where a stray is lost.
+  /// Mends the rows that have `lacks`, and those that lack an outlier, or somebody whom an outlier touches. Those
+  /// without a bit in `outlying` are found where place_of(i) says. False where an outlier is lost.
   template <class PlaceOf>
-  bool find(std::span<const std::uint32_t> strays, std::span<const std::uint16_t> strayed, const PlaceOf& place_of,
+  bool find(std::span<const std::uint32_t> outliers, std::span<const std::uint16_t> outlying, const PlaceOf& place_of,
             std::uint32_t filler, const std::vector<Lack>& lacks, Room& room, MendedRows& mended) const {
     room.lacks.assign(lacks.begin(), lacks.end());
     std::atomic<bool> lost{false};
-    parallel_ranges(strays.size(), kGrain, [&](std::size_t first, std::size_t last) {
-      for (const std::uint32_t i : strays.subspan(first, last - first)) {
+    parallel_ranges(outliers.size(), kGrain, [&](std::size_t first, std::size_t last) {
+      for (const std::uint32_t i : outliers.subspan(first, last - first)) {
         if (is_vacant(records_[i])) continue;
         if (is_somewhere(records_[i])) {
-          find_around(i, place_of(i), strayed, room.lacks);
+          find_around(i, place_of(i), outlying, room.lacks);
         } else {
           lost = true;
         }
       }
     });
     if (lost) return false;
-    find_among(strays, room);
+    find_among(outliers, room);
     mended.mend<Real>(room.lacks, list_, filler, ranks_);
     return true;
   }
@@ -111,15 +111,15 @@ class StrayPairs {
   bool is_listed(std::size_t i, std::size_t p) const;
   void note_lacks(std::size_t i, std::size_t p, std::vector<Lack>& lacks) const;
 
-  void find_around(std::uint32_t i, const Place& place, std::span<const std::uint16_t> strayed,
+  void find_around(std::uint32_t i, const Place& place, std::span<const std::uint16_t> outlying,
                    std::vector<Lack>& lacks) const;
-  void find_among(std::span<const std::uint32_t> strays, Room& room) const;
+  void find_among(std::span<const std::uint32_t> outliers, Room& room) const;
 
   // From a row to the one beside it along y; along z it is 1.
   static constexpr std::uint64_t kNextY = std::uint64_t{1} << 32U;
 
   void add_with_images(std::uint32_t i, const Vec3<Real>& x, int axis, Real reach,
-                       std::vector<typename Room::Stray>& to) const;
+                       std::vector<typename Room::Outlier>& to) const;
 
   const PassRules<Real>& rules_;
   const Record* records_;
@@ -131,7 +131,7 @@ class StrayPairs {
   mutable std::mutex mutex_;  // around what is lacking
 };
 
-extern template class StrayPairs<float>;
-extern template class StrayPairs<double>;
+extern template class OutlierPairs<float>;
+extern template class OutlierPairs<double>;
 
 }  // namespace hooke

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-#include "hooke/backends/cpu/stray_pairs.h"
+#include "hooke/backends/cpu/outlier_pairs.h"
 
 #include <algorithm>
 #include <utility>
@@ -9,14 +9,14 @@
 namespace hooke {
 
 template <class Real>
-bool StrayPairs<Real>::is_listed(std::size_t i, std::size_t p) const {
+bool OutlierPairs<Real>::is_listed(std::size_t i, std::size_t p) const {
   const auto rows = list_.rows(i / NeighbourList::kSegment, i % NeighbourList::kSegment / kLanes);
   return is_in_lane(rows, i % kLanes, record_offset<Real>(static_cast<std::uint32_t>(p)));
 }
 
 // Where one of two lacks the other, so does the other.
 template <class Real>
-void StrayPairs<Real>::note_lacks(std::size_t i, std::size_t p, std::vector<Lack>& lacks) const {
+void OutlierPairs<Real>::note_lacks(std::size_t i, std::size_t p, std::vector<Lack>& lacks) const {
   if (is_listed(i, p) || exclusions_.hold(ranks_[i], ranks_[p])) return;
   const std::lock_guard lock(mutex_);
   for (const auto& [of, other] : {std::pair{i, p}, std::pair{p, i}}) {
@@ -25,43 +25,43 @@ void StrayPairs<Real>::note_lacks(std::size_t i, std::size_t p, std::vector<Lack
   }
 }
 
-// Who touches a stray and strays not.
+// Who touches an outlier and outliers not.
 template <class Real>
-void StrayPairs<Real>::find_around(std::uint32_t i, const Place& place, std::span<const std::uint16_t> strayed,
-                                   std::vector<Lack>& lacks) const {
+void OutlierPairs<Real>::find_around(std::uint32_t i, const Place& place, std::span<const std::uint16_t> outlying,
+                                     std::vector<Lack>& lacks) const {
   cells_.for_points_near(place.at, place.range + reach_of(i) + margin(), [&](std::size_t k) {
     const std::size_t p = slots_.slot_of(k);
-    const bool other_strays = (strayed[p / kLanes] >> p % kLanes & 1U) != 0;
-    if (!other_strays && touch(i, p)) note_lacks(i, p, lacks);
+    const bool other_is_outlier = (outlying[p / kLanes] >> p % kLanes & 1U) != 0;
+    if (!other_is_outlier && touch(i, p)) note_lacks(i, p, lacks);
   });
 }
 
-// Pairs of two strays: they are sorted into rows along x, as wide as two can touch, and each meets those that follow
+// Pairs of two outliers: they are sorted into rows along x, as wide as two can touch, and each meets those that follow
 // it in its row and those at its height in half of the rows around. At periodic faces, those behind the lower one
 // follow beyond the upper one once more.
 template <class Real>
-void StrayPairs<Real>::find_among(std::span<const std::uint32_t> strays, Room& room) const {
-  using Stray = typename Room::Stray;
-  std::vector<Stray>& sorted = room.sorted;
+void OutlierPairs<Real>::find_among(std::span<const std::uint32_t> outliers, Room& room) const {
+  using Outlier = typename Room::Outlier;
+  std::vector<Outlier>& sorted = room.sorted;
   sorted.clear();
   const auto reach = static_cast<Real>(2 * rules_.largest_reach() + margin());
-  for (const std::uint32_t i : strays) {
+  for (const std::uint32_t i : outliers) {
     if (!is_vacant(records_[i])) add_with_images(i, records_[i].x, 0, reach, sorted);
   }
-  std::sort(sorted.begin(), sorted.end(), [](const Stray& a, const Stray& b) { return a.is_before(b.row, b.x.x); });
+  std::sort(sorted.begin(), sorted.end(), [](const Outlier& a, const Outlier& b) { return a.is_before(b.row, b.x.x); });
   parallel_ranges(sorted.size(), 256, [&](std::size_t first, std::size_t last) {
     for (std::size_t a = first; a < last; ++a) {
-      const Stray& stray = sorted[a];
+      const Outlier& outlier = sorted[a];
       const auto meet = [&](auto other, std::uint64_t row) {
-        for (; other != sorted.end() && other->row == row && other->x.x - stray.x.x < reach; ++other) {
-          if (other->i != stray.i && touch(stray.i, other->i)) note_lacks(stray.i, other->i, room.lacks);
+        for (; other != sorted.end() && other->row == row && other->x.x - outlier.x.x < reach; ++other) {
+          if (other->i != outlier.i && touch(outlier.i, other->i)) note_lacks(outlier.i, other->i, room.lacks);
         }
       };
-      meet(sorted.begin() + static_cast<std::ptrdiff_t>(a) + 1, stray.row);
+      meet(sorted.begin() + static_cast<std::ptrdiff_t>(a) + 1, outlier.row);
       for (const std::uint64_t row :
-           {stray.row + 1, stray.row + kNextY - 1, stray.row + kNextY, stray.row + kNextY + 1}) {
+           {outlier.row + 1, outlier.row + kNextY - 1, outlier.row + kNextY, outlier.row + kNextY + 1}) {
         meet(std::partition_point(sorted.begin(), sorted.end(),
-                                  [&](const Stray& s) { return s.is_before(row, stray.x.x - reach); }),
+                                  [&](const Outlier& s) { return s.is_before(row, outlier.x.x - reach); }),
              row);
       }
     }
@@ -70,8 +70,8 @@ void StrayPairs<Real>::find_among(std::span<const std::uint32_t> strays, Room& r
 
 // Adds a place, and its images across periodic faces from `axis` on.
 template <class Real>
-void StrayPairs<Real>::add_with_images(std::uint32_t i, const Vec3<Real>& x, int axis, Real reach,
-                                       std::vector<typename Room::Stray>& to) const {
+void OutlierPairs<Real>::add_with_images(std::uint32_t i, const Vec3<Real>& x, int axis, Real reach,
+                                         std::vector<typename Room::Outlier>& to) const {
   if (axis == 3) {
     constexpr double kMost = 1 << 30;  // further away, rows are shared
     const auto index = [&](Real c) {
@@ -89,7 +89,7 @@ void StrayPairs<Real>::add_with_images(std::uint32_t i, const Vec3<Real>& x, int
   add_with_images(i, image, axis + 1, reach, to);
 }
 
-template class StrayPairs<float>;
-template class StrayPairs<double>;
+template class OutlierPairs<float>;
+template class OutlierPairs<double>;
 
 }  // namespace hooke
