@@ -44,7 +44,7 @@ void CpuBackend<Real>::finish_motion(RemovalSums& left) {
 
 template <class Real>
 bool CpuBackend<Real>::neighbours_stale() {
-  threads_.run([&] { list_.mend_if_due(particles_.records.data()); });
+  threads_.run([&] { list_.patch_if_due(particles_.records.data()); });
   return !list_.good();
 }
 

@@ -95,12 +95,12 @@ void CpuBackend<Real>::run_segment(std::size_t s, SegmentReport& report) const {
   if (particles_.slots.is_loose(s * kSegment)) return run_groups(s, 0, groups, nullptr, nullptr, report);
   for (std::size_t g = 0; g < groups;) {
     std::size_t end = g + 1;
-    if (list_.is_mended(s, g)) {
+    if (list_.is_patched(s, g)) {
       const auto rows = list_.rows(s, g);
       const std::uint32_t first_row[2] = {0, static_cast<std::uint32_t>(rows.size() / kLanes)};
       run_groups(s, g, end, rows.data(), first_row, report);
     } else {
-      while (end < groups && !list_.is_mended(s, end)) ++end;
+      while (end < groups && !list_.is_patched(s, end)) ++end;
       run_groups(s, g, end, list_.segment(s).entries, list_.segment(s).first_row.data() + g, report);
     }
     g = end;

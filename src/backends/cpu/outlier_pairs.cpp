@@ -16,11 +16,11 @@ bool OutlierPairs<Real>::is_listed(std::size_t i, std::size_t p) const {
 
 // Where one of two lacks the other, so does the other.
 template <class Real>
-void OutlierPairs<Real>::note_lacks(std::size_t i, std::size_t p, std::vector<Lack>& lacks) const {
+void OutlierPairs<Real>::note_missing(std::size_t i, std::size_t p, std::vector<MissingEntry>& missing) const {
   if (is_listed(i, p) || exclusions_.hold(ranks_[i], ranks_[p])) return;
   const std::lock_guard lock(mutex_);
   for (const auto& [of, other] : {std::pair{i, p}, std::pair{p, i}}) {
-    lacks.push_back(
+    missing.push_back(
         {static_cast<std::uint32_t>(of), ranks_[other], record_offset<Real>(static_cast<std::uint32_t>(other))});
   }
 }
@@ -28,11 +28,11 @@ void OutlierPairs<Real>::note_lacks(std::size_t i, std::size_t p, std::vector<La
 // Who touches an outlier and outliers not.
 template <class Real>
 void OutlierPairs<Real>::find_around(std::uint32_t i, const Place& place, std::span<const std::uint16_t> outlying,
-                                     std::vector<Lack>& lacks) const {
+                                     std::vector<MissingEntry>& missing) const {
   cells_.for_points_near(place.at, place.range + reach_of(i) + margin(), [&](std::size_t k) {
     const std::size_t p = slots_.slot_of(k);
     const bool other_is_outlier = (outlying[p / kLanes] >> p % kLanes & 1U) != 0;
-    if (!other_is_outlier && touch(i, p)) note_lacks(i, p, lacks);
+    if (!other_is_outlier && touch(i, p)) note_missing(i, p, missing);
   });
 }
 
@@ -54,7 +54,7 @@ void OutlierPairs<Real>::find_among(std::span<const std::uint32_t> outliers, Roo
       const Outlier& outlier = sorted[a];
       const auto meet = [&](auto other, std::uint64_t row) {
         for (; other != sorted.end() && other->row == row && other->x.x - outlier.x.x < reach; ++other) {
-          if (other->i != outlier.i && touch(outlier.i, other->i)) note_lacks(outlier.i, other->i, room.lacks);
+          if (other->i != outlier.i && touch(outlier.i, other->i)) note_missing(outlier.i, other->i, room.missing);
         }
       };
       meet(sorted.begin() + static_cast<std::ptrdiff_t>(a) + 1, outlier.row);

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "hooke/backends/cpu/exclusions.h"
-#include "hooke/backends/cpu/mended_rows.h"
 #include "hooke/backends/cpu/pass_rules.h"
+#include "hooke/backends/cpu/patched_rows.h"
 #include "hooke/base/parallel.h"
 #include "hooke/neighbours/cell_list.h"
 #include "hooke/neighbours/neighbour_list.h"
@@ -27,7 +27,7 @@ class OutlierPairs {
   using Record = ParticleRecord<Real>;
   static constexpr std::size_t kLanes = NeighbourList::kLanes;
   static constexpr std::size_t kGrain = 64;  // outliers
-  using Lack = MendedRows::Lack;
+  using MissingEntry = PatchedRows::MissingEntry;
 
  public:
   OutlierPairs(const PassRules<Real>& rules, const Record* records, const CellList& cells, const WindowOrder& slots,
@@ -52,12 +52,12 @@ class OutlierPairs {
       }
     };
     std::vector<Outlier> sorted;
-    std::vector<Lack> lacks;
+    std::vector<MissingEntry> missing;
 
     /// So that searches for so many allocate nothing; memory that is not used is not taken.
     void reserve(std::size_t outliers) {
       sorted.reserve(2 * outliers);
-      lacks.reserve(4 * outliers);
+      missing.reserve(4 * outliers);
     }
   };
 
@@ -67,18 +67,18 @@ class OutlierPairs {
     double range;
   };
 
-  /// Mends the rows that have `lacks`, and those that lack an outlier, or somebody whom an outlier touches. Those
+  /// Patches the rows that have `lacks`, and those that lack an outlier, or somebody whom an outlier touches. Those
   /// without a bit in `outlying` are found where place_of(i) says. False where an outlier is lost.
   template <class PlaceOf>
   bool find(std::span<const std::uint32_t> outliers, std::span<const std::uint16_t> outlying, const PlaceOf& place_of,
-            std::uint32_t filler, const std::vector<Lack>& lacks, Room& room, MendedRows& mended) const {
-    room.lacks.assign(lacks.begin(), lacks.end());
+            std::uint32_t filler, const std::vector<MissingEntry>& missing, Room& room, PatchedRows& patched) const {
+    room.missing.assign(missing.begin(), missing.end());
     std::atomic<bool> lost{false};
     parallel_ranges(outliers.size(), kGrain, [&](std::size_t first, std::size_t last) {
       for (const std::uint32_t i : outliers.subspan(first, last - first)) {
         if (is_vacant(records_[i])) continue;
         if (is_somewhere(records_[i])) {
-          find_around(i, place_of(i), outlying, room.lacks);
+          find_around(i, place_of(i), outlying, room.missing);
         } else {
           lost = true;
         }
@@ -86,7 +86,7 @@ class OutlierPairs {
     });
     if (lost) return false;
     find_among(outliers, room);
-    mended.mend<Real>(room.lacks, list_, filler, ranks_);
+    patched.patch<Real>(room.missing, list_, filler, ranks_);
     return true;
   }
 
@@ -109,10 +109,10 @@ class OutlierPairs {
   }
 
   bool is_listed(std::size_t i, std::size_t p) const;
-  void note_lacks(std::size_t i, std::size_t p, std::vector<Lack>& lacks) const;
+  void note_missing(std::size_t i, std::size_t p, std::vector<MissingEntry>& missing) const;
 
   void find_around(std::uint32_t i, const Place& place, std::span<const std::uint16_t> outlying,
-                   std::vector<Lack>& lacks) const;
+                   std::vector<MissingEntry>& missing) const;
   void find_among(std::span<const std::uint32_t> outliers, Room& room) const;
 
   // From a row to the one beside it along y; along z it is 1.

@@ -75,13 +75,13 @@ void VerletList<Real>::build(const Record* records, std::size_t count, std::size
   anchors_.assign((end_ + kWindow - 1) / kWindow, Anchor{{}, {}, Real(-1), {}});
   moved_.resize(anchors_.size());
   outlying_.assign(room / kLanes, 0);
-  mended_.clear(outlying_.size());
+  patched_.clear(outlying_.size());
   released_.clear();
-  mending_due_ = false;
+  patching_due_ = false;
   const std::size_t many = count / kOutlierCost + kLanes;  // a list with more outliers does not last
   outliers_.reserve(many);
   room_.reserve(many);
-  mended_.reserve(many);
+  patched_.reserve(many);
   age_ = 0;
   spent_ = 0;
   if (builds_ % kFollowTrial == 0) follow_helps_ = true;
@@ -119,7 +119,7 @@ void VerletList<Real>::moved(const Record* records) {
   spent_ += cost;
   // What a step costs falls with the age of a list and rises with its outliers: where both meet it has served best.
   if (cost * age_ > count_ + spent_ || is_too_thick()) return forget();
-  mend(records);
+  patch(records);
 }
 
 template <class Real>
@@ -263,9 +263,9 @@ unsigned VerletList<Real>::outliers_of_group(const Record* records, std::size_t 
 
 // Finds the pairs of outliers that touch and rows that lack them.
 template <class Real>
-void VerletList<Real>::mend(const Record* records) {
-  mending_due_ = false;
-  mended_.clear(outlying_.size());
+void VerletList<Real>::patch(const Record* records) {
+  patching_due_ = false;
+  patched_.clear(outlying_.size());
   if (outliers_.empty() && released_.empty()) return;
   const auto steps = static_cast<Real>(steps_);
   const double mild = MotionBounds<Real>::kMild * limits_.skin, half = 0.5 * skin_ + coarseness_;
@@ -280,7 +280,7 @@ void VerletList<Real>::mend(const Record* records) {
     }
     return {vec_cast<double>(records[i].x - middle), anywhere};
   };
-  if (!outlier_pairs(records).find(outliers_, outlying_, place_of, filler_, released_, room_, mended_)) forget();
+  if (!outlier_pairs(records).find(outliers_, outlying_, place_of, filler_, released_, room_, patched_)) forget();
 }
 
 template class VerletList<float>;

@@ -13,9 +13,9 @@
 
 #include "hooke/backends/cpu/column_store.h"
 #include "hooke/backends/cpu/exclusions.h"
-#include "hooke/backends/cpu/mended_rows.h"
 #include "hooke/backends/cpu/outlier_pairs.h"
 #include "hooke/backends/cpu/pass_rules.h"
+#include "hooke/backends/cpu/patched_rows.h"
 #include "hooke/base/assert.h"
 #include "hooke/neighbours/cell_list.h"
 #include "hooke/neighbours/motion_bounds.h"
@@ -28,7 +28,7 @@ namespace hooke {
 /// A neighbour list with a skin (Verlet, "Computer experiments on classical fluids", Phys. Rev. 159, 98, 1967), and
 /// what it takes to trust it for many steps. While every particle stays near its anchor (motion_bounds.h) the
 /// list misses nothing. Particles that outlier are looked after one by one: in every step each looks for whoever
-/// touches it, and rows that lack the pair are mended. A new list is built when outliers have become too many to be
+/// touches it, and rows that lack the pair are patched. A new list is built when outliers have become too many to be
 /// worth it.
 ///
 /// Which pairs are listed when changes no result: those that don't touch add an exact zero.
@@ -66,9 +66,9 @@ class VerletList {
 
   /// The rows of group g of segment s, as good as the list is.
   std::span<const std::uint32_t> rows(std::size_t s, std::size_t g) const {
-    return is_mended(s, g) ? mended_.rows(s * kGroups + g) : list_.rows(s, g);
+    return is_patched(s, g) ? patched_.rows(s * kGroups + g) : list_.rows(s, g);
   }
-  bool is_mended(std::size_t s, std::size_t g) const { return mended_.holds(s * kGroups + g); }
+  bool is_patched(std::size_t s, std::size_t g) const { return patched_.holds(s * kGroups + g); }
   const NeighbourList::Segment& segment(std::size_t s) const { return list_.segments[s]; }
   std::size_t segment_count() const { return list_.segments.size(); }
   std::size_t entry_count() const { return list_.entry_count(); }
@@ -98,13 +98,13 @@ class VerletList {
     for (const auto& [i, p] : pairs) {
       released_.push_back({i, order_[p], record_offset<Real>(p)});
       released_.push_back({p, order_[i], record_offset<Real>(i)});
-      mending_due_ = true;
+      patching_due_ = true;
     }
   }
-  /// Before rows are read: mends them for what was added, moved or released since they were mended last. Says in good()
-  /// whether the list goes on.
-  void mend_if_due(const Record* records) {
-    if (listed_ && mending_due_) mend(records);
+  /// Before rows are read: patches them for what was added, moved or released since they were patched last. Says in
+  /// good() whether the list goes on.
+  void patch_if_due(const Record* records) {
+    if (listed_ && patching_due_) patch(records);
   }
 
   // Moving ----------------------------------------------------------------------------------------------------------
@@ -130,7 +130,7 @@ class VerletList {
 
   void add_outlier(std::size_t i) {
     note_far(i / kLanes, 1U << i % kLanes);
-    mending_due_ = true;
+    patching_due_ = true;
     if (kOutlierCost * outliers_.size() > count_ + kOutlierCost * kLanes)
       forget();  // looking after them costs more than a list
   }
@@ -199,7 +199,7 @@ class VerletList {
     return {*rules_, records, cells_, slots_, order_.data(), list_, *exclusions_};
   }
 
-  void mend(const Record* records);
+  void patch(const Record* records);
 
   // Bounds of the displacements of a window, m.
   struct Extent {
@@ -242,10 +242,11 @@ class VerletList {
   std::vector<Anchor> anchors_;  // by window
   std::vector<Extent> moved_;  // likewise
   std::vector<std::uint16_t> outlying_;  // by group: a bit a lane
-  MendedRows mended_;
+  PatchedRows patched_;
   std::vector<std::uint32_t> outliers_;
-  bool mending_due_ = false;  // rows lack what was added, moved or released
-  std::vector<MendedRows::Lack> released_;  // what rows lack of pairs that were kept apart when they were listed
+  bool patching_due_ = false;  // rows lack what was added, moved or released
+  std::vector<PatchedRows::MissingEntry>
+      released_;  // what rows lack of pairs that were kept apart when they were listed
   typename OutlierPairs<Real>::Room room_;
   std::mutex mutex_;  // around outliers_
   std::int64_t steps_ = 0, horizon_ = 0;  // since anchors followed last; how many they are good for

@@ -21,46 +21,47 @@ inline bool is_in_lane(std::span<const std::uint32_t> rows, std::size_t lane, st
 }
 
 /// Rows of the groups whose rows in the list lack a pair.
-class MendedRows {
+class PatchedRows {
   static constexpr std::size_t kLanes = NeighbourList::kLanes;
 
  public:
-  /// One neighbour that particle `of` lacks.
-  struct Lack {
+  /// One neighbour that particle `of` missing.
+  struct MissingEntry {
     std::uint32_t of, rank, entry;  // the neighbour's rank and entry
 
-    friend auto operator<=>(const Lack&, const Lack&) = default;
+    friend auto operator<=>(const MissingEntry&, const MissingEntry&) = default;
   };
 
   void clear(std::size_t groups);
-  std::size_t count() const { return mended_.size(); }
+  std::size_t count() const { return patched_.size(); }
   void reserve(std::size_t groups);
   bool holds(std::size_t group) const { return at_[group] != kNone; }
   /// Of a group that it holds.
   std::span<const std::uint32_t> rows(std::size_t group) const {
     HOOKE_ASSERT(holds(group), group);
-    const Mended& m = mended_[at_[group]];
+    const Patched& m = patched_[at_[group]];
     return std::span(entries_).subspan(m.first, m.count);
   }
 
   /// Adds what is lacking to rows of the list, whose entries are offsets of records. `ranks` are by record; `filler`
   /// stands for none.
   template <class Real>
-  void mend(std::vector<Lack>& lacks, const NeighbourList& list, std::uint32_t filler, const std::uint32_t* ranks);
+  void patch(std::vector<MissingEntry>& missing, const NeighbourList& list, std::uint32_t filler,
+             const std::uint32_t* ranks);
 
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   static constexpr std::size_t kBehind = kRowsAhead * kLanes;
-  struct Mended {
+  struct Patched {
     std::size_t group, first, count;  // its entries
   };
 
   template <class RankOfEntry>
-  static void insert(const Lack& lack, std::uint32_t* rows, std::size_t count, std::uint32_t filler,
+  static void insert(const MissingEntry& missing, std::uint32_t* rows, std::size_t count, std::uint32_t filler,
                      const RankOfEntry& rank_of_entry);
 
-  std::vector<std::uint32_t> at_;  // by group: index into mended_
-  std::vector<Mended> mended_;
+  std::vector<std::uint32_t> at_;  // by group: index into patched_
+  std::vector<Patched> patched_;
   std::vector<std::uint32_t> entries_;  // kRowsAhead rows of `filler` behind the last
 };
 

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/backends/cpu/patched_rows.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "hooke/backends/cpu/force_pass.h"
+
+namespace hooke {
+
+void PatchedRows::clear(std::size_t groups) {
+  for (const Patched& m : patched_) at_[m.group] = kNone;
+  patched_.clear();
+  entries_.clear();
+  if (at_.size() != groups) at_.assign(groups, kNone);
+}
+
+void PatchedRows::reserve(std::size_t groups) {
+  patched_.reserve(groups);
+  entries_.reserve(groups * 24 * kLanes);
+}
+
+// Puts one in its place by rank; the last entry of its lane is free.
+template <class RankOfEntry>
+void PatchedRows::insert(const MissingEntry& missing, std::uint32_t* rows, std::size_t count, std::uint32_t filler,
+                         const RankOfEntry& rank_of_entry) {
+  std::size_t at = missing.of % kLanes;
+  while (at < count && rows[at] != filler && rank_of_entry(rows[at]) < missing.rank) at += kLanes;
+  for (std::uint32_t carried = missing.entry; at < count; at += kLanes) {
+    std::swap(carried, rows[at]);
+    if (carried == filler) break;
+  }
+}
+
+template <class Real>
+void PatchedRows::patch(std::vector<MissingEntry>& missing, const NeighbourList& list, std::uint32_t filler,
+                        const std::uint32_t* ranks) {
+  const auto rank_of_entry = [ranks](std::uint32_t entry) { return ranks[entry / record_offset<Real>(1)]; };
+  std::sort(missing.begin(), missing.end());
+  missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
+  for (std::size_t k = 0; k < missing.size();) {
+    const std::size_t group = missing[k].of / kLanes;
+    std::size_t end = k, most = 0;  // of one lane
+    for (std::size_t lane_start = k; end < missing.size() && missing[end].of / kLanes == group; ++end) {
+      if (missing[end].of != missing[lane_start].of) lane_start = end;
+      most = std::max(most, end + 1 - lane_start);
+    }
+    const auto rows = list.rows(group / NeighbourList::kGroups, group % NeighbourList::kGroups);
+    // Over what is behind the rows before.
+    const std::size_t first = entries_.empty() ? 0 : entries_.size() - kBehind, count = rows.size() + most * kLanes;
+    entries_.resize(first + count + kBehind, filler);
+    std::copy(rows.begin(), rows.end(), entries_.begin() + static_cast<std::ptrdiff_t>(first));
+    for (; k < end; ++k) insert(missing[k], entries_.data() + first, count, filler, rank_of_entry);
+    at_[group] = static_cast<std::uint32_t>(patched_.size());
+    patched_.push_back({group, first, count});
+  }
+}
+
+template void PatchedRows::patch<float>(std::vector<MissingEntry>& missing, const NeighbourList& list,
+                                        std::uint32_t filler, const std::uint32_t* ranks);
+template void PatchedRows::patch<double>(std::vector<MissingEntry>& missing, const NeighbourList& list,
+                                         std::uint32_t filler, const std::uint32_t* ranks);
+
+}  // namespace hooke
