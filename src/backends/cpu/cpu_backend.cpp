@@ -29,7 +29,7 @@ void CpuBackend<Real>::configure(const Scene& scene) {
 template <class Real>
 void CpuBackend<Real>::take(const ParticleSet& particles, std::size_t births) {
   particles_.place(particles, births);
-  list_.forget();
+  list_.invalidate();
   leaving_ = {};
   applied_.bind(particles_.ids, particles_.records, particles_.slots.room());
 }

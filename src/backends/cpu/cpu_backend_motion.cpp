@@ -25,7 +25,7 @@ void CpuBackend<Real>::half_kick_and_drift() {
           p.v = kick(p.v, particles_.acceleration[i], Real(0.5) * pass_.dt);
           p.x = drift(p.x, p.v, pass_.dt);
         }
-        if (list_.good() && !particles_.slots.is_loose(i) && list_.is_far(p, i))
+        if (list_.is_valid() && !particles_.slots.is_loose(i) && list_.is_far(p, i))
           far |= 1U << i % kLanes;  // asked of all: a removal must not hide a NaN
         if (!held) apply_boundaries(p, i, left);
       }
@@ -45,7 +45,7 @@ void CpuBackend<Real>::finish_motion(RemovalSums& left) {
 template <class Real>
 bool CpuBackend<Real>::neighbours_stale() {
   threads_.run([&] { list_.patch_if_due(particles_.records.data()); });
-  return !list_.good();
+  return !list_.is_valid();
 }
 
 template <class Real>
@@ -91,7 +91,7 @@ template <class Real>
 void CpuBackend<Real>::follow_motion() {
   const Stopwatch following(times_.motion);
   threads_.run([&] { list_.moved(particles_.records.data()); });
-  if (check_list_ && list_.good()) missed_contacts_ += list_.count_missed(particles_.records.data());
+  if (check_list_ && list_.is_valid()) missed_contacts_ += list_.count_missed(particles_.records.data());
 }
 
 template <class Real>

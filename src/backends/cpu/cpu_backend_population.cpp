@@ -42,7 +42,7 @@ RemovalSums CpuBackend<Real>::insert(const ParticleSet& newborn) {
   for (std::size_t k = 0; k < newborn.size(); ++k) {
     const Material& m = scene_.materials[newborn.material[k]];
     const std::size_t slot = !m.interacts ? particles_.slots.take_loose()
-                                          : particles_.slots.take_listed(list_.good() ? list_.first_free() : 0);
+                                          : particles_.slots.take_listed(list_.is_valid() ? list_.first_free() : 0);
     const std::size_t rank = particles_.add(slot, newborn, k);
     applied_.add(slot, particles_.ids.size(), m.fixed, particles_.slots.room());
     if (m.interacts) {
