@@ -108,7 +108,7 @@ void VerletList<Real>::moved(const Record* records) {
   if (!listed_) return;
   ++steps_;
   ++age_;
-  if (rules_->pass.periodic_kind == PeriodicKind::images && !outliers_.empty()) return forget();
+  if (rules_->pass.periodic_kind == PeriodicKind::images && !outliers_.empty()) return invalidate();
   since_followed_ += kOutlierCost * outliers_.size();
   if (steps_ > horizon_ || (follow_helps_ && since_followed_ * kFollowShare > count_)) {
     const std::size_t before = outliers_.size();
@@ -118,7 +118,7 @@ void VerletList<Real>::moved(const Record* records) {
   const std::size_t cost = kOutlierCost * (outliers_.size() + released_.size());
   spent_ += cost;
   // What a step costs falls with the age of a list and rises with its outliers: where both meet it has served best.
-  if (cost * age_ > count_ + spent_ || is_too_thick()) return forget();
+  if (cost * age_ > count_ + spent_ || is_too_thick()) return invalidate();
   patch(records);
 }
 
@@ -237,7 +237,7 @@ void VerletList<Real>::follow(const Record* records) {
   steps_ = 0;
   since_followed_ = 0;
   outliers_.clear();
-  if (horizon_ < 0) return forget();
+  if (horizon_ < 0) return invalidate();
   parallel_ranges(outlying_.size(), kGroups, [&](std::size_t first, std::size_t last) {
     for (std::size_t g = first; g < last; ++g) {
       outlying_[g] = 0;
@@ -280,7 +280,7 @@ void VerletList<Real>::patch(const Record* records) {
     }
     return {vec_cast<double>(records[i].x - middle), anywhere};
   };
-  if (!outlier_pairs(records).find(outliers_, outlying_, place_of, filler_, released_, room_, patched_)) forget();
+  if (!outlier_pairs(records).find(outliers_, outlying_, place_of, filler_, released_, room_, patched_)) invalidate();
 }
 
 template class VerletList<float>;

@@ -51,8 +51,8 @@ class VerletList {
   }
 
   /// Whether it holds every pair that touches where particles are now.
-  bool good() const { return listed_; }
-  void forget() { listed_ = false; }
+  bool is_valid() const { return listed_; }
+  void invalidate() { listed_ = false; }
 
   /// Sorts `count` particles inside the box [min, max] (m) into cells; those that are nowhere come last. Returns the
   /// order: which particle is to be the k-th. Works in `scratch`.
@@ -80,7 +80,7 @@ class VerletList {
   void add(std::size_t i, std::uint32_t rank) {
     if (!listed_) return;
     HOOKE_ASSERT(i >= first_free(), i, first_free());
-    if (i >= end_ || rules_->pass.periodic_kind == PeriodicKind::images) return forget();
+    if (i >= end_ || rules_->pass.periodic_kind == PeriodicKind::images) return invalidate();
     order_[i] = rank;
     position_at_build_.put(i, {Real(0), Real(0), Real(0)});
     add_outlier(i);
@@ -89,7 +89,7 @@ class VerletList {
   /// Particle i has been moved by other than a step: an outlier from now on.
   void note_moved(std::size_t i) {
     if (!listed_) return;
-    if (rules_->pass.periodic_kind == PeriodicKind::images) return forget();
+    if (rules_->pass.periodic_kind == PeriodicKind::images) return invalidate();
     add_outlier(i);
   }
 
@@ -119,7 +119,8 @@ class VerletList {
   void note_far(std::size_t group, unsigned far);
   /// Whether particle i has moved, in its next step, further from its anchor than that allows.
   bool is_far(const Record& p, std::size_t i) const { return is_off(p, i, anchors_[i / kWindow], next_step()); }
-  /// All particles have moved by a step, and those that outlying are noted. Says in good() whether the list goes on.
+  /// All particles have moved by a step, and those that outlying are noted. Says in is_valid() whether the list goes
+  /// on.
   void moved(const Record* records);
 
   /// Pairs that touch and are not on the list, counted the long way; for tests of all this.
@@ -132,7 +133,7 @@ class VerletList {
     note_far(i / kLanes, 1U << i % kLanes);
     patching_due_ = true;
     if (kOutlierCost * outliers_.size() > count_ + kOutlierCost * kLanes)
-      forget();  // looking after them costs more than a list
+      invalidate();  // looking after them costs more than a list
   }
 
   // Costs, in units of what listing one particle takes.
