@@ -104,7 +104,7 @@ const typename AppliedForces<Real>::Pairs& AppliedForces<Real>::apply(const Reco
 }
 
 template <class Real>
-void AppliedForces<Real>::settle(std::size_t first, std::size_t last, const Record* before, Record* after,
+void AppliedForces<Real>::finish(std::size_t first, std::size_t last, const Record* before, Record* after,
                                  Vec3<Real>* acceleration, AppliedSums& sums) const {
   HOOKE_ASSERT(last - first <= kSegment, first, last);
   hold_still(first, last, before, after, acceleration, sums);

@@ -70,7 +70,7 @@ class AppliedForces {
 
   /// After the pass over particles `first` to `last` - 1, of one segment: puts held ones back to where they were, and
   /// adds up what all of this did. `acceleration` (velocity Verlet, else null) is that of the half kick to come.
-  void settle(std::size_t first, std::size_t last, const Record* before, Record* after, Vec3<Real>* acceleration,
+  void finish(std::size_t first, std::size_t last, const Record* before, Record* after, Vec3<Real>* acceleration,
               AppliedSums& sums) const;
   void measure(const Records& records, std::size_t count, std::size_t alive, const IdTable& ids, Measurements& m);
 

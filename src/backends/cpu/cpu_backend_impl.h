@@ -100,7 +100,7 @@ class CpuBackend final : public Backend {
 
   void lay_out_structure();
   void apply_others(bool may_tear, StepReport& report);
-  void settle_segment(std::size_t s, AppliedSums& sums);
+  void finish_segment(std::size_t s, AppliedSums& sums);
 
   // The force pass and what it reports -------------------------------------------------------------------------------
 
@@ -118,7 +118,7 @@ class CpuBackend final : public Backend {
     return list_.rows(s, g);
   }
 
-  Condition look_closely(std::size_t s, std::size_t g) const;
+  Condition check_approach(std::size_t s, std::size_t g) const;
   // Who comes and goes ----------------------------------------------------------------------------------------------
 
   // Wraps periodic coordinates; a particle outside an open face leaves.

@@ -24,7 +24,7 @@ void CpuBackend<Real>::apply_forces(const Instant& now, StepReport& report) {
     for (std::size_t g = 0; g < kGroups; ++g) {
       if (segment.far[g] != 0) list_.note_far(s * kGroups + g, segment.far[g]);
       if (segment.notes[g] == 0) continue;
-      if ((segment.notes[g] & kApproachTooFast) != 0) found = Condition::first(found, look_closely(s, g));
+      if ((segment.notes[g] & kApproachTooFast) != 0) found = Condition::first(found, check_approach(s, g));
       if ((segment.notes[g] & kLeftDomain) != 0) {
         if (!left) left.emplace();
         apply_boundaries_to_group(s, g, *left);
@@ -83,8 +83,8 @@ void CpuBackend<Real>::apply_others(bool may_tear, StepReport& report) {
 }
 
 template <class Real>
-void CpuBackend<Real>::settle_segment(std::size_t s, AppliedSums& sums) {
-  applied_.settle(s * kSegment, particles_.slots.end_of(s), particles_.records.data(), particles_.next.data(),
+void CpuBackend<Real>::finish_segment(std::size_t s, AppliedSums& sums) {
+  applied_.finish(s * kSegment, particles_.slots.end_of(s), particles_.records.data(), particles_.next.data(),
                   pass_.acceleration, sums);
 }
 
@@ -124,7 +124,7 @@ void CpuBackend<Real>::run_groups(std::size_t s, std::size_t g, std::size_t end,
 
 // The approach that was too fast, if one was.
 template <class Real>
-Condition CpuBackend<Real>::look_closely(std::size_t s, std::size_t g) const {
+Condition CpuBackend<Real>::check_approach(std::size_t s, std::size_t g) const {
   const ContactScan<Real> scan(pass_, particles_.records.data());
   const auto rows = rows_of(s, g);
   Condition found;
@@ -159,7 +159,7 @@ void CpuBackend<Real>::run_pass(StepReport& total, const Look& look) {
       const std::size_t s = particles_.slots.segment(n);
       run_segment(s, report);
       report.add_to(part);
-      if (applied_part) settle_segment(s, *applied_part);
+      if (applied_part) finish_segment(s, *applied_part);
       look(s, report);
     }
     const std::lock_guard lock(mutex_);

@@ -151,7 +151,7 @@ const std::vector<std::pair<std::uint32_t, std::uint32_t>>& SpringLists<Real>::a
       run_(pass_, work);
       part.dissipation.add(power.data(), std::min(kSegment, last - at));
       for (std::size_t g = 0; g < work.group_count; ++g) {
-        if (torn[g] != 0) settle_torn(records, at / kLanes + g, part);
+        if (torn[g] != 0) finish_torn(records, at / kLanes + g, part);
       }
     }
     const std::lock_guard lock(mutex_);
@@ -229,7 +229,7 @@ void SpringLists<Real>::take(const std::shared_ptr<const Structure>& structure) 
 
 // Takes the springs that tore in a group out of its rows. Each of its two ends does so; the lower one counts it.
 template <class Real>
-void SpringLists<Real>::settle_torn(const Record* records, std::size_t g, SpringSums& sums) {
+void SpringLists<Real>::finish_torn(const Record* records, std::size_t g, SpringSums& sums) {
   for (std::uint32_t r = first_row_[g]; r < first_row_[g + 1]; ++r) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       if (rows_[r].kind[lane] != kTornSpring) continue;

@@ -77,7 +77,7 @@ class SpringLists {
   void for_each_side(const Record* records, const std::vector<std::uint32_t>& place, std::size_t rank,
                      const Visit& visit) const;
   void take(const std::shared_ptr<const Structure>& structure);
-  void settle_torn(const Record* records, std::size_t g, SpringSums& sums);
+  void finish_torn(const Record* records, std::size_t g, SpringSums& sums);
   double energy_of(std::uint32_t spring, const Record& i, const Record& p) const;
 
   SpringPassFunction<Real> run_ = nullptr;
