@@ -146,12 +146,12 @@ class WindowSearcher {
 
 std::size_t NeighbourList::entry_count() const {
   std::size_t n = 0;
-  for (const Segment& s : segments) n += std::size_t{s.first_row[kGroups]} * kLanes;
+  for (const Tile& s : tiles) n += std::size_t{s.first_row[kGroups]} * kLanes;
   return n;
 }
 
-void NeighbourList::clear(std::size_t segment_count) {
-  segments.assign(segment_count, Segment{});
+void NeighbourList::clear(std::size_t tile_count) {
+  tiles.assign(tile_count, Tile{});
   blocks_in_use_ = 0;
   begun_.clear();
 }
@@ -184,11 +184,11 @@ std::uint32_t* NeighbourList::Writer::next_group(std::size_t rows) {
   HOOKE_ASSERT(group_ < kGroups, group_);
   const std::size_t entries = rows * kLanes;
   if (to_.size() < entries) {
-    const std::size_t written = static_cast<std::size_t>(to_.data() - segment_);
+    const std::size_t written = static_cast<std::size_t>(to_.data() - tile_);
     const std::span<std::uint32_t> block = list_.new_block(written + entries);
-    std::copy_n(segment_, written, block.data());
+    std::copy_n(tile_, written, block.data());
     to_ = block.subspan(written);
-    segment_ = block.data();
+    tile_ = block.data();
   }
   std::uint32_t* const room = to_.data();
   to_ = to_.subspan(entries);
@@ -197,14 +197,14 @@ std::uint32_t* NeighbourList::Writer::next_group(std::size_t rows) {
   return room;
 }
 
-NeighbourList::Segment NeighbourList::Writer::finish_segment() {
+NeighbourList::Tile NeighbourList::Writer::finish_tile() {
   std::fill(first_row_.begin() + static_cast<std::ptrdiff_t>(group_), first_row_.end(), first_row_[group_]);
   group_ = 0;
-  Segment segment;
-  if (first_row_.back() > 0) segment.entries = segment_;
-  segment.first_row = first_row_;
-  segment_ = to_.data();
-  return segment;
+  Tile tile;
+  if (first_row_.back() > 0) tile.entries = tile_;
+  tile.first_row = first_row_;
+  tile_ = to_.data();
+  return tile;
 }
 
 template <class Real>
@@ -214,17 +214,17 @@ void build_neighbour_list(const CellList& cells, const NeighbourRule<Real>& rule
   HOOKE_ASSERT(cells.point_count() == 0 || (rule.at.x != nullptr && rule.rank != nullptr && rule.place != nullptr),
                cells.point_count());
   const std::size_t count = cells.point_count();
-  list.clear((count + NeighbourList::kSegment - 1) / NeighbourList::kSegment);
+  list.clear((count + NeighbourList::kTile - 1) / NeighbourList::kTile);
 
-  parallel_ranges(list.segments.size(), 1, [&](std::size_t first_segment, std::size_t last_segment) {
+  parallel_ranges(list.tiles.size(), 1, [&](std::size_t first_tile, std::size_t last_tile) {
     WindowSearcher<Real> searcher(cells, rule, search_window);
     NeighbourList::Writer writer(list);
-    for (std::size_t s = first_segment; s < last_segment; ++s) {
-      const std::size_t end = std::min((s + 1) * NeighbourList::kSegment, count);
-      for (std::size_t first = s * NeighbourList::kSegment; first < end; first += kWindow) {
+    for (std::size_t s = first_tile; s < last_tile; ++s) {
+      const std::size_t end = std::min((s + 1) * NeighbourList::kTile, count);
+      for (std::size_t first = s * NeighbourList::kTile; first < end; first += kWindow) {
         searcher.write_rows(first, std::min(first + kWindow, end), writer);
       }
-      list.segments[s] = writer.finish_segment();
+      list.tiles[s] = writer.finish_tile();
     }
   });
 }

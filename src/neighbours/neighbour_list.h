@@ -25,26 +25,26 @@ namespace hooke {
 class NeighbourList {
  public:
   static constexpr std::size_t kLanes = 16;
-  static constexpr std::size_t kGroups = 64;  // groups a segment
-  static constexpr std::size_t kSegment = kLanes * kGroups;
-  static_assert(kSegment % kWindow == 0 && kWindow % kLanes == 0);
+  static constexpr std::size_t kGroups = 64;  // groups a tile
+  static constexpr std::size_t kTile = kLanes * kGroups;
+  static_assert(kTile % kWindow == 0 && kWindow % kLanes == 0);
 
   static constexpr std::array<std::uint32_t, kLanes> kNoRow{};
 
   /// The rows of 1024 particles: what one thread builds and later walks over. Behind the last one kRowsAhead more can
   /// be read, which mean nothing.
-  struct Segment {
+  struct Tile {
     const std::uint32_t* entries = kNoRow.data();  // rows of kLanes
     std::array<std::uint32_t, kGroups + 1> first_row{};  // group g: rows first_row[g] to first_row[g + 1]
   };
-  std::vector<Segment> segments;
+  std::vector<Tile> tiles;
 
-  /// The rows of group g of segment s.
+  /// The rows of group g of tile s.
   std::span<const std::uint32_t> rows(std::size_t s, std::size_t g) const {
-    HOOKE_ASSERT(s < segments.size() && g < kGroups, s, segments.size(), g);
-    const Segment& segment = segments[s];
-    const std::uint32_t first = segment.first_row[g];
-    return {segment.entries + std::size_t{first} * kLanes, (segment.first_row[g + 1] - first) * kLanes};
+    HOOKE_ASSERT(s < tiles.size() && g < kGroups, s, tiles.size(), g);
+    const Tile& tile = tiles[s];
+    const std::uint32_t first = tile.first_row[g];
+    return {tile.entries + std::size_t{first} * kLanes, (tile.first_row[g + 1] - first) * kLanes};
   }
 
   /// The same, to be changed in place.
@@ -57,12 +57,12 @@ class NeighbourList {
   std::size_t entry_count() const;
 
   /// Forgets all rows; their memory is kept for the next ones.
-  void clear(std::size_t segment_count);
+  void clear(std::size_t tile_count);
 
-  /// Adds segments without rows until there are `segment_count`.
-  void add_empty_segments(std::size_t segment_count) { segments.resize(std::max(segments.size(), segment_count)); }
+  /// Adds tiles without rows until there are `tile_count`.
+  void add_empty_tiles(std::size_t tile_count) { tiles.resize(std::max(tiles.size(), tile_count)); }
 
-  /// Takes the rows of one segment after the other, up to kGroups groups each, group by group, straight to where they
+  /// Takes the rows of one tile after the other, up to kGroups groups each, group by group, straight to where they
   /// stay until clear(). One thread each.
   class Writer {
    public:
@@ -71,16 +71,16 @@ class NeighbourList {
     Writer(const Writer&) = delete;
     Writer& operator=(const Writer&) = delete;
 
-    /// Where the so many rows of the segment's next group are to be written before the next call; those of groups
+    /// Where the so many rows of the tile's next group are to be written before the next call; those of groups
     /// before may move then.
     std::uint32_t* next_group(std::size_t rows);
-    /// The segment is at its end; groups that were not asked for have no rows.
-    Segment finish_segment();
+    /// The tile is at its end; groups that were not asked for have no rows.
+    Tile finish_tile();
 
    private:
     NeighbourList& list_;
     std::span<std::uint32_t> to_;  // room that is left
-    std::uint32_t* segment_ = to_.data();
+    std::uint32_t* tile_ = to_.data();
     std::size_t group_ = 0;
     std::array<std::uint32_t, kGroups + 1> first_row_{};
   };

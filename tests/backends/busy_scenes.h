@@ -28,7 +28,7 @@ struct BusyKind {
 
 inline void PrintTo(const BusyKind& kind, std::ostream* os) { *os << kind.name(); }
 
-/// A block of three materials, several segments of the neighbour list large, that falls apart: rebuilds, departures,
+/// A block of three materials, several tiles of the neighbour list large, that falls apart: rebuilds, departures,
 /// wrapping and drag all take place within a hundred steps; with colliders of every kind in the way where asked for.
 inline Scene busy_scene(const BusyKind& kind) {
   Scene scene = open_scene();

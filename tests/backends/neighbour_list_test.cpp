@@ -32,7 +32,7 @@ const Setting kSettings[] = {
     {"one", 1, {0, 0, 0}, {5, 5, 5}, {false, false, false}, {1, 1, 1}, 0.5, 1},
     {"two", 2, {0, 0, 0}, {1, 1, 1}, {false, false, false}, {1, 1, 1}, 0.5, 1},
     {"seventeen", 17, {0, 0, 0}, {2, 2, 2}, {false, false, false}, {1, 1, 1}, 0.5, 1},
-    {"a_segment", 1024, {0, 0, 0}, {9, 9, 9}, {false, false, false}, {1, 1, 1}, 0.5, 1},
+    {"a_tile", 1024, {0, 0, 0}, {9, 9, 9}, {false, false, false}, {1, 1, 1}, 0.5, 1},
     {"many", 3001, {0, 0, 0}, {12, 14, 16}, {false, false, false}, {1, 1, 1}, 0.5, 1},
     {"mixed_radii", 2001, {0, 0, 0}, {12, 14, 16}, {false, false, false}, {1, 1, 1}, 0.2, 4},
     {"one_to_ten", 3001, {0, 0, 0}, {12, 14, 16}, {false, false, false}, {1, 1, 1}, 0.1, 10},
@@ -146,15 +146,15 @@ class Lists {
  private:
   void check(const Isa& isa, bool list_self, const std::vector<std::vector<std::uint32_t>>& near, NeighbourList& list) {
     build(isa, list_self, list);
-    ASSERT_EQ(list.segments.size(), (setting_.count + NeighbourList::kSegment - 1) / NeighbourList::kSegment);
+    ASSERT_EQ(list.tiles.size(), (setting_.count + NeighbourList::kTile - 1) / NeighbourList::kTile);
     for (std::size_t i = 0; i < setting_.count; ++i) {
       const std::size_t slot = slot_of(i);
-      const NeighbourList::Segment& segment = list.segments[slot / NeighbourList::kSegment];
-      ASSERT_NE(segment.entries, nullptr) << "as if particles were not listed";
-      const std::size_t group = slot % NeighbourList::kSegment / NeighbourList::kLanes;
+      const NeighbourList::Tile& tile = list.tiles[slot / NeighbourList::kTile];
+      ASSERT_NE(tile.entries, nullptr) << "as if particles were not listed";
+      const std::size_t group = slot % NeighbourList::kTile / NeighbourList::kLanes;
       std::vector<std::uint32_t> lane;
-      for (std::size_t row = segment.first_row[group]; row < segment.first_row[group + 1]; ++row) {
-        lane.push_back(segment.entries[row * NeighbourList::kLanes + slot % NeighbourList::kLanes]);
+      for (std::size_t row = tile.first_row[group]; row < tile.first_row[group + 1]; ++row) {
+        lane.push_back(tile.entries[row * NeighbourList::kLanes + slot % NeighbourList::kLanes]);
       }
       while (!lane.empty() && lane.back() == kFiller) lane.pop_back();
       std::vector<std::uint32_t> listed = near[i];

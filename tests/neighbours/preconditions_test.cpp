@@ -84,10 +84,10 @@ TEST(NeighboursPreconditions, EachGroupHasAnAnchor) {
   EXPECT_ASSERTS(bounds.lay_out({zeros, zeros, zeros}, 2, 1, limits), "limits.skin = -1");
 }
 
-TEST(NeighboursPreconditions, RowsAreThoseOfASegment) {
+TEST(NeighboursPreconditions, RowsAreThoseOfATile) {
   NeighbourList rows;
   rows.clear(1);
-  EXPECT_ASSERTS((void)rows.rows(1, 0), "s = 1, segments.size() = 1");
+  EXPECT_ASSERTS((void)rows.rows(1, 0), "s = 1, tiles.size() = 1");
   EXPECT_ASSERTS((void)rows.rows(0, NeighbourList::kGroups), "g = 64");
   NeighbourList::Writer writer(rows);
   for (std::size_t g = 0; g < NeighbourList::kGroups; ++g) (void)writer.next_group(1);

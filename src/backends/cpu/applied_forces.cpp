@@ -93,7 +93,7 @@ const typename AppliedForces<Real>::Pairs& AppliedForces<Real>::apply(const Reco
   }
   if (acting_.size() > 1) {
     total_.resize(records.size());
-    parallel_ranges(count, kSegment, [&](std::size_t first, std::size_t last) {
+    parallel_ranges(count, kTile, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
         total_[i] = acting_[0].force[i];
         for (std::size_t k = 1; k < acting_.size(); ++k) total_[i] += acting_[k].force[i];
@@ -106,7 +106,7 @@ const typename AppliedForces<Real>::Pairs& AppliedForces<Real>::apply(const Reco
 template <class Real>
 void AppliedForces<Real>::finish(std::size_t first, std::size_t last, const Record* before, Record* after,
                                  Vec3<Real>* acceleration, AppliedSums& sums) const {
-  HOOKE_ASSERT(last - first <= kSegment, first, last);
+  HOOKE_ASSERT(last - first <= kTile, first, last);
   hold_still(first, last, before, after, acceleration, sums);
   for (const Acting& acting : acting_) add_work(acting, first, last, before, after, acceleration, sums);
 }
@@ -121,7 +121,7 @@ void AppliedForces<Real>::measure(const Records& records, std::size_t count, std
 template <class Real>
 void AppliedForces<Real>::find_places(const Records& records, std::size_t count, std::size_t ranks) {
   place_.assign(ranks, SpringLists<Real>::kVacant);
-  parallel_ranges(count, kSegment, [&](std::size_t first, std::size_t last) {
+  parallel_ranges(count, kTile, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       if (!is_vacant(records[i])) place_[rank_of(records[i].rank)] = static_cast<std::uint32_t>(i);
     }

@@ -30,7 +30,7 @@ template <class Real>
 class AppliedForces {
   using Record = ParticleRecord<Real>;
   using Records = LargeVector<Record>;
-  static constexpr std::size_t kSegment = 1024;
+  static constexpr std::size_t kTile = 1024;
 
  public:
   using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
@@ -68,7 +68,7 @@ class AppliedForces {
     return acting_.empty() ? nullptr : acting_.size() == 1 ? acting_.front().force : total_.data();
   }
 
-  /// After the pass over particles `first` to `last` - 1, of one segment: puts held ones back to where they were, and
+  /// After the pass over particles `first` to `last` - 1, of one tile: puts held ones back to where they were, and
   /// adds up what all of this did. `acceleration` (velocity Verlet, else null) is that of the half kick to come.
   void finish(std::size_t first, std::size_t last, const Record* before, Record* after, Vec3<Real>* acceleration,
               AppliedSums& sums) const;

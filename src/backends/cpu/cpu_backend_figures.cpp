@@ -20,12 +20,12 @@ Expected<Measurements> CpuBackend<Real>::measure(const Instant& now) {
     }
   }
   MeasurementSums total;
-  for_ranges(particles_.slots.end(), kSegment, [&](std::size_t first, std::size_t last) {
+  for_ranges(particles_.slots.end(), kTile, [&](std::size_t first, std::size_t last) {
     const ContactScan<Real> scan(pass_, particles_.records.data());
     MeasurementSums part;
     for (std::size_t i = first; i < last; ++i) {
       if (is_vacant(particles_.records[i])) continue;
-      measure_particle(scan, i, rows_of(i / kSegment, i % kSegment / kLanes), particles_.records[i], scene_, part);
+      measure_particle(scan, i, rows_of(i / kTile, i % kTile / kLanes), particles_.records[i], scene_, part);
     }
     const std::lock_guard lock(mutex_);
     total.add(part);

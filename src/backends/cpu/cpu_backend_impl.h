@@ -18,8 +18,8 @@
 #include "hooke/backends/cpu/particle_state.h"
 #include "hooke/backends/cpu/pass_rules.h"
 #include "hooke/backends/cpu/placed_sinks.h"
-#include "hooke/backends/cpu/segment_report.h"
 #include "hooke/backends/cpu/threads.h"
+#include "hooke/backends/cpu/tile_report.h"
 #include "hooke/backends/cpu/verlet_list.h"
 #include "hooke/base/parallel.h"
 #include "hooke/core/backend.h"
@@ -37,7 +37,7 @@ class CpuBackend final : public Backend {
   using Record = ParticleRecord<Real>;
   static constexpr std::size_t kLanes = NeighbourList::kLanes;
   static constexpr std::size_t kGroups = NeighbourList::kGroups;
-  static constexpr std::size_t kSegment = NeighbourList::kSegment;
+  static constexpr std::size_t kTile = NeighbourList::kTile;
 
  public:
   CpuBackend(const Isa& isa, const Loops<Real>& loops, int threads, bool check_list)
@@ -100,7 +100,7 @@ class CpuBackend final : public Backend {
 
   void lay_out_structure();
   void apply_others(bool may_tear, StepReport& report);
-  void finish_segment(std::size_t s, AppliedSums& sums);
+  void finish_tile(std::size_t s, AppliedSums& sums);
 
   // The force pass and what it reports -------------------------------------------------------------------------------
 
@@ -108,13 +108,13 @@ class CpuBackend final : public Backend {
   void aim_pass(Vec3<Real>* acceleration);
   template <class Look>
   void run_pass(StepReport& sums, const Look& look);
-  void run_segment(std::size_t s, SegmentReport& report) const;
+  void run_tile(std::size_t s, TileReport& report) const;
   void run_groups(std::size_t s, std::size_t g, std::size_t end, const std::uint32_t* rows,
-                  const std::uint32_t* first_row, SegmentReport& report) const;
+                  const std::uint32_t* first_row, TileReport& report) const;
 
   // Of a group in the neighbour list; loose ones have none.
   std::span<const std::uint32_t> rows_of(std::size_t s, std::size_t g) const {
-    if (particles_.slots.is_loose(s * kSegment)) return {};
+    if (particles_.slots.is_loose(s * kTile)) return {};
     return list_.rows(s, g);
   }
 

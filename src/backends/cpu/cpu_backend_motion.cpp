@@ -13,7 +13,7 @@ namespace hooke {
 template <class Real>
 void CpuBackend<Real>::half_kick_and_drift() {
   const Stopwatch drifting(times_.drift);
-  for_ranges(particles_.slots.end(), kSegment, [&](std::size_t first, std::size_t last) {
+  for_ranges(particles_.slots.end(), kTile, [&](std::size_t first, std::size_t last) {
     Departures left;
     for (std::size_t start = first; start < last; start += kLanes) {
       unsigned far = 0;

@@ -18,14 +18,14 @@ void CpuBackend<Real>::apply_forces(const Instant& now, StepReport& report) {
   place_at(now);
   aim_pass(verlet() ? particles_.acceleration.data() : nullptr);
   apply_others(true, report);
-  run_pass(report, [&](std::size_t s, const SegmentReport& segment) {
+  run_pass(report, [&](std::size_t s, const TileReport& tile) {
     std::optional<Departures> left;  // large, and seldom of use
     Condition found;
     for (std::size_t g = 0; g < kGroups; ++g) {
-      if (segment.far[g] != 0) list_.note_far(s * kGroups + g, segment.far[g]);
-      if (segment.notes[g] == 0) continue;
-      if ((segment.notes[g] & kApproachTooFast) != 0) found = Condition::first(found, check_approach(s, g));
-      if ((segment.notes[g] & kLeftDomain) != 0) {
+      if (tile.far[g] != 0) list_.note_far(s * kGroups + g, tile.far[g]);
+      if (tile.notes[g] == 0) continue;
+      if ((tile.notes[g] & kApproachTooFast) != 0) found = Condition::first(found, check_approach(s, g));
+      if ((tile.notes[g] & kLeftDomain) != 0) {
         if (!left) left.emplace();
         apply_boundaries_to_group(s, g, *left);
       }
@@ -44,7 +44,7 @@ void CpuBackend<Real>::evaluate_accelerations(const Instant& now, std::uint64_t 
   place_at(now);
   aim_pass(evaluated.data());
   apply_others(false, report);
-  run_pass(report, [](std::size_t, const SegmentReport&) {});
+  run_pass(report, [](std::size_t, const TileReport&) {});
   for (std::size_t i = 0; i < particles_.slots.end(); ++i) {
     if (!is_vacant(particles_.records[i]) && particles_.ids[rank_of(particles_.records[i].rank)] >= first_new_id)
       particles_.acceleration[i] = evaluated[i];
@@ -83,16 +83,16 @@ void CpuBackend<Real>::apply_others(bool may_tear, StepReport& report) {
 }
 
 template <class Real>
-void CpuBackend<Real>::finish_segment(std::size_t s, AppliedSums& sums) {
-  applied_.finish(s * kSegment, particles_.slots.end_of(s), particles_.records.data(), particles_.next.data(),
+void CpuBackend<Real>::finish_tile(std::size_t s, AppliedSums& sums) {
+  applied_.finish(s * kTile, particles_.slots.end_of(s), particles_.records.data(), particles_.next.data(),
                   pass_.acceleration, sums);
 }
 
 template <class Real>
-void CpuBackend<Real>::run_segment(std::size_t s, SegmentReport& report) const {
-  const std::size_t groups = (particles_.slots.end_of(s) - s * kSegment + kLanes - 1) / kLanes;
+void CpuBackend<Real>::run_tile(std::size_t s, TileReport& report) const {
+  const std::size_t groups = (particles_.slots.end_of(s) - s * kTile + kLanes - 1) / kLanes;
   report.clear();
-  if (particles_.slots.is_loose(s * kSegment)) return run_groups(s, 0, groups, nullptr, nullptr, report);
+  if (particles_.slots.is_loose(s * kTile)) return run_groups(s, 0, groups, nullptr, nullptr, report);
   for (std::size_t g = 0; g < groups;) {
     std::size_t end = g + 1;
     if (list_.is_patched(s, g)) {
@@ -101,7 +101,7 @@ void CpuBackend<Real>::run_segment(std::size_t s, SegmentReport& report) const {
       run_groups(s, g, end, rows.data(), first_row, report);
     } else {
       while (end < groups && !list_.is_patched(s, end)) ++end;
-      run_groups(s, g, end, list_.segment(s).entries, list_.segment(s).first_row.data() + g, report);
+      run_groups(s, g, end, list_.tile(s).entries, list_.tile(s).first_row.data() + g, report);
     }
     g = end;
   }
@@ -109,9 +109,9 @@ void CpuBackend<Real>::run_segment(std::size_t s, SegmentReport& report) const {
 
 template <class Real>
 void CpuBackend<Real>::run_groups(std::size_t s, std::size_t g, std::size_t end, const std::uint32_t* rows,
-                                  const std::uint32_t* first_row, SegmentReport& report) const {
-  SegmentWork<Real> work;
-  work.first = s * kSegment + g * kLanes;
+                                  const std::uint32_t* first_row, TileReport& report) const {
+  TileWork<Real> work;
+  work.first = s * kTile + g * kLanes;
   work.group_count = end - g;
   work.alone = rows == nullptr;
   work.rows = rows;
@@ -128,7 +128,7 @@ Condition CpuBackend<Real>::check_approach(std::size_t s, std::size_t g) const {
   const ContactScan<Real> scan(pass_, particles_.records.data());
   const auto rows = rows_of(s, g);
   Condition found;
-  const std::size_t first = s * kSegment + g * kLanes;
+  const std::size_t first = s * kTile + g * kLanes;
   for (std::size_t i = first; i < std::min(first + kLanes, particles_.slots.end_of(s)); ++i) {
     if (!is_vacant(particles_.records[i])) {
       found =
@@ -140,26 +140,26 @@ Condition CpuBackend<Real>::check_approach(std::size_t s, std::size_t g) const {
 
 template <class Real>
 void CpuBackend<Real>::apply_boundaries_to_group(std::size_t s, std::size_t g, Departures& left) {
-  const std::size_t first = s * kSegment + g * kLanes;
+  const std::size_t first = s * kTile + g * kLanes;
   for (std::size_t i = first; i < std::min(first + kLanes, particles_.slots.end_of(s)); ++i) {
     if (!is_vacant(particles_.next[i])) apply_boundaries(particles_.next[i], i, left);
   }
 }
 
-// All segments, and their sums; then look(s, report of segment s).
+// All tiles, and their sums; then look(s, report of tile s).
 template <class Real>
 template <class Look>
 void CpuBackend<Real>::run_pass(StepReport& total, const Look& look) {
-  for_ranges(particles_.slots.segment_count(), 1, [&](std::size_t first, std::size_t last) {
-    SegmentReport report;
+  for_ranges(particles_.slots.tile_count(), 1, [&](std::size_t first, std::size_t last) {
+    TileReport report;
     StepSums part;
     std::optional<AppliedSums> applied_part;  // large, and of no use to most scenes
     if (total.applied) applied_part.emplace();
     for (std::size_t n = first; n < last; ++n) {
-      const std::size_t s = particles_.slots.segment(n);
-      run_segment(s, report);
+      const std::size_t s = particles_.slots.tile(n);
+      run_tile(s, report);
       report.add_to(part);
-      if (applied_part) finish_segment(s, *applied_part);
+      if (applied_part) finish_tile(s, *applied_part);
       look(s, report);
     }
     const std::lock_guard lock(mutex_);

@@ -82,7 +82,7 @@ Removal CpuBackend<Real>::remove(std::span<const std::uint64_t> ids) {
 template <class Real>
 RemovalSums CpuBackend<Real>::remove_sunk() {
   Departures sunk;
-  for_ranges(particles_.slots.end(), kSegment, [&](std::size_t first, std::size_t last) {
+  for_ranges(particles_.slots.end(), kTile, [&](std::size_t first, std::size_t last) {
     Departures part;
     for (std::size_t i = first; i < last; ++i) {
       if (!is_vacant(particles_.records[i]) && sinks_.take(vec_cast<double>(particles_.records[i].x)))
@@ -95,7 +95,7 @@ RemovalSums CpuBackend<Real>::remove_sunk() {
 
 template <class Real>
 void CpuBackend<Real>::find_inside(const ShapeBounds& box, std::vector<Occupant>& out) const {
-  for_ranges(particles_.slots.listed_end(), kSegment, [&](std::size_t first, std::size_t last) {
+  for_ranges(particles_.slots.listed_end(), kTile, [&](std::size_t first, std::size_t last) {
     std::vector<Occupant> found;
     for (std::size_t i = first; i < last; ++i) {
       const Record& p = particles_.records[i];
@@ -151,7 +151,7 @@ void CpuBackend<Real>::add_elastic(std::vector<std::uint32_t>& slots, ExactSum& 
     ExactSum part;
     for (std::size_t k = first; k < last; ++k) {
       const std::size_t i = slots[k];
-      add_contact_energy(scan, i, rows_of(i / kSegment, i % kSegment / kLanes), slots, part);
+      add_contact_energy(scan, i, rows_of(i / kTile, i % kTile / kLanes), slots, part);
       applied_.add_spring_energy(particles_.records, i, slots, part);
     }
     const std::lock_guard lock(mutex_);

@@ -193,7 +193,7 @@ struct ContactLoop {
   }
 
   // Neighbours come in the order of their ids, which no processor foresees: those of about the next group are asked for
-  // now, beyond a segment's end those of the next segment, whatever is behind the last one's.
+  // now, beyond a tile's end those of the next tile, whatever is behind the last one's.
   HOOKE_HD void prefetch_row(const std::uint32_t* row) const {
     for (std::size_t lane = 0; lane < P::kLanes; ++lane) {
       prefetch(reinterpret_cast<const char*>(pass.in) + std::size_t{row[lane]} * 8);
@@ -287,7 +287,7 @@ struct Touching {
 // The index of a cause's power among the sums of a pass.
 HOOKE_HD constexpr int power_of(Cause cause) { return static_cast<int>(cause); }
 
-// What is summed over a segment's particles, a column each. Packs that touch nothing of a kind are left out of its own.
+// What is summed over a tile's particles, a column each. Packs that touch nothing of a kind are left out of its own.
 template <class Real>
 struct PassColumns {
   std::size_t count = 0, contact_count = 0, wall_count = 0, collider_count = 0;
@@ -349,7 +349,7 @@ struct Forces {
 };
 
 template <class Real, Materials kMaterials, PeriodicKind kPeriodic>
-HOOKE_HD void run_pack(const ForcePass<Real>& pass, const SegmentWork<Real>& work, std::size_t slot,
+HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, std::size_t slot,
                        PassColumns<Real>& columns, unsigned char& notes, unsigned& far) {
   using P = Pack<Real>;
   const std::size_t first = work.first + slot;
@@ -443,7 +443,7 @@ bool is_summed(const ForcePass<Real>& pass, int sum) {
 }
 
 template <class Real, Materials kMaterials, PeriodicKind kPeriodic>
-void run_segment(const ForcePass<Real>& pass, const SegmentWork<Real>& work) {
+void run_tile(const ForcePass<Real>& pass, const TileWork<Real>& work) {
   PassColumns<Real> columns;
   for (std::size_t g = 0; g < work.group_count; ++g) {
     unsigned char notes = 0;
@@ -460,19 +460,19 @@ void run_segment(const ForcePass<Real>& pass, const SegmentWork<Real>& work) {
 }
 
 template <class Real, Materials kMaterials>
-void choose_periodic(const ForcePass<Real>& pass, const SegmentWork<Real>& work) {
+void choose_periodic(const ForcePass<Real>& pass, const TileWork<Real>& work) {
   switch (pass.periodic_kind) {
     case PeriodicKind::none:
-      return run_segment<Real, kMaterials, PeriodicKind::none>(pass, work);
+      return run_tile<Real, kMaterials, PeriodicKind::none>(pass, work);
     case PeriodicKind::nearest:
-      return run_segment<Real, kMaterials, PeriodicKind::nearest>(pass, work);
+      return run_tile<Real, kMaterials, PeriodicKind::nearest>(pass, work);
     case PeriodicKind::images:
-      return run_segment<Real, kMaterials, PeriodicKind::images>(pass, work);
+      return run_tile<Real, kMaterials, PeriodicKind::images>(pass, work);
   }
 }
 
 template <class Real>
-void choose_materials(const ForcePass<Real>& pass, const SegmentWork<Real>& work) {
+void choose_materials(const ForcePass<Real>& pass, const TileWork<Real>& work) {
   if (!pass.linear && pass.few != nullptr) return choose_periodic<Real, Materials::few_surfaces>(pass, work);
   if (!pass.linear) return choose_periodic<Real, Materials::many_surfaces>(pass, work);
   if (pass.material_count == 1) return choose_periodic<Real, Materials::one>(pass, work);
@@ -482,8 +482,6 @@ void choose_materials(const ForcePass<Real>& pass, const SegmentWork<Real>& work
 
 }  // namespace
 
-void force_pass(const ForcePass<HOOKE_REAL>& pass, const SegmentWork<HOOKE_REAL>& work) {
-  choose_materials(pass, work);
-}
+void force_pass(const ForcePass<HOOKE_REAL>& pass, const TileWork<HOOKE_REAL>& work) { choose_materials(pass, work); }
 
 }  // namespace hooke::HOOKE_ISA

@@ -10,7 +10,7 @@ namespace hooke {
 
 template <class Real>
 bool OutlierPairs<Real>::is_listed(std::size_t i, std::size_t p) const {
-  const auto rows = list_.rows(i / NeighbourList::kSegment, i % NeighbourList::kSegment / kLanes);
+  const auto rows = list_.rows(i / NeighbourList::kTile, i % NeighbourList::kTile / kLanes);
   return is_in_lane(rows, i % kLanes, record_offset<Real>(static_cast<std::uint32_t>(p)));
 }
 

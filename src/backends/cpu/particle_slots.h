@@ -13,19 +13,19 @@
 namespace hooke {
 
 /// Where in memory particles lie. In front those that touch others, in the order of the neighbour list, with room
-/// behind them for those that are born; then, from a whole segment on, those that touch none, the loose ones: they are
+/// behind them for those that are born; then, from a whole tile on, those that touch none, the loose ones: they are
 /// in no list and are never sorted, and whoever is born takes the slot of one that is gone. Slots of nobody hold
 /// records that are nowhere.
 class ParticleSlots {
  public:
-  static constexpr std::size_t kLanes = 16, kSegment = 1024;
+  static constexpr std::size_t kLanes = 16, kTile = 1024;
 
   /// Lays out so many particles of both kinds with room for more; with `fixed` slots of loose ones that are gone are
   /// free only after recycle().
   void lay_out(std::size_t listed, std::size_t more_listed, std::size_t loose, std::size_t more_loose, bool fixed) {
     listed_end_ = listed;
     loose_room_ = whole(loose + more_loose, kLanes);
-    first_loose_ = whole(listed + more_listed, loose_room_ > 0 ? kSegment : kLanes);
+    first_loose_ = whole(listed + more_listed, loose_room_ > 0 ? kTile : kLanes);
     loose_end_ = first_loose_ + loose;
     fixed_ = fixed;
     spare_.clear();
@@ -72,21 +72,17 @@ class ParticleSlots {
     listed_end_ = count;
   }
 
-  /// Segments in use, of both kinds, and which one the n-th of them is.
-  std::size_t segment_count() const {
-    return listed_segments() + whole(loose_end_ - first_loose_, kSegment) / kSegment;
-  }
-  std::size_t segment(std::size_t n) const {
-    return n < listed_segments() ? n : first_loose_ / kSegment + (n - listed_segments());
-  }
-  /// One past the last slot of a segment that is in use.
-  std::size_t end_of(std::size_t segment) const {
-    return std::min((segment + 1) * kSegment, is_loose(segment * kSegment) ? loose_end_ : listed_end_);
+  /// Tiles in use, of both kinds, and which one the n-th of them is.
+  std::size_t tile_count() const { return listed_tiles() + whole(loose_end_ - first_loose_, kTile) / kTile; }
+  std::size_t tile(std::size_t n) const { return n < listed_tiles() ? n : first_loose_ / kTile + (n - listed_tiles()); }
+  /// One past the last slot of a tile that is in use.
+  std::size_t end_of(std::size_t tile) const {
+    return std::min((tile + 1) * kTile, is_loose(tile * kTile) ? loose_end_ : listed_end_);
   }
 
  private:
   static constexpr std::size_t whole(std::size_t n, std::size_t of) { return (n + of - 1) / of * of; }
-  std::size_t listed_segments() const { return whole(listed_end_, kSegment) / kSegment; }
+  std::size_t listed_tiles() const { return whole(listed_end_, kTile) / kTile; }
 
   std::size_t listed_end_ = 0, first_loose_ = 0, loose_end_ = 0, loose_room_ = 0;
   bool fixed_ = false;

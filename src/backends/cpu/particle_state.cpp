@@ -100,8 +100,8 @@ std::size_t ParticleState<Real>::room_for_births(bool listed) const {
   }
   if (!any) return 0;
   const std::size_t there = listed ? count_ - loose_count_ : loose_count_;
-  const auto wanted = static_cast<std::size_t>(std::min(kMost, 1.1 * expected)) + kSegment;
-  return std::max(there / 2, wanted - std::min(wanted, there)) + kSegment;
+  const auto wanted = static_cast<std::size_t>(std::min(kMost, 1.1 * expected)) + kTile;
+  return std::max(there / 2, wanted - std::min(wanted, there)) + kTile;
 }
 
 template <class Real>
@@ -128,7 +128,7 @@ std::size_t ParticleState<Real>::slot_of(std::uint64_t id) const {
 template <class Real>
 std::vector<std::uint32_t> ParticleState<Real>::slots_by_rank() const {
   std::vector<std::uint32_t> at(ids.size(), kNoSlot);
-  parallel_ranges(slots.end(), kSegment, [&](std::size_t first, std::size_t last) {
+  parallel_ranges(slots.end(), kTile, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       if (!is_vacant(records[i])) at[rank_of(records[i].rank)] = static_cast<std::uint32_t>(i);
     }
@@ -179,7 +179,7 @@ void ParticleState<Real>::recount() {
 template <class Real>
 std::uint64_t ParticleState<Real>::hash() const {
   std::atomic<std::uint64_t> hash{0};
-  parallel_ranges(slots.end(), kSegment, [&](std::size_t first, std::size_t last) {
+  parallel_ranges(slots.end(), kTile, [&](std::size_t first, std::size_t last) {
     std::uint64_t sum = 0;
     for (std::size_t i = first; i < last; ++i) {
       const Record& p = records[i];
@@ -212,10 +212,10 @@ template <class Real>
 template <class T>
 void ParticleState<Real>::permute(LargeVector<T>& column, LargeVector<T>& scratch,
                                   std::span<const std::uint32_t> order) const {
-  parallel_ranges(slots.listed_end(), kSegment, [&](std::size_t first, std::size_t last) {
+  parallel_ranges(slots.listed_end(), kTile, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) scratch[i] = column[order[i]];
   });
-  parallel_ranges(slots.loose_end() - slots.first_loose(), kSegment, [&](std::size_t first, std::size_t last) {
+  parallel_ranges(slots.loose_end() - slots.first_loose(), kTile, [&](std::size_t first, std::size_t last) {
     const auto at = [&](auto& of, std::size_t i) {
       return of.begin() + static_cast<std::ptrdiff_t>(slots.first_loose() + i);
     };

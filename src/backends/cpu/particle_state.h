@@ -22,7 +22,7 @@ namespace hooke {
 template <class Real>
 class ParticleState {
   using Record = ParticleRecord<Real>;
-  static constexpr std::size_t kSegment = ParticleSlots::kSegment;
+  static constexpr std::size_t kTile = ParticleSlots::kTile;
 
  public:
   LargeVector<Record> records, next;  ///< the state, and where a pass writes the next; both end with a filler

@@ -136,20 +136,20 @@ const std::vector<std::pair<std::uint32_t, std::uint32_t>>& SpringLists<Real>::a
   pass_.force = force_.data();
   pass_.may_tear = may_tear && tearable_;
   released_.clear();
-  parallel_ranges(count_, kSegment, [&](std::size_t first, std::size_t last) {
+  parallel_ranges(count_, kTile, [&](std::size_t first, std::size_t last) {
     SpringSums part;
-    for (std::size_t at = first; at < last; at += kSegment) {
-      std::array<Real, kSegment> power;
+    for (std::size_t at = first; at < last; at += kTile) {
+      std::array<Real, kTile> power;
       std::array<unsigned char, kGroups> torn{};
       SpringWork<Real> work;
       work.first = at;
-      work.group_count = (std::min(kSegment, last - at) + kLanes - 1) / kLanes;
+      work.group_count = (std::min(kTile, last - at) + kLanes - 1) / kLanes;
       work.rows = rows_.data();
       work.first_row = first_row_.data() + at / kLanes;
       work.power = power.data();
       work.torn = torn.data();
       run_(pass_, work);
-      part.dissipation.add(power.data(), std::min(kSegment, last - at));
+      part.dissipation.add(power.data(), std::min(kTile, last - at));
       for (std::size_t g = 0; g < work.group_count; ++g) {
         if (torn[g] != 0) finish_torn(records, at / kLanes + g, part);
       }
@@ -165,7 +165,7 @@ void SpringLists<Real>::measure(const Record* records, const std::vector<std::ui
   if (empty()) return;
   ExactSum energy;
   std::atomic<std::uint64_t> holding{0};
-  parallel_ranges(first_side_.size() - 1, kSegment, [&](std::size_t first, std::size_t last) {
+  parallel_ranges(first_side_.size() - 1, kTile, [&](std::size_t first, std::size_t last) {
     ExactSum part;
     std::uint64_t count = 0;
     for (std::size_t rank = first; rank < last; ++rank) {

@@ -49,7 +49,7 @@ void VerletList<Real>::build(const Record* records, std::size_t count, std::size
   ranks.reserve(room);  // a growing vector would take twice that
   ranks.resize(room);
   const SearchColumns columns(scratch, count + kLanes, rules_->largest_touching > rules_->smallest_radius);
-  parallel_ranges(count, NeighbourList::kSegment, [&](std::size_t first, std::size_t last) {
+  parallel_ranges(count, NeighbourList::kTile, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       position_at_build_.put(i, records[i].x);
       ranks[i] = rank_of(records[i].rank);
@@ -62,7 +62,7 @@ void VerletList<Real>::build(const Record* records, std::size_t count, std::size
   });
   build_neighbour_list(cells_, neighbour_rule(columns), search_, list_);
   strike_exclusions();
-  list_.add_empty_segments((end_ + NeighbourList::kSegment - 1) / NeighbourList::kSegment);
+  list_.add_empty_tiles((end_ + NeighbourList::kTile - 1) / NeighbourList::kTile);
 
   limits_.diameter = 2 * rules_->largest_reach();
   find_coarseness();
@@ -133,7 +133,7 @@ std::uint64_t VerletList<Real>::count_missed(const Record* records) const {
   parallel_ranges(end_, kLanes, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       if (is_vacant(records[i])) continue;
-      const auto rows = this->rows(i / NeighbourList::kSegment, i % NeighbourList::kSegment / kLanes);
+      const auto rows = this->rows(i / NeighbourList::kTile, i % NeighbourList::kTile / kLanes);
       cells.for_points_near(vec_cast<double>(records[i].x), reach_of(records[i]), [&](std::size_t k) {
         const std::uint32_t p = order[k];
         if (p != i && pairs.overlap(i, p) && !exclusions_->hold(rank_of(records[i].rank), rank_of(records[p].rank)) &&
@@ -151,7 +151,7 @@ void VerletList<Real>::strike_exclusions() {
   if (exclusions_->empty()) return;
   parallel_ranges(count_, kLanes, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      const std::span<std::uint32_t> rows = list_.rows_to_edit(i / NeighbourList::kSegment, i / kLanes % kGroups);
+      const std::span<std::uint32_t> rows = list_.rows_to_edit(i / NeighbourList::kTile, i / kLanes % kGroups);
       exclusions_->strike(order_[i], rows.data() + i % kLanes, rows.size() / kLanes, kLanes, filler_,
                           [this](std::uint32_t entry) { return order_[entry / record_offset<Real>(1)]; });
     }

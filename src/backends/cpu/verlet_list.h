@@ -64,13 +64,13 @@ class VerletList {
   /// particles that are born later. Works in `scratch`, as large as the records.
   void build(const Record* records, std::size_t count, std::size_t end, std::size_t size, std::span<std::byte> scratch);
 
-  /// The rows of group g of segment s, as good as the list is.
+  /// The rows of group g of tile s, as good as the list is.
   std::span<const std::uint32_t> rows(std::size_t s, std::size_t g) const {
     return is_patched(s, g) ? patched_.rows(s * kGroups + g) : list_.rows(s, g);
   }
   bool is_patched(std::size_t s, std::size_t g) const { return patched_.holds(s * kGroups + g); }
-  const NeighbourList::Segment& segment(std::size_t s) const { return list_.segments[s]; }
-  std::size_t segment_count() const { return list_.segments.size(); }
+  const NeighbourList::Tile& tile(std::size_t s) const { return list_.tiles[s]; }
+  std::size_t tile_count() const { return list_.tiles.size(); }
   std::size_t entry_count() const { return list_.entry_count(); }
   std::uint64_t build_count() const { return builds_; }
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-#include "hooke/backends/cpu/segment_report.h"
+#include "hooke/backends/cpu/tile_report.h"
 
 namespace hooke {
 
-void SegmentReport::add_to(StepSums& step) const {
+void TileReport::add_to(StepSums& step) const {
   for (std::size_t cause = 0; cause < kPassCauses; ++cause) {
     add(static_cast<int>(cause), step.power.of[cause]);
     add(PassSum::kNext + static_cast<int>(cause), step.next_power.of[cause]);
@@ -17,7 +17,7 @@ void SegmentReport::add_to(StepSums& step) const {
   }
 }
 
-void SegmentReport::add(int sum, ExactSum& to) const {
+void TileReport::add(int sum, ExactSum& to) const {
   const ExactParts& parts = sums[static_cast<std::size_t>(sum)];
   to.add(parts.values, parts.count);
 }

@@ -11,8 +11,8 @@
 
 namespace hooke {
 
-/// Where the groups of one segment report what the force pass found out beside their new state.
-struct SegmentReport {
+/// Where the groups of one tile report what the force pass found out beside their new state.
+struct TileReport {
   std::array<unsigned char, NeighbourList::kGroups> notes;  // GroupNote bits
   std::array<std::uint16_t, NeighbourList::kGroups> far;    // a bit a particle
   std::array<ExactParts, PassSum::kCount> sums;
