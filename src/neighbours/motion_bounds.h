@@ -20,15 +20,16 @@
 
 namespace hooke {
 
-/// How far particles may outlier before a neighbour list can miss a contact. A pair that is not on the list was at
-/// least its contact distance and a skin apart; to touch now, the two must have moved by more than the skin *relative
-/// to each other*. A pool that sloshes as a whole, or a drop in free flight, does not.
+/// How far particles may get from their anchors before a neighbour list can miss a contact. A pair that is not on the
+/// list was at least its contact distance and a skin apart; to touch now, the two must have moved by more than the skin
+/// *relative to each other*. A pool that sloshes as a whole, or a drop in free flight, does not.
 ///
 /// Consecutive particles form groups, and each group gets an anchor, a point that moves at a steady pace along with the
 /// particles around: where neighbouring anchors stay close to each other, and every particle stays close to its group's
 /// anchor, no unlisted pair can touch. The first is bounded here, ahead of time, from the boxes around the anchors of
 /// blocks of space and their neighbours; the second is for the pass that moves particles to see, one comparison each. A
-/// particle that outliers further than its group allows needs looking after by other means; the rest keep their list.
+/// particle that is further from its anchor than its group allows needs looking after by other means; the rest keep
+/// their list.
 ///
 /// Particles in blocks that are not adjacent were at least a block apart; for them the same is asked of blocks some
 /// times as wide, with what they were apart in place of the skin, and so on.
@@ -44,7 +45,7 @@ class MotionBounds {
 
   using Anchor = GroupAnchor<Real>;
 
-  /// A particle that outliers by less than so many skins touches only particles whose anchors are close to its own:
+  /// An outlier that is off by less than so many skins touches only particles whose anchors are close to its own:
   /// anchors_apart() bounds how far from it they are.
   static constexpr double kMild = 2;
 

@@ -24,10 +24,9 @@ namespace hooke {
 /// memory times the rule's stride, e.g. an address offset.
 class NeighbourList {
  public:
-  static constexpr std::size_t kLanes = 16;
-  static constexpr std::size_t kGroups = 64;  // groups a tile
-  static constexpr std::size_t kTile = kLanes * kGroups;
-  static_assert(kTile % kWindow == 0 && kWindow % kLanes == 0);
+  static constexpr std::size_t kLanes = kGroupLanes;
+  static constexpr std::size_t kTile = hooke::kTile;
+  static constexpr std::size_t kGroups = kTile / kLanes;  // of a tile
 
   static constexpr std::array<std::uint32_t, kLanes> kNoRow{};
 

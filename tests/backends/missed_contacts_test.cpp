@@ -183,7 +183,7 @@ INSTANTIATE_TEST_SUITE_P(All, Spray,
                          spray_name);
 
 // A stream passes some grains that are held. They stay where they are while what is around them moves on: it is they
-// that outlier.
+// that are outliers.
 class Stream : public testing::TestWithParam<std::tuple<Integrator, Precision, Boundary>> {};
 
 TEST_P(Stream, MissesNoContactWithGrainsThatAreHeld) {

@@ -157,7 +157,7 @@ TEST(MotionBounds, NeverMissATouchOfTwoThatDontOutlier) {
   EXPECT_GT(kept, 500) << "the question was put";
 }
 
-// What a search around an outlier relies on: who touches it and does not outlier is where it is looked for.
+// What a search around an outlier relies on: a particle that touches it and is none is where it is looked for.
 TEST(MotionBounds, SayWhereNeighboursOfOutliersAre) {
   int mild = 0, far = 0;
   for (const bool periodic : {false, true}) {

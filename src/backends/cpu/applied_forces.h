@@ -30,7 +30,6 @@ template <class Real>
 class AppliedForces {
   using Record = ParticleRecord<Real>;
   using Records = LargeVector<Record>;
-  static constexpr std::size_t kTile = 1024;
 
  public:
   using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;

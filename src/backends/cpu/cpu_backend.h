@@ -14,7 +14,7 @@ struct CpuOptions {
   Precision precision = Precision::single_precision;  ///< must be the scene's
   int threads = 0;                                    ///< 1 to 1024; 0: as many as the machine has
   std::string isa;  ///< "portable", "avx2", "avx512"; empty: the widest that this processor has
-  bool check_list = false;  ///< for tests: after every step, count the contacts that the rows missing, the long way
+  bool check_list = false;  ///< for tests: after every step, count the contacts that the rows lack, the long way
 };
 
 /// The fast back end: sorted cells, a neighbour list in lanes, forces and integration in one SIMD pass on all threads.

@@ -56,7 +56,7 @@ void FieldForces<Real>::apply(const LargeVector<Record>& records, std::size_t co
   for (const PlacedField<Real>& field : place_fields<Real>(scene_, time_)) {
     const bool on_sheets = field.blows_on_sheets() && !triangles_.empty();
     if (on_sheets) apply_to_triangles(field, records, place);
-    parallel_ranges(count, kRange, [&](std::size_t first, std::size_t last) {
+    parallel_ranges(count, kTile, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
         const Record& p = records[i];
         if (none_yet) force_[i] = {Real(0), Real(0), Real(0)};
@@ -76,7 +76,7 @@ template <class Real>
 void FieldForces<Real>::apply_to_triangles(const PlacedField<Real>& field, const LargeVector<Record>& records,
                                            const std::vector<std::uint32_t>& place) {
   constexpr Real kThird = Real(1.0 / 3);
-  parallel_ranges(triangles_.size(), kRange, [&](std::size_t first, std::size_t last) {
+  parallel_ranges(triangles_.size(), kTile, [&](std::size_t first, std::size_t last) {
     for (std::size_t t = first; t < last; ++t) {
       on_triangle_[t] = {Real(0), Real(0), Real(0)};
       const Record* corner[3];

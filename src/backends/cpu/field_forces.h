@@ -20,7 +20,6 @@ namespace hooke {
 template <class Real>
 class FieldForces {
   using Record = ParticleRecord<Real>;
-  static constexpr std::size_t kRange = 1024;
 
  public:
   void configure(const Scene& scene);

@@ -21,8 +21,6 @@
 namespace hooke::HOOKE_ISA {
 namespace {
 
-constexpr std::size_t kGroupLanes = 16;  // of the list: whole packs at every width
-
 // Some particles, one a lane.
 template <class Real>
 struct Lanes {

@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "hooke/base/assert.h"
+#include "hooke/neighbours/layout.h"
 
 namespace hooke {
 
 /// Which particles are held still, by their place in memory. Takes no memory and no time where none is.
 class HeldParticles {
-  static constexpr std::size_t kLanes = 16;
+  static constexpr std::size_t kLanes = kGroupLanes;
 
  public:
   /// None of `count` particles is held.

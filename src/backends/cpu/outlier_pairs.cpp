@@ -25,7 +25,7 @@ void OutlierPairs<Real>::note_missing(std::size_t i, std::size_t p, std::vector<
   }
 }
 
-// Who touches an outlier and outliers not.
+// The particles that touch an outlier and are none themselves.
 template <class Real>
 void OutlierPairs<Real>::find_around(std::uint32_t i, const Place& place, std::span<const std::uint16_t> outlying,
                                      std::vector<MissingEntry>& missing) const {

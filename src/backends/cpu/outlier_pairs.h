@@ -67,8 +67,8 @@ class OutlierPairs {
     double range;
   };
 
-  /// Patches the rows that have `lacks`, and those that lack an outlier, or somebody whom an outlier touches. Those
-  /// without a bit in `outlying` are found where place_of(i) says. False where an outlier is lost.
+  /// Patches the rows of the particles in `missing`, of outliers, and of the particles that an outlier touches.
+  /// Particles without a bit in `outlying` are found where place_of(i) says. False where an outlier is lost.
   template <class PlaceOf>
   bool find(std::span<const std::uint32_t> outliers, std::span<const std::uint16_t> outlying, const PlaceOf& place_of,
             std::uint32_t filler, const std::vector<MissingEntry>& missing, Room& room, PatchedRows& patched) const {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hooke/base/assert.h"
-#include "hooke/neighbours/window_search.h"
+#include "hooke/neighbours/layout.h"
 
 namespace hooke {
 
@@ -18,7 +18,7 @@ namespace hooke {
 /// records that are nowhere.
 class ParticleSlots {
  public:
-  static constexpr std::size_t kLanes = 16, kTile = 1024;
+  static constexpr std::size_t kLanes = kGroupLanes, kTile = hooke::kTile;
 
   /// Lays out so many particles of both kinds with room for more; with `fixed` slots of loose ones that are gone are
   /// free only after recycle().

@@ -25,7 +25,7 @@ class PatchedRows {
   static constexpr std::size_t kLanes = NeighbourList::kLanes;
 
  public:
-  /// One neighbour that particle `of` missing.
+  /// One neighbour that particle `of` lacks.
   struct MissingEntry {
     std::uint32_t of, rank, entry;  // the neighbour's rank and entry
 

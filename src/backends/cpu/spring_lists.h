@@ -26,7 +26,7 @@ namespace hooke {
 template <class Real>
 class SpringLists {
   using Record = ParticleRecord<Real>;
-  static constexpr std::size_t kLanes = 16, kGroups = 64, kTile = kLanes * kGroups;
+  static constexpr std::size_t kLanes = kGroupLanes, kGroups = kTile / kLanes;
 
  public:
   static constexpr std::uint32_t kVacant = ~std::uint32_t{0};

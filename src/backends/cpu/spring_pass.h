@@ -7,6 +7,7 @@
 
 #include "hooke/backends/cpu/particle_record.h"
 #include "hooke/base/vec3.h"
+#include "hooke/neighbours/layout.h"
 
 namespace hooke {
 

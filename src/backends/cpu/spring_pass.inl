@@ -14,8 +14,6 @@
 namespace hooke::HOOKE_ISA {
 namespace {
 
-constexpr std::size_t kSpringLanes = 16;
-
 template <class Real>
 HOOKE_HD void prefetch_partners(const SpringPass<Real>& pass, const SpringRow<Real>& row, std::size_t half) {
   for (std::size_t lane = 0; lane < Pack<Real>::kLanes; ++lane) {
@@ -28,7 +26,7 @@ HOOKE_HD void run_spring_pack(const SpringPass<Real>& pass, const SpringWork<Rea
                               std::size_t half, unsigned& torn) {
   using P = Pack<Real>;
   constexpr std::uint32_t kAhead = 6;  // rows
-  const std::size_t slot = group * kSpringLanes + half, first = work.first + slot;
+  const std::size_t slot = group * kGroupLanes + half, first = work.first + slot;
   const char* base = reinterpret_cast<const char*>(pass.records);
   const auto own =
       load_two_quads(Real{}, [&](int lane) { return reinterpret_cast<const Real*>(pass.records + first + lane); });
@@ -87,7 +85,7 @@ template <class Real, bool kPeriodic>
 void run_spring_groups(const SpringPass<Real>& pass, const SpringWork<Real>& work) {
   for (std::size_t group = 0; group < work.group_count; ++group) {
     unsigned torn = 0;
-    for (std::size_t half = 0; half < kSpringLanes; half += Pack<Real>::kLanes) {
+    for (std::size_t half = 0; half < kGroupLanes; half += Pack<Real>::kLanes) {
       run_spring_pack<Real, kPeriodic>(pass, work, group, half, torn);
     }
     work.torn[group] = static_cast<unsigned char>(torn);

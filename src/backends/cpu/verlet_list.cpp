@@ -213,7 +213,7 @@ void VerletList<Real>::find_coarseness() {
   coarseness_ = 8 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * furthest;
 }
 
-// Makes anchors follow the particles, and finds out who outliers from where they are now.
+// Makes anchors follow the particles, and finds out which particles are outliers now.
 template <class Real>
 void VerletList<Real>::follow(const Record* records) {
   using GroupMotion = typename MotionBounds<Real>::GroupMotion;
@@ -246,7 +246,7 @@ void VerletList<Real>::follow(const Record* records) {
   });
 }
 
-// Those that outlier from where their anchor is now, and those born since, a bit a lane.
+// The outliers of a group as its anchor is now, and the particles born since, a bit a lane.
 template <class Real>
 unsigned VerletList<Real>::outliers_of_group(const Record* records, std::size_t g) const {
   const std::size_t window = g * kLanes / kWindow;

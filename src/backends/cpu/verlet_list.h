@@ -27,8 +27,8 @@ namespace hooke {
 
 /// A neighbour list with a skin (Verlet, "Computer experiments on classical fluids", Phys. Rev. 159, 98, 1967), and
 /// what it takes to trust it for many steps. While every particle stays near its anchor (motion_bounds.h) the
-/// list misses nothing. Particles that outlier are looked after one by one: in every step each looks for whoever
-/// touches it, and rows that lack the pair are patched. A new list is built when outliers have become too many to be
+/// list misses nothing. Outliers are looked after one by one: in every step each looks for the particles
+/// that touch it, and rows that lack the pair are patched. A new list is built when outliers have become too many to be
 /// worth it.
 ///
 /// Which pairs are listed when changes no result: those that don't touch add an exact zero.

@@ -12,7 +12,7 @@
 namespace hooke::HOOKE_ISA {
 namespace {
 
-constexpr std::size_t kRowLanes = 16, kGroups = kWindow / kRowLanes;
+constexpr std::size_t kGroups = kWindow / kGroupLanes;
 constexpr std::size_t kTogether = kPackBytes == 64 ? 4 : kPackBytes == 32 ? 2 : 1;  // points that registers hold
 
 // A neighbour's rank and slot in one number that sorts like the rank: the bits of doubles of 1 and above.
@@ -72,10 +72,10 @@ struct Network {
   template <std::size_t... kPair, std::size_t... kRow>
   HOOKE_HD static void sort(std::uint64_t* keys, std::index_sequence<kPair...>, std::index_sequence<kRow...>) {
     [[maybe_unused]] constexpr Pairs kPairs = pairs();
-    for (std::size_t lane = 0; lane < kRowLanes; lane += Pack<double>::kLanes) {
-      Pack<double> row[kRows] = {load_bits(keys + kRow * kRowLanes + lane)...};
+    for (std::size_t lane = 0; lane < kGroupLanes; lane += Pack<double>::kLanes) {
+      Pack<double> row[kRows] = {load_bits(keys + kRow * kGroupLanes + lane)...};
       (exchange_rows(row[kPairs.of[kPair].a], row[kPairs.of[kPair].b]), ...);
-      (store_bits(keys + kRow * kRowLanes + lane, row[kRow]), ...);
+      (store_bits(keys + kRow * kGroupLanes + lane, row[kRow]), ...);
     }
   }
   static void sort_rows(std::uint64_t* keys) {
@@ -95,9 +95,9 @@ void sort_rows(std::uint64_t* keys, std::size_t rows) {
   constexpr std::size_t kMostInRegisters = 16;
   if (rows <= kMostInRegisters) return sort_rows_by_network(keys, rows, std::make_index_sequence<kMostInRegisters>());
   merge_exchange(rows, [&](std::size_t a, std::size_t b) {
-    for (std::size_t lane = 0; lane < kRowLanes; lane += Pack<double>::kLanes) {
-      std::uint64_t* const at_a = keys + a * kRowLanes + lane;
-      std::uint64_t* const at_b = keys + b * kRowLanes + lane;
+    for (std::size_t lane = 0; lane < kGroupLanes; lane += Pack<double>::kLanes) {
+      std::uint64_t* const at_a = keys + a * kGroupLanes + lane;
+      std::uint64_t* const at_b = keys + b * kGroupLanes + lane;
       Pack<double> row_a = load_bits(at_a), row_b = load_bits(at_b);
       exchange_rows(row_a, row_b);
       store_bits(at_a, row_a);
@@ -121,7 +121,7 @@ class Search {
 
   HOOKE_HD void run() {
     Group groups[kGroups];
-    for (std::size_t g = 0; g < kGroups; ++g) groups[g].rows = window_.rows + g * window_.row_room * kRowLanes;
+    for (std::size_t g = 0; g < kGroups; ++g) groups[g].rows = window_.rows + g * window_.row_room * kGroupLanes;
     const SearchRange* ranges = window_.ranges;
     std::uint32_t i = window_.first;
     for (const SearchBlock<Real>* at = window_.blocks; i < window_.end; ++at) {
@@ -169,7 +169,7 @@ class Search {
       to += range->to - range->from;
     }
     constexpr Real kFar = Real(1e36);
-    for (std::size_t at = to; at < to + kRowLanes; at += P::kLanes) {
+    for (std::size_t at = to; at < to + kGroupLanes; at += P::kLanes) {
       for (Real* column : {x_, y_, z_}) store(column + at, P(Real(0)));
       if constexpr (!kOneRadius) store(radius_ + at, P(Real(0)));
       store(square_ + at, P(kFar));
@@ -245,27 +245,27 @@ class Search {
     const std::uint32_t slot = slot_of(i);
     rule_.neighbour_count[slot] = static_cast<std::uint8_t>(count < 255 ? count : 255);
     if (count == 0) return;
-    Group& group = groups[slot % kWindow / kRowLanes];
+    Group& group = groups[slot % kWindow / kGroupLanes];
     clear_rows(group, count);
-    std::uint64_t* const lane = group.rows + slot % kRowLanes;
+    std::uint64_t* const lane = group.rows + slot % kGroupLanes;
     std::uint64_t* own = lane;
     const std::uint64_t own_key = row_key(rule_.rank[i], slot);
     for (std::size_t row = 0; row < count; ++row) {
       const std::uint64_t key = keys_[near[row]];
-      lane[row * kRowLanes] = key;
-      own = key == own_key ? lane + row * kRowLanes : own;
+      lane[row * kGroupLanes] = key;
+      own = key == own_key ? lane + row * kGroupLanes : own;
     }
     if (!rule_.list_self) {
       --count;
-      *own = lane[count * kRowLanes];
-      lane[count * kRowLanes] = last_key_;
+      *own = lane[count * kGroupLanes];
+      lane[count * kGroupLanes] = last_key_;
     }
     if (count > group.count) group.count = count;
   }
 
   HOOKE_HD void clear_rows(Group& group, std::size_t count) const {
     for (; group.cleared < count; ++group.cleared) {
-      for (std::size_t lane = 0; lane < kRowLanes; ++lane) group.rows[group.cleared * kRowLanes + lane] = last_key_;
+      for (std::size_t lane = 0; lane < kGroupLanes; ++lane) group.rows[group.cleared * kGroupLanes + lane] = last_key_;
     }
   }
 
@@ -273,11 +273,11 @@ class Search {
     std::uint32_t* const entries = window_.room_for_rows(window_.list, group.count);
     sort_rows(group.rows, group.count);
     if constexpr (kPackBytes > 16) {
-      for (std::size_t k = 0; k < group.count * kRowLanes; k += Pack<double>::kLanes) {
+      for (std::size_t k = 0; k < group.count * kGroupLanes; k += Pack<double>::kLanes) {
         store(entries + k, lower_half(load_bits(group.rows + k)) * rule_.stride);
       }
     } else {
-      for (std::size_t k = 0; k < group.count * kRowLanes; ++k) {
+      for (std::size_t k = 0; k < group.count * kGroupLanes; ++k) {
         entries[k] = static_cast<std::uint32_t>(group.rows[k]) * rule_.stride;
       }
     }

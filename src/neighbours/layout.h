@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+namespace hooke {
+
+// How particles that follow each other in cell order are taken together. Constants alone: this header is compiled with
+// the flags of every instruction set.
+
+/// A group: 16 particles that follow each other in memory, one a lane of the neighbour list's rows. Whole packs at
+/// every width.
+inline constexpr std::size_t kGroupLanes = 16;
+
+/// A window: 64 particles that follow each other in cell order. Within it they may lie in memory in any order.
+inline constexpr std::size_t kWindow = 64;
+
+/// A tile: the 1024 particles that a thread takes at a time.
+inline constexpr std::size_t kTile = 1024;
+
+static_assert(kTile % kWindow == 0 && kWindow % kGroupLanes == 0);
+
+}  // namespace hooke
