@@ -12,6 +12,7 @@
 #include "hooke/base/huge_pages.h"
 #include "hooke/core/placed_fields.h"
 #include "hooke/core/scene.h"
+#include "hooke/neighbours/layout.h"
 
 namespace hooke {
 
