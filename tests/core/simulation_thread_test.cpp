@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <memory>
 #include <stdexcept>
@@ -79,7 +78,6 @@ TEST_F(SimulationThreads, CarryOutCommandsBetweenStepsInTheirOrder) {
 TEST_F(SimulationThreads, ShowStatesThatNeverChange) {
   SimulationThread thread(pool());
   std::vector<std::thread> readers;
-  std::atomic<int> looks{0};
   for (int r = 0; r < 2; ++r) {
     readers.emplace_back([&] {
       std::vector<std::shared_ptr<const Snapshot>> kept;
@@ -89,7 +87,7 @@ TEST_F(SimulationThreads, ShowStatesThatNeverChange) {
         for (const Vec3d& x : s.particles.position) sum += x.y;
         return sum;
       };
-      for (std::int64_t seen = -1; seen < 20;) {
+      for (std::int64_t seen = -1; kept.size() < 6;) {
         std::shared_ptr<const Snapshot> now = thread.latest();
         ASSERT_GE(now->step, seen) << "time goes on";
         ASSERT_EQ(now->particles.size(), 512U);
@@ -97,13 +95,11 @@ TEST_F(SimulationThreads, ShowStatesThatNeverChange) {
         seen = now->step;
         heights.push_back(height(*now));
         kept.push_back(std::move(now));
-        ++looks;
       }
       for (std::size_t k = 0; k < kept.size(); ++k) ASSERT_EQ(height(*kept[k]), heights[k]);
     });
   }
   for (std::thread& reader : readers) reader.join();
-  EXPECT_GE(looks, 4);
   EXPECT_FALSE(thread.failure());
 }
 
@@ -126,7 +122,7 @@ TEST_F(SimulationThreads, TakeEditsFromSeveralThreads) {
   EXPECT_TRUE(thread.ask([=](Simulation& s) { return s.set_material(softer); }).get());
   const Simulation after = thread.finish();
   EXPECT_EQ(after.particle_count(), 512U);
-  EXPECT_NEAR(measured(after).momentum.x, 60 * 0.1, 1e-3);
+  EXPECT_LT(momentum_drift(measured(after), after.ledger(), after.initial_momentum()), 1e-5);
 }
 
 TEST_F(SimulationThreads, SayWhatAStepFailedWithAndGoOnFromAnotherState) {
