@@ -17,6 +17,7 @@
 #include "hooke/backends/cpu/isa.h"
 #include "hooke/base/exact_sum.h"
 #include "hooke/base/random.h"
+#include "hooke/base/stopwatch.h"
 #include "hooke/core/simulation.h"
 #include "hooke/core/step.h"
 #include "hooke/neighbours/cell_grid.h"
@@ -162,6 +163,46 @@ BENCHMARK_CAPTURE(stage, list, &StageTimes::list, Integrator::symplectic_euler)-
 BENCHMARK_CAPTURE(stage, force, &StageTimes::force, Integrator::symplectic_euler)->Apply(stage_arguments);
 // The part of integration that is a stage of its own.
 BENCHMARK_CAPTURE(stage, integrate, &StageTimes::drift, Integrator::velocity_verlet)->Apply(stage_arguments);
+
+// What a hand that leads one ball costs a step beside the step itself: finding it, moving it, and looking after it.
+void hand(benchmark::State& state) {
+  auto pool = open_pool(state);
+  if (!pool) return state.SkipWithError(pool.error().text().c_str());
+  Backend& backend = *pool->backend;
+  backend.configure(pool->scene);
+  backend.assign(pool->particles);
+  const Instant now{0, {}};
+  if (!backend.build_neighbours().good()) return state.SkipWithError("the pool is bad");
+  const std::uint64_t id = pool->particles.id[pool->particles.size() / 2];
+  for (auto iteration : state) {
+    RemovalSums left;
+    StepReport report;
+    backend.apply_forces(now, report);
+    backend.finish_motion(left);
+    if (backend.neighbours_stale() && !backend.build_neighbours().good()) {
+      return state.SkipWithError("the pool went bad");
+    }
+    double seconds = 0;
+    {
+      const Stopwatch leading(seconds);
+      auto ball = backend.find(id);
+      ball->position.y += 1e-4;
+      ball->velocity = {0, 0, 0};
+      backend.edit({&*ball, 1});
+      if (backend.neighbours_stale()) return state.SkipWithError("the list did not go on");
+    }
+    if (backend.find(id)->velocity != Vec3d{0, 0, 0}) return state.SkipWithError("the ball is not where it was put");
+    state.SetIterationTime(seconds);
+  }
+  state.counters["lists"] = static_cast<double>(backend.neighbour_statistics().rebuilds);
+  state.SetLabel(pool->isa.name);
+}
+BENCHMARK(hand)
+    ->ArgNames({"wide", "double", "threads", "isa"})
+    ->Args({160, 0, 2, 0})
+    ->Iterations(60)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
 
 // Sorting half a million cell numbers.
 void sort_keys(benchmark::State& state) {
