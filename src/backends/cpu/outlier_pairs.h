@@ -90,6 +90,24 @@ class OutlierPairs {
     return true;
   }
 
+  /// Does the same for some that have become outliers since `room` and `patched` were made by find(), all others being
+  /// where they were then.
+  template <class PlaceOf>
+  bool add(std::span<const std::uint32_t> fresh, std::span<const std::uint32_t> outliers,
+           std::span<const std::uint16_t> outlying, const PlaceOf& place_of, std::uint32_t filler, Room& room,
+           PatchedRows& patched) const {
+    for (const std::uint32_t i : fresh) {
+      if (is_vacant(records_[i])) continue;
+      if (!is_somewhere(records_[i])) return false;
+      find_around(i, place_of(i), outlying, room.missing);
+      for (const std::uint32_t p : outliers) {
+        if (p != i && !is_vacant(records_[p]) && touch(i, p)) note_missing(i, p, room.missing);
+      }
+    }
+    patched.patch<Real>(room.missing, list_, filler, ranks_);
+    return true;
+  }
+
   /// Whether two particles overlap where they are now.
   bool overlap(std::size_t i, std::size_t p) const { return are_nearer(i, p, reach_of(i) + reach_of(p)); }
 

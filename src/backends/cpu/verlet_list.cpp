@@ -78,6 +78,8 @@ void VerletList<Real>::build(const Record* records, std::size_t count, std::size
   patched_.clear(outlying_.size());
   released_.clear();
   patching_due_ = false;
+  fresh_.clear();
+  room_.missing.clear();
   const std::size_t many = count / kOutlierCost + kLanes;  // a list with more outliers does not last
   outliers_.reserve(many);
   room_.reserve(many);
@@ -261,26 +263,47 @@ unsigned VerletList<Real>::outliers_of_group(const Record* records, std::size_t 
   return far;
 }
 
-// Finds the pairs of outliers that touch and rows that lack them.
+// Where the particles that touch a particle were listed, and how far around that they may be.
 template <class Real>
-void VerletList<Real>::patch(const Record* records) {
-  patching_due_ = false;
-  patched_.clear(outlying_.size());
-  if (outliers_.empty() && released_.empty()) return;
+auto VerletList<Real>::place_of(const Record* records) const {
+  using Place = typename OutlierPairs<Real>::Place;
   const auto steps = static_cast<Real>(steps_);
   const double mild = MotionBounds<Real>::kMild * limits_.skin, half = 0.5 * skin_ + coarseness_;
   const Vec3<Real> middle = motion_.middle(steps);
   const double anywhere = half + motion_.furthest_from_middle(static_cast<double>(steps_));
-  const auto place_of = [&](std::size_t i) -> typename OutlierPairs<Real>::Place {
-    if (i >= count_) return {vec_cast<double>(records[i].x - middle), anywhere};
-    const Anchor& anchor = anchors_[i / kWindow];
-    const Vec3<Real> off = displacement(records[i], i, anchor.at(steps));
-    if (static_cast<double>(dot(off, off)) < mild * mild) {
-      return {vec_cast<double>(records[i].x - anchor.at(steps)), half + motion_.anchors_apart(anchor, steps)};
+  return [=, this](std::size_t i) -> Place {
+    if (i < count_) {
+      const Anchor& anchor = anchors_[i / kWindow];
+      const Vec3<Real> off = displacement(records[i], i, anchor.at(steps));
+      if (static_cast<double>(dot(off, off)) < mild * mild) {
+        return {vec_cast<double>(records[i].x - anchor.at(steps)), half + motion_.anchors_apart(anchor, steps)};
+      }
     }
     return {vec_cast<double>(records[i].x - middle), anywhere};
   };
-  if (!outlier_pairs(records).find(outliers_, outlying_, place_of, filler_, released_, room_, patched_)) invalidate();
+}
+
+// Finds the pairs of outliers that touch, and patches rows that lack them.
+template <class Real>
+void VerletList<Real>::patch(const Record* records) {
+  patching_due_ = false;
+  fresh_.clear();
+  patched_.clear(outlying_.size());
+  room_.missing.clear();
+  if (outliers_.empty() && released_.empty()) return;
+  if (!outlier_pairs(records).find(outliers_, outlying_, place_of(records), filler_, released_, room_, patched_)) {
+    invalidate();
+  }
+}
+
+// The same for those that have become outliers since.
+template <class Real>
+void VerletList<Real>::patch_fresh(const Record* records) {
+  patched_.clear(outlying_.size());
+  if (!outlier_pairs(records).add(fresh_, outliers_, outlying_, place_of(records), filler_, room_, patched_)) {
+    invalidate();
+  }
+  fresh_.clear();
 }
 
 template class VerletList<float>;

@@ -104,7 +104,9 @@ class VerletList {
   /// Before rows are read: patches them for what was added, moved or released since they were patched last. Says in
   /// good() whether the list goes on.
   void patch_if_due(const Record* records) {
-    if (listed_ && patching_due_) patch(records);
+    if (!listed_) return;
+    if (patching_due_ || fresh_.size() > kFewFresh) return patch(records);
+    if (!fresh_.empty()) patch_fresh(records);
   }
 
   // Moving ----------------------------------------------------------------------------------------------------------
@@ -131,7 +133,7 @@ class VerletList {
 
   void add_outlier(std::size_t i) {
     note_far(i / kLanes, 1U << i % kLanes);
-    patching_due_ = true;
+    fresh_.push_back(static_cast<std::uint32_t>(i));
     if (kOutlierCost * outliers_.size() > count_ + kOutlierCost * kLanes)
       invalidate();  // looking after them costs more than a list
   }
@@ -139,6 +141,8 @@ class VerletList {
   // Costs, in units of what listing one particle takes.
   static constexpr std::size_t kOutlierCost = 6;  // looking after one outlier for one step
   static constexpr std::size_t kFollowShare = 9;  // following the particles takes this part of a build
+
+  static constexpr std::size_t kFewFresh = 64;  // new outliers for which rows are not patched all over again
 
   static constexpr std::uint64_t kFollowTrial = 16;  // builds after which anchors may follow in vain once more
 
@@ -200,7 +204,9 @@ class VerletList {
     return {*rules_, records, cells_, slots_, order_.data(), list_, *exclusions_};
   }
 
+  auto place_of(const Record* records) const;
   void patch(const Record* records);
+  void patch_fresh(const Record* records);
 
   // Bounds of the displacements of a window, m.
   struct Extent {
@@ -245,7 +251,8 @@ class VerletList {
   std::vector<std::uint16_t> outlying_;  // by group: a bit a lane
   PatchedRows patched_;
   std::vector<std::uint32_t> outliers_;
-  bool patching_due_ = false;  // rows lack what was added, moved or released
+  bool patching_due_ = false;  // rows lack what was released
+  std::vector<std::uint32_t> fresh_;  // added or moved by hand: rows lack them
   std::vector<PatchedRows::MissingEntry>
       released_;  // what rows lack of pairs that were kept apart when they were listed
   typename OutlierPairs<Real>::Room room_;
