@@ -17,6 +17,9 @@
 #define HOOKE_ASSERTIONS 0
 #endif
 
+// Of the host alone, and in no file's object code by itself.
+#define HOOKE_INLINED inline __attribute__((always_inline))
+
 namespace hooke {
 
 /// An assertion that does not hold. Texts live as long as the call of the handler.
@@ -49,7 +52,7 @@ class AssertValue {
   enum class Kind : unsigned char { boolean, integer, natural, single, number, single_vector, vector, text, pointer };
 
   template <class T>
-  HOOKE_HD AssertValue(const T& value) {  // NOLINT: the values of an assertion are lists of anything
+  HOOKE_INLINED AssertValue(const T& value) {  // NOLINT: the values of an assertion are lists of anything
     if constexpr (std::is_same_v<T, bool>) {
       set_natural(Kind::boolean, value ? 1 : 0);
     } else if constexpr (std::is_enum_v<T>) {
@@ -83,19 +86,19 @@ class AssertValue {
  private:
   friend struct AssertText;
 
-  HOOKE_HD void set_integer(long long value) {
+  HOOKE_INLINED void set_integer(long long value) {
     kind_ = Kind::integer;
     integer_ = value;
   }
-  HOOKE_HD void set_natural(Kind kind, unsigned long long value) {
+  HOOKE_INLINED void set_natural(Kind kind, unsigned long long value) {
     kind_ = kind;
     natural_ = value;
   }
-  HOOKE_HD void set_text(std::string_view value) {
+  HOOKE_INLINED void set_text(std::string_view value) {
     kind_ = Kind::text;
     text_ = {value.data(), value.size()};
   }
-  HOOKE_HD void set_pointer(const void* value) {
+  HOOKE_INLINED void set_pointer(const void* value) {
     kind_ = Kind::pointer;
     pointer_ = value;
   }
@@ -128,19 +131,21 @@ struct AssertSite {
 [[noreturn, gnu::cold]] void assertion_failed(const AssertSite& site, std::initializer_list<AssertValue> values);
 
 /// Never called: lets the compiler look at the values of an assertion that is off.
-HOOKE_HD bool are_values(std::initializer_list<AssertValue>) { return true; }
+HOOKE_INLINED bool are_values(std::initializer_list<AssertValue>) { return true; }
 
 }  // namespace detail
 }  // namespace hooke
 
 /// HOOKE_ASSERT(expression, values...): the expression holds, or the program has a mistake. Up to about a dozen values
-/// are shown beside it: HOOKE_ASSERT(index < count, index, count). Without HOOKE_ASSERTIONS, and in device code,
-/// neither is evaluated, but both must compile.
+/// are shown beside it: HOOKE_ASSERT(index < count, index, count). Without HOOKE_ASSERTIONS, and in files that nvcc
+/// compiles, neither is evaluated, but the expression must compile.
 ///
 /// For mistakes of programmers alone: what a user can get wrong is an Error (expected.h). A program that has its own
 /// way may define the macro before it includes anything of Hooke's, the same for all its files.
 #if !defined(HOOKE_ASSERT)
-#if HOOKE_ASSERTIONS && !defined(__CUDA_ARCH__)
+#if defined(__CUDACC__)
+#define HOOKE_ASSERT(expression, ...) static_cast<void>(sizeof(static_cast<bool>(expression)))
+#elif HOOKE_ASSERTIONS
 #define HOOKE_ASSERT(expression, ...)                                                                          \
   do {                                                                                                         \
     if (!(expression)) [[unlikely]] {                                                                          \

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+// Every law, in both precisions, as code for a GPU: compiled, never run. See CMakeLists.txt.
+
+#include "hooke/neighbours/group_anchor.h"
+#include "hooke/neighbours/layout.h"
+#include "hooke/physics/attraction.h"
+#include "hooke/physics/collider.h"
+#include "hooke/physics/contact.h"
+#include "hooke/physics/distance_field.h"
+#include "hooke/physics/drag.h"
+#include "hooke/physics/field.h"
+#include "hooke/physics/integrate.h"
+#include "hooke/physics/periodic.h"
+#include "hooke/physics/shapes.h"
+#include "hooke/physics/spring.h"
+#include "hooke/physics/wall.h"
+
+namespace hooke {
+
+template <class Real>
+struct Particle {
+  Vec3<Real> x, v, a;
+};
+
+// One of each, on numbers that nothing can be folded of.
+template <class Real>
+__device__ Vec3<Real> all_laws(const Particle<Real>& i, const Particle<Real>& p, const ContactLaw<Real>& law,
+                               const PlacedCollider<Real>& collider, const GroupAnchor<Real>& anchor,
+                               const Vec3<Real>& period, Real k) {
+  const Vec3<Real> x_ip = nearest_displacement(i.x, p.x, period), w = p.v - i.v;
+  const Real distance = sqrt_of(dot(x_ip, x_ip));
+  const Vec3<Real> normal = contact_normal(x_ip, distance, Real(1));
+  const Real overlap = k - distance;
+  Vec3<Real> force = contact_forces(overlap, normal, w, law.linear).total();
+  force += contact_forces(overlap, normal, w, law).total();
+  force += contact_energy(overlap, law.linear.stiffness) * wall_normal(1, Real(1));
+  force += upper_wall_overlap(i.x.x, k, k) * normal + lower_wall_overlap(i.x.y, k, k) * normal;
+  if (spring_acts(overlap, k)) force += spring_force(overlap, normal, w, k, k).force;
+  if (spring_tears(overlap, k, k)) force += spring_energy(overlap, k) * normal;
+  force += drag_force(i.v, k) + wind_force(i.v, p.v, k) + sheet_force(i.x, p.x, w, k);
+  force += driving_force(direction_to(p.x, i.x), i.v, k, k);
+  for_each_collider_face(collider, i.x, [&](const ColliderFace<Real>& face) {
+    force += contact_forces(k - face.distance, face.normal, face.velocity - i.v, law.linear).total();
+  });
+  force += anchor.limit2(k) * anchor.at(k);
+  const Vec3<Real> v = kick(i.v, force, k);
+  const Vec3<Real> x = drift(i.x, v, k);
+  return {wrap_coordinate(x.x, Real(0), k), x.y, x.z};
+}
+
+template <class Real>
+__global__ void laws(Particle<Real>* particles, const ContactLaw<Real>* law, const PlacedCollider<Real>* collider,
+                     const GroupAnchor<Real>* anchor, Vec3<Real> period, Real k) {
+  const unsigned i = blockIdx.x * blockDim.x + threadIdx.x;
+  particles[i].a = all_laws(particles[i], particles[i + 1], *law, *collider, *anchor, period, k);
+}
+
+template __global__ void laws(Particle<float>*, const ContactLaw<float>*, const PlacedCollider<float>*,
+                              const GroupAnchor<float>*, Vec3<float>, float);
+template __global__ void laws(Particle<double>*, const ContactLaw<double>*, const PlacedCollider<double>*,
+                              const GroupAnchor<double>*, Vec3<double>, double);
+
+}  // namespace hooke
