@@ -108,7 +108,7 @@ struct Simulation::Impl {
   // The particles on the host: filled on the first look after something has changed, null before.
   std::shared_ptr<const Snapshot> host;
   SnapshotPool pool;
-  // Under velocity Verlet particles with ids from here on were added since the last step and have no accelerations.
+  // Velocity Verlet: particles with ids from here on were added since the last step and have no accelerations.
   std::uint64_t first_new_id = kNone;
   static constexpr std::uint64_t kNone = ~std::uint64_t{0};
 
@@ -352,7 +352,9 @@ Expected<std::vector<std::uint64_t>> Simulation::add_particles(std::span<const N
     }
     s.host.reset();
     s.backend->insert(added);
-    s.first_new_id = std::min(s.first_new_id, s.run.next_id);
+    if (s.scene.integrator == Integrator::velocity_verlet) {
+      s.first_new_id = std::min(s.first_new_id, s.run.next_id);
+    }
     s.run.next_id += added.size();
     for (const NewParticle& p : particles) s.initial_momentum += s.mass_of(p.material) * p.velocity;
     return std::move(added.id);

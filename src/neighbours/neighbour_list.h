@@ -20,7 +20,7 @@ namespace hooke {
 /// A full neighbour list in lanes: 16 particles that follow each other in memory form a group, and row k of a group
 /// holds the k-th neighbour of each of them, one a lane (the sliced-ELLPACK layout: Kreutzer et al., "A unified sparse
 /// matrix data format", SIAM J. Sci. Comput. 2014). Each lane's neighbours are in ascending order of rank, so a force
-/// pass that adds row after row sums in canonical order. Short lanes are filled up with a filler. An entry is a slot in
+/// pass that adds row after row sums in canonical order. Short lanes end with fillers. An entry is a slot in
 /// memory times the rule's stride, e.g. an address offset.
 class NeighbourList {
  public:

@@ -131,7 +131,7 @@ const Motion kMotions[] = {
 };
 
 // Whoever touches without being listed: one of the two outliers, or the anchors are no longer good.
-TEST(MotionBounds, NeverMissATouchOfTwoThatDontOutlier) {
+TEST(MotionBounds, NeverMissATouchOfTwoThatAreNoOutliers) {
   int questions = 0, kept = 0;
   for (const Setting& setting : kSettings) {
     for (const bool periodic : {false, true}) {
@@ -187,7 +187,7 @@ TEST(MotionBounds, SayWhereNeighboursOfOutliersAre) {
 }
 
 // One fast grain takes the list from nobody else.
-TEST(MotionBounds, LetOnlyTheFastGrainOutlier) {
+TEST(MotionBounds, FindOnlyTheFastGrainAnOutlier) {
   Bounded bounded(2000, {60, 3, 20}, false);
   const Motion motion = [](const Vec3d&, std::uint64_t i, double t) {
     return i == 1234 ? Vec3d{0.4 * t, 0, 0} : Vec3d{};
@@ -217,7 +217,7 @@ TEST(MotionBounds, FollowASmallShearOfALongPool) {
   EXPECT_EQ(bounded.outlier_count(shear, 0, 2), 0U);
 }
 
-TEST(MotionBounds, CallOutlierWhatIsNotFinite) {
+TEST(MotionBounds, CallWhatIsNotFiniteAnOutlier) {
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
     Bounded bounded(300, {9, 9, 9}, false);
     const Motion motion = [bad](const Vec3d&, std::uint64_t i, double) { return Vec3d{0, i == 123 ? bad : 0.0, 0}; };

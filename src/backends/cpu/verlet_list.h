@@ -102,7 +102,7 @@ class VerletList {
     }
   }
   /// Before rows are read: patches them for what was added, moved or released since they were patched last. Says in
-  /// good() whether the list goes on.
+  /// is_valid() whether the list goes on.
   void patch_if_due(const Record* records) {
     if (!listed_) return;
     if (patching_due_ || fresh_.size() > kFewFresh) return patch(records);
@@ -121,8 +121,7 @@ class VerletList {
   void note_far(std::size_t group, unsigned far);
   /// Whether particle i has moved, in its next step, further from its anchor than that allows.
   bool is_far(const Record& p, std::size_t i) const { return is_off(p, i, anchors_[i / kWindow], next_step()); }
-  /// All particles have moved by a step, and those that outlying are noted. Says in is_valid() whether the list goes
-  /// on.
+  /// All particles have moved by a step, and new outliers are noted. Says in is_valid() whether the list goes on.
   void moved(const Record* records);
 
   /// Pairs that touch and are not on the list, counted the long way; for tests of all this.
