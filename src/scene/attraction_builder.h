@@ -7,7 +7,7 @@
 
 namespace hooke {
 
-/// A scene's "attraction" from its JSON, which has passed the schema and has its defaults.
+/// Builds a scene's "attraction" from its JSON, which has passed the schema and has its defaults.
 Attraction build_attraction(const Json& json);
 
 }  // namespace hooke

@@ -7,7 +7,7 @@
 
 namespace hooke {
 
-/// Bytes that this machine can give without swapping; 0 where that can't be found out.
+/// Bytes that this machine can give without swapping; 0 where that is unknown.
 std::uint64_t available_memory();
 
 /// "1.2 GiB", "260 bytes".

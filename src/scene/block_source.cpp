@@ -16,7 +16,7 @@
 namespace hooke {
 namespace {
 
-// How far centres may reach along one axis where a block names no upper corner.
+// Upper end of the centres along one axis where a block names no upper corner.
 double default_upper(const Scene& scene, int axis, double lower, double radius, double spacing) {
   const bool periodic = scene.domain.boundary[static_cast<std::size_t>(axis)] == Boundary::periodic;
   return periodic ? lower + scene.domain.length(axis) - spacing : component(scene.domain.max, axis) - radius;
@@ -26,7 +26,7 @@ Lattice lattice_of(const BlockSource& block) {
   return {block.lattice == "hcp" ? LatticeKind::hcp : LatticeKind::cubic, block.box, block.spacing, block.up};
 }
 
-// `x` moved by `by`; where that leads through a periodic face, in again through the other one.
+// `x` moved by `by`; a point that leaves through a periodic face enters again through the opposite one.
 double moved(double x, double by, const Domain& domain, int axis) {
   const double low = component(domain.min, axis);
   const double high = component(domain.max, axis);
@@ -77,7 +77,7 @@ std::optional<BlockSource> read_block(const Json& json, const std::string& path,
                    fmt::format("is {}; must be at least {}, which is {}", upper, join_path(path, "min"), lower));
       usable = false;
     } else if (is_random && periodic) {
-      // Centres keep their distance across the periodic faces, too.
+      // Centres keep their distance across periodic faces, too.
       upper = std::max(lower, std::min(upper, farthest));
     }
   }

@@ -14,7 +14,7 @@
 
 namespace hooke {
 
-/// A block of particles as it is written, with the box that it fills.
+/// A block of particles as the scene writes it, with the box that it fills.
 struct BlockSource {
   std::string path;    ///< in the scene: "particles[0].block"
   std::string lattice;  ///< "cubic", "hcp", "random"
@@ -26,16 +26,16 @@ struct BlockSource {
   UpDirection up;
 };
 
-/// Reads a block that the schema is content with; `radius` (m) is its material's. Corners the wrong way round are
-/// a finding, and then nothing is returned.
+/// Reads a block that has passed the schema; `radius` (m) is the radius of its material. Corners in the wrong order are
+/// a finding, and then the result is empty.
 std::optional<BlockSource> read_block(const Json& block, const std::string& path, const Scene& scene, double radius,
                                       Findings& findings);
 
-/// About how many particles a block will have, without making any.
+/// Estimates how many particles a block will have, without making any.
 double expected_count(const BlockSource& block);
 
-/// The centres of a block's particles. Jitter wraps around at periodic faces. A count that does not fit is a finding,
-/// which tells how many would.
+/// The centres of a block's particles. Jitter wraps around at periodic faces. A count that does not fit is a finding
+/// that says how many particles would fit.
 std::vector<Vec3d> block_centres(const BlockSource& block, const Domain& domain, Findings& findings);
 
 }  // namespace hooke

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// The scene's "bodies": shapes filled with a face-centred cubic lattice whose nearest neighbours springs tie.
+// The scene's "bodies": shapes filled with a face-centred cubic lattice whose nearest neighbours are tied by springs.
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@
 namespace hooke {
 namespace {
 
-// A box around a shape, and what of it the shape holds.
+// The box around a shape, and which part of the box the shape fills.
 struct Filling {
   Vec3d min, max;
   double radius = 0;                          // of a sphere
@@ -28,12 +28,12 @@ struct Filling {
   bool is_box() const { return radius == 0 && !mesh; }
 };
 
-// Tells which points a filling holds, asked along rows.
+// Tells which points lie inside a filling; points are asked for row by row.
 class Inside {
  public:
   explicit Inside(const Filling& filling) : filling_(filling) {}
 
-  // The first point of a row is on the box around the shape, or outside.
+  // The first point of a row lies on or outside the box around the shape.
   void start_row() { deep_ = false; }
   bool operator()(const Vec3d& x) {
     if (filling_.mesh) return in_mesh(x);
@@ -43,8 +43,8 @@ class Inside {
   }
 
  private:
-  // Distances are known around the surface only, further than from one point of a row to the next: where there is none,
-  // the point is on the side of the one before.
+  // Distances are known around the surface only, to more than one step along a row. Where the distance is unknown, the
+  // point is on the same side as the one before.
   bool in_mesh(const Vec3d& x) {
     const DistanceField& field = *filling_.mesh;
     const double distance = field_value(field.view(), (1 / field.cell) * (x - field.origin));
@@ -56,8 +56,8 @@ class Inside {
   bool deep_ = false;
 };
 
-// Sites of a face-centred cubic lattice: those points of a cubic one, half a cell apart, whose indices add up to an
-// even number. One of them is at the lower corner of a box; of another shape, in the middle of the box around it.
+// Sites of a face-centred cubic lattice: the points of a cubic lattice, half a cell apart, whose indices have an even
+// sum. One site is at the lower corner of a box, or in the middle of the box around any other shape.
 class Lattice {
  public:
   Lattice(const Filling& filling, double spacing) : step_(spacing / std::sqrt(2.0)) {
@@ -98,7 +98,7 @@ class Lattice {
 std::optional<Filling> filling_of_mesh(StructureMaker& maker, const Json& json, double spacing,
                                        const std::string& where) {
   if (!maker.options.with_particles) return std::nullopt;
-  // Samples a third of the spacing apart, known to a spacing outside and three inside.
+  // Samples are a third of the spacing apart, known to one spacing outside and three inside.
   const ShapeFiles files{maker.folder, maker.options.allow_outside, spacing, spacing};
   const auto mesh = read_mesh_shape(json, where, files, maker.findings);
   if (!mesh) return std::nullopt;
@@ -120,7 +120,7 @@ std::optional<Filling> filling_of_box(StructureMaker& maker, const Json& json, c
   return maker.findings.touches(where) ? std::nullopt : std::optional(filling);
 }
 
-// What the body's "shape" at the path `where` is to hold. Nothing, with findings, where that can't be had.
+// What the body's "shape" at the path `where` fills. Empty, with findings, where it can't be made.
 std::optional<Filling> filling_of(StructureMaker& maker, const Json& shape, double spacing, const std::string& where) {
   if (shape.contains("mesh")) return filling_of_mesh(maker, shape.at("mesh"), spacing, join_path(where, "mesh"));
   if (shape.contains("box")) return filling_of_box(maker, shape.at("box"), join_path(where, "box"));
@@ -129,7 +129,7 @@ std::optional<Filling> filling_of(StructureMaker& maker, const Json& shape, doub
   return Filling{center - Vec3d{r, r, r}, center + Vec3d{r, r, r}, r, nullptr};
 }
 
-// Six of the twelve nearest neighbours; the others see it from their side.
+// Six of the twelve nearest neighbours; the other six pairs are found from the neighbour's side.
 constexpr int kForward[6][3] = {{1, 1, 0}, {-1, 1, 0}, {1, 0, 1}, {-1, 0, 1}, {0, 1, 1}, {0, -1, 1}};
 
 void fill(StructureMaker& maker, const Json& entry, const Filling& filling, std::uint16_t material,

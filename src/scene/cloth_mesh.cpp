@@ -14,7 +14,7 @@
 namespace hooke {
 namespace {
 
-// A general library reorders corners and doubles those of seams; pins and springs count the file's own.
+// A general library reorders corners and doubles those at seams; pins and springs need the file's own numbering.
 class ObjReader {
  public:
   explicit ObjReader(const std::filesystem::path& file) : in_(file) {}
@@ -42,8 +42,8 @@ class ObjReader {
     mesh_.position.push_back({x[0], x[1], x[2]});
   }
 
-  // "f 1 2 3", "f 1/7 2/8 3/9", "f 1//4 -2//5 -1//6": the number before the first slash is the corner, from the last
-  // one backwards where it is negative.
+  // "f 1 2 3", "f 1/7 2/8 3/9", "f 1//4 -2//5 -1//6": the number before the first slash is the corner; a negative one
+  // counts backwards from the last corner.
   void read_face() {
     corners_.clear();
     for (std::size_t k = 1; k < words_.size(); ++k) {

@@ -11,14 +11,14 @@
 
 namespace hooke {
 
-/// Triangles with corners that they share.
+/// Triangles that share their corners.
 struct ClothMesh {
-  std::vector<Vec3d> position;           ///< of corners, m, in the order of the file
+  std::vector<Vec3d> position;           ///< m; corners in the order of the file
   std::vector<std::uint32_t> triangles;  ///< three corners each
 };
 
-/// Reads the corners and faces of a Wavefront OBJ file; polygons are cut into triangles from their first corner.
-/// Everything else in it is passed over. The error's only finding has an empty `where`.
+/// Reads the corners and faces of a Wavefront OBJ file and skips everything else. Polygons are cut into triangles from
+/// their first corner. The error's only finding has an empty `where`.
 Expected<ClothMesh> read_cloth_mesh(const std::filesystem::path& file);
 
 }  // namespace hooke

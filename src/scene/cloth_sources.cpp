@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// The scene's "cloths": grids and meshes of particles, tied along their sides (stretch), diagonals (shear) and over the
-// next but one (bend); Provot, "Deformation constraints in a mass-spring model", 1995.
+// The scene's "cloths": grids and meshes of particles. Springs tie neighbours (stretch), diagonals (shear) and second
+// neighbours (bend); Provot, "Deformation constraints in a mass-spring model", 1995.
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@
 namespace hooke {
 namespace {
 
-// One cloth on its way: where its particles are, which springs tie which, and its surface.
+// One cloth being made: the positions of its particles, its springs and its surface.
 class Cloth {
  public:
   Cloth(StructureMaker& maker, const Json& entry, std::string path)
@@ -60,7 +60,7 @@ class Cloth {
     const auto corners = static_cast<double>(mesh.position.size());
     if (!maker_.fits(corners, 6 * corners, path_)) return;
     add_particles(mesh.position, material);
-    // The corners that face each edge, from one or two sides.
+    // The corners opposite each edge, on one or two sides.
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> facing;
     for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
       for (std::size_t k = 0; k < 3; ++k) {
@@ -162,7 +162,7 @@ class Cloth {
     }
   }
 
-  // "corner:0,1" or "edge:2", as the schema has seen to.
+  // "corner:0,1" or "edge:2"; the schema has checked the form.
   void pin_side(const std::string& name) {
     const auto digit = [&name](std::size_t at) { return static_cast<std::uint64_t>(name[at] - '0'); };
     if (name.starts_with("corner")) return hold(index_of(digit(7) * cells_[0], digit(9) * cells_[1]));
@@ -182,7 +182,7 @@ class Cloth {
   std::vector<Vec3d> at_;
 };
 
-// Whether what a grid needs is there.
+// Whether the entry has all that a grid needs.
 bool is_whole_grid(const Json& entry, const std::string& path, Findings& findings) {
   bool whole = true;
   for (const char* key : {"corner", "edges"}) {

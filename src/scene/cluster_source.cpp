@@ -14,9 +14,9 @@ namespace hooke {
 namespace {
 
 constexpr double kSphereCut = 10, kDiscCut = 6;  // scales
-constexpr double kDiscHeight = 0.1;              // scales, from its lower to its upper side
+constexpr double kDiscHeight = 0.1;              // scales, from the disc's lower to its upper side
 
-// Random numbers of one particle, one after the other.
+// The random numbers of one particle, in sequence.
 class Draws {
  public:
   Draws(std::uint64_t seed, std::uint64_t particle) : seed_(seed), particle_(particle) {}
@@ -29,7 +29,7 @@ class Draws {
     return numbers_[used_++];
   }
 
-  // Anywhere in the ball of radius 1 but its middle, made a unit vector.
+  // A random unit vector: a point of the unit ball, not too near its middle, normalised.
   Vec3d direction() {
     for (;;) {
       const double x = 2 * next() - 1, y = 2 * next() - 1, z = 2 * next() - 1;
@@ -45,7 +45,7 @@ class Draws {
   std::size_t used_ = 4;
 };
 
-// c with c^3 = value, of 0 < value <= 1: Newton's steps from above, until they go no further down.
+// The cube root of `value`, 0 < value <= 1: Newton's method from above, until the root no longer decreases.
 double cube_root(double value) {
   double root = 1;
   for (;;) {
@@ -60,7 +60,7 @@ Vec3d cross(const Vec3d& a, const Vec3d& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// In units of the scale, and of the speed sqrt(G M / scale).
+// In units of the scale and of the speed sqrt(G M / scale).
 struct Place {
   Vec3d x, v;
 };
@@ -69,7 +69,7 @@ Place in_sphere(Draws& draws) {
   const double edge = kSphereCut / std::sqrt(1 + kSphereCut * kSphereCut);  // the cube root of the mass within
   const double root = edge * cube_root(1 - draws.next());
   const double radius = root / std::sqrt(1 - root * root);
-  // Speeds, a part q of that of escape, are as many as q^2 (1 - q^2)^(7/2), which is nowhere above 0.1.
+  // The speed as a fraction q of the escape speed has the density q^2 (1 - q^2)^(7/2), which is nowhere above 0.1.
   double q = 0;
   for (bool taken = false; !taken;) {
     q = draws.next();
@@ -82,7 +82,7 @@ Place in_sphere(Draws& draws) {
 }
 
 Place in_disc(Draws& draws, const Vec3d& normal) {
-  const double within = 1 - 1 / std::sqrt(1 + kDiscCut * kDiscCut);  // the mass
+  const double within = 1 - 1 / std::sqrt(1 + kDiscCut * kDiscCut);  // mass within the cut
   const double rest = 1 - within * draws.next();
   const double radius = std::sqrt(1 / (rest * rest) - 1);
   const Vec3d outward = unit(cross(normal, draws.direction()));

@@ -12,27 +12,27 @@
 
 namespace hooke {
 
-/// Particles that keep each other together by the scene's attraction, as stars do: all bits follow from additions,
+/// Particles that the scene's attraction holds together, as it does stars. All bits follow from additions,
 /// multiplications and square roots, so they are the same on every machine.
 struct ClusterSource {
   enum class Profile {
     plummer,  ///< Plummer's sphere, isotropic velocities (Aarseth, Henon and Wielen 1974), cut off at ten scales
-    disc,     ///< Kuzmin's disc, thin, on circles; cut off at six scales
+    disc,     ///< Kuzmin's thin disc, circular orbits; cut off at six scales
   };
   Profile profile = Profile::plummer;
   Vec3d center{0, 0, 0};   ///< m
-  double scale = 1;        ///< m, > 0: half of a sphere's particles are within 1.3 scales
+  double scale = 1;        ///< m, > 0: half of a sphere's particles lie within 1.3 scales
   std::uint64_t count = 0;
-  Vec3d normal{0, 1, 0};   ///< of a disc, about which it turns; not 0
-  double companion = 0;    ///< kg, >= 0: mass of other clusters of the same centre and scale
+  Vec3d normal{0, 1, 0};   ///< of a disc: its axis of rotation; not 0
+  double companion = 0;    ///< kg, >= 0: mass of other clusters with the same centre and scale
   std::uint64_t seed = 1;
 };
 
-/// A source's "cluster" from its JSON, which has passed the schema and has its defaults.
+/// Reads a source's "cluster" from its JSON, which has passed the schema and has its defaults.
 ClusterSource read_cluster(const Json& json);
 
-/// Its particles, each of `mass` (kg, > 0): positions, and velocities in equilibrium under `attraction`, softened not
-/// at all; at rest where there is none.
+/// The particles of a cluster, each of `mass` (kg, > 0): positions, and velocities in equilibrium under `attraction`
+/// without softening. The particles are at rest where there is no attraction.
 struct ClusterParticles {
   std::vector<Vec3d> position;  ///< m
   std::vector<Vec3d> velocity;  ///< m/s

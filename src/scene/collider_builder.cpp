@@ -17,7 +17,7 @@
 namespace hooke {
 namespace {
 
-// An axis and an angle in degrees as a vector along the axis, as long as the angle in rad.
+// Turns an axis and an angle in degrees into a vector along the axis whose length is the angle in rad.
 std::optional<Vec3d> rotation_of(const Json& json, const std::string& where, Findings& findings) {
   const Vec3d axis{json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
   const double angle = json[3].get<double>() * (std::numbers::pi / 180);
@@ -35,7 +35,7 @@ class MotionReader {
         where_(std::move(where)),
         findings_(findings) {}
 
-  // Nothing where there is something wrong.
+  // Empty where the motion is wrong.
   std::optional<Motion> read() const {
     const bool steady = json_.contains("velocity") || json_.contains("angular_velocity");
     const bool keyed = json_.contains("keyframes"), swings = json_.contains("oscillate");

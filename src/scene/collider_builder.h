@@ -12,12 +12,12 @@
 
 namespace hooke {
 
-/// Fills `scene.colliders` from the entries of "colliders"; the scene's materials are there already. What the schema's
-/// findings touch is passed over. Writes the names of colliders that have none into `colliders`.
+/// Fills `scene.colliders` from the entries of "colliders"; the scene already has its materials. Skips what the
+/// schema's findings touch. Writes generated names for unnamed colliders into `colliders`.
 void build_colliders(Json& colliders, const ShapeFiles& files, Scene& scene, Findings& findings);
 
-/// The "motion" of an entry at the path `where`; none where it has no such key, or the schema has found it wrong.
-/// Nothing, with findings, where there is something wrong.
+/// Reads the "motion" of the entry at the path `where`: no motion where the entry has no such key or the schema has
+/// refused it. The result is empty, with findings, where the motion is wrong.
 std::optional<Motion> read_motion(const Json& entry, const std::string& where, Findings& findings);
 
 }  // namespace hooke

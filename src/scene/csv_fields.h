@@ -11,8 +11,8 @@
 
 namespace hooke {
 
-/// The fields of one line of CSV, without blanks around them. Their text is that of the line, or of `unquoted` where
-/// quotes had to be taken off.
+/// The fields of one line of CSV, without blanks around them. A field's text lies in the line, or in `unquoted` where
+/// quotes had to be removed.
 struct CsvFields {
   std::vector<std::string_view> at;
   std::vector<std::string> unquoted;
@@ -36,7 +36,7 @@ struct CsvFields {
     std::string field;
     for (std::size_t i = 0; i < line.size(); ++i) {
       if (line[i] == '"' && open_quote && i + 1 < line.size() && line[i + 1] == '"') {
-        field += line[i++];  // a doubled quote within quotes is one
+        field += line[i++];  // a doubled quote within quotes stands for one quote
       } else if (line[i] == '"') {
         open_quote = !open_quote;
       } else if (line[i] == ',' && !open_quote) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// CSV: a header, then a particle a line. LF or CRLF, a byte order mark, quoted fields and blank lines are fine.
+// CSV: a header, then one particle per line. LF, CRLF, a byte order mark, quoted fields and blank lines are allowed.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -52,7 +52,7 @@ void read_csv_particles(FileScanner& in, ParticleRows& rows) {
   CsvFields fields;
   fields.split(header);
   if (!rows.set_columns(columns_of(fields), 1)) return;
-  // Nothing but the lines themselves says how many there are.
+  // The number of rows is only known by counting the lines.
   const FileScanner::Place start = in.place();
   while (in.line()) {}
   const std::uint64_t lines = in.line_number() - 1;

@@ -15,13 +15,13 @@ namespace {
 
 Range range_of(const Json& pair) { return {pair[0].get<double>(), pair[1].get<double>()}; }
 
-// An open mesh is as good as a closed one to an emitter, and wrong as a sink: no warning is due.
+// An emitter can use an open mesh; for a sink an open mesh is an error. Neither needs a warning.
 ShapeFiles without_warnings(ShapeFiles files) {
   files.warnings = nullptr;
   return files;
 }
 
-// What the schema has let pass.
+// Reads an emitter that has passed the schema.
 Emitter read_emitter(const Json& json) {
   Emitter emitter;
   emitter.name = json.at("name").get<std::string>();

@@ -9,9 +9,9 @@
 
 namespace hooke {
 
-/// Fills `scene.emitters` from the entries of "emitters"; the scene's materials are there already. What the schema's
-/// findings touch is passed over. Writes the names of emitters that have none into `emitters`. Returns which entry each
-/// of the scene's is.
+/// Fills `scene.emitters` from the entries of "emitters"; the scene already has its materials. Skips what the schema's
+/// findings touch. Writes generated names for unnamed emitters into `emitters`. Returns the index of the JSON entry of
+/// each emitter in the scene.
 std::vector<std::size_t> build_emitters(Json& emitters, const ShapeFiles& files, Scene& scene, Findings& findings);
 
 /// Fills `scene.sinks` from the entries of "sinks" likewise.

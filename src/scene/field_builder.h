@@ -8,8 +8,8 @@
 
 namespace hooke {
 
-/// A scene's "fields" from their JSON, which has its defaults; the scene has its materials already. What is wrong
-/// beyond the schema goes to `findings`.
+/// Builds a scene's "fields" from their JSON, which has its defaults; the scene already has its materials. Faults
+/// beyond the schema go to `findings`.
 void build_fields(Json& fields, Scene& scene, Findings& findings);
 
 }  // namespace hooke

@@ -16,7 +16,7 @@ FileScanner::FileScanner(const std::filesystem::path& file) : buffer_(kLongestLi
   if (std::filesystem::is_directory(file, fault)) throw FileFault(0, "can't be read: it is a folder");
   file_.reset(std::fopen(file.c_str(), "rb"));
   if (!file_) throw FileFault(0, std::string("can't be opened: ") + std::strerror(errno));
-  // What is in the buffer already need not be copied through another one.
+  // buffer_ is the only buffer: a second one would only add a copy.
   std::setvbuf(file_.get(), nullptr, _IONBF, 0);
   const auto size = std::filesystem::file_size(file, fault);
   if (!fault) size_ = size;

@@ -14,7 +14,7 @@
 
 namespace hooke {
 
-/// What ends the reading of a file. Never leaves the library: whoever starts a reader makes a finding of it.
+/// A fault that ends the reading of a file. Never leaves the library: the reader's caller makes a finding of it.
 class FileFault : public std::runtime_error {
  public:
   /// `place`: line, or byte of a binary file; 0 for the file as a whole.
@@ -25,8 +25,8 @@ class FileFault : public std::runtime_error {
   std::uint64_t place_;
 };
 
-/// A file that is read once, from front to back, in lines or in bytes. Holds a piece of it, never all. Throws
-/// FileFault where the file can't be opened or read, and at a line longer than kLongestLine.
+/// Reads a file once, from front to back, in lines or in bytes. Holds a piece of the file in memory, never all of it.
+/// Throws FileFault where the file can't be opened or read, and at a line longer than kLongestLine.
 class FileScanner {
  public:
   static constexpr std::size_t kLongestLine = std::size_t{1} << 20U;  ///< bytes
@@ -35,21 +35,21 @@ class FileScanner {
 
   /// The next line without its end (LF or CRLF), or nothing at the end. Valid until the next call.
   std::optional<std::string_view> line();
-  /// Passes over lines. False where the file has fewer.
+  /// Skips `count` lines. False where the file has fewer.
   bool skip_lines(std::uint64_t count);
-  /// The next bytes, at most kLongestLine, or null where fewer are left. Valid until the next call.
+  /// The next `count` bytes, at most kLongestLine; null where fewer are left. Valid until the next call.
   const char* bytes(std::size_t count);
-  /// Passes over bytes. False where the file has fewer.
+  /// Skips `count` bytes. False where the file has fewer.
   bool skip_bytes(std::uint64_t count);
 
-  /// Of the line that was read last; the first is 1.
+  /// Number of the line that was read last; the first line is 1.
   std::uint64_t line_number() const { return place_.line; }
-  /// Of the next byte, from 0.
+  /// Offset of the next byte, from 0.
   std::uint64_t offset() const { return place_.offset; }
   /// Bytes from here to the end.
   std::uint64_t remaining() const { return place_.offset < size_ ? size_ - place_.offset : 0; }
 
-  /// Where the scanner stands, to come back to.
+  /// A position in the file to go back to.
   struct Place {
     std::uint64_t offset = 0;
     std::uint64_t line = 0;
@@ -62,7 +62,7 @@ class FileScanner {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
 
-  // Reads on until `count` bytes are at hand. False at the end of the file.
+  // Reads until the buffer holds `count` unread bytes. False at the end of the file.
   bool fetch(std::size_t count);
   std::size_t at_hand() const { return end_ - begin_; }
   void pass(std::size_t count);
@@ -70,7 +70,7 @@ class FileScanner {
   std::unique_ptr<std::FILE, Close> file_;
   std::uint64_t size_ = 0;
   std::vector<char> buffer_;
-  std::size_t begin_ = 0;  // what is at hand: [begin_, end_) of the buffer
+  std::size_t begin_ = 0;  // unread bytes: [begin_, end_) of the buffer
   std::size_t end_ = 0;
   Place place_;
 };

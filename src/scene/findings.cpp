@@ -37,7 +37,7 @@ int Findings::line_of(const std::string& path) const {
   for (const std::string& overridden : without_line_) {
     if (is_at_or_below(path, overridden)) return 0;
   }
-  // What is missing has no line of its own; that of the object that lacks it helps.
+  // A missing value has no line of its own; use the line of the object that lacks it.
   auto line = lines_.find(path);
   if (line == lines_.end()) {
     const auto last = path.find_last_of(".[");

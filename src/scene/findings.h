@@ -11,41 +11,41 @@
 
 namespace hooke {
 
-/// Line of a scene's text on which the value at a JSON path stands.
+/// The line of a scene's text that holds the value at a JSON path.
 using LineMap = std::unordered_map<std::string, int>;
 
-/// What is wrong with one scene, collected until all of it has been looked at.
+/// The faults of one scene, collected until all of it has been checked.
 class Findings {
  public:
-  /// `document` is what messages about the scene as a whole name.
+  /// `document` is the name of the scene in messages about the scene as a whole.
   explicit Findings(std::string document) : document_(std::move(document)) {}
 
-  /// Lines that are added to the messages about paths of the document itself.
+  /// Sets the lines that messages about paths of the document name.
   void set_lines(LineMap lines) { lines_ = std::move(lines); }
-  /// No line is named any more at and below `path`: its value does not come from the text.
+  /// Messages no longer name a line at or below `path`: its value does not come from the text.
   void forget_lines(std::string_view path);
 
-  /// About the value at a JSON path; "" is the whole document.
+  /// Adds a finding about the value at a JSON path; "" is the whole document.
   void add(const std::string& path, std::string message);
-  /// About something else: a file, a line of one, an option.
+  /// Adds a finding about something else: a file, a line of a file, an option.
   void add_elsewhere(std::string where, std::string message);
 
-  /// Whether there is a finding at, above or below `path`: what it holds is not to be relied on.
+  /// Whether there is a finding at, above or below `path`: then the value at `path` can't be trusted.
   bool touches(std::string_view path) const;
-  /// Whether there is a finding about just this path.
+  /// Whether there is a finding about exactly this path.
   bool touches_at(std::string_view path) const;
   bool empty() const { return all_.empty(); }
-  /// All of them: by line as far as they have one.
+  /// Takes all findings, sorted by line; those without a line come last.
   std::vector<Finding> take();
 
  private:
   std::string document_;
-  // 0 where the value at `path` stands on no line.
+  // 0 where the value at `path` has no line.
   int line_of(const std::string& path) const;
 
   LineMap lines_;
   std::vector<std::string> without_line_;
-  std::vector<std::pair<int, Finding>> all_;  // with its line
+  std::vector<std::pair<int, Finding>> all_;  // each with its line, 0 for none
   std::vector<std::string> paths_;  // of the findings about the document
 };
 

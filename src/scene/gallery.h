@@ -10,14 +10,14 @@
 
 namespace hooke {
 
-/// One scene of a gallery, by what it says about itself.
+/// One scene of a gallery, as it describes itself.
 struct GalleryScene {
   std::filesystem::path file;
-  std::string title;        ///< its "name", or the file's name without one
+  std::string title;        ///< its "name", or the file's name where it has none
   std::string description;  ///< its "description", may be empty
 };
 
-/// The scenes in a folder: its .json files that have the key "hooke", by name of file. An error where the folder
+/// The scenes in a folder: its .json files that have the key "hooke", sorted by file name. An error where the folder
 /// can't be read.
 Expected<std::vector<GalleryScene>> list_scenes(const std::filesystem::path& folder);
 

@@ -9,13 +9,13 @@
 namespace hooke {
 namespace {
 
-// Bytes from 0x80 on are parts of letters beyond ASCII.
+// Bytes from 0x80 on belong to non-ASCII letters.
 bool is_plain(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
          c == '$' || static_cast<unsigned char>(c) >= 0x80;
 }
 
-// One '["key"]' at the start of `text`, which is shortened by it.
+// Takes one '["key"]' off the start of `text`.
 std::optional<std::string> take_quoted(std::string_view& text) {
   std::string key;
   for (std::size_t i = 2; i < text.size(); ++i) {
@@ -32,7 +32,7 @@ std::optional<std::string> take_quoted(std::string_view& text) {
   return std::nullopt;
 }
 
-// One "[12]" at the start of `text`, which is shortened by it.
+// Takes one "[12]" off the start of `text`.
 std::optional<std::size_t> take_index(std::string_view& text) {
   std::size_t index = 0;
   const char* end = text.data() + text.size();

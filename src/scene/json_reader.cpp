@@ -15,7 +15,7 @@
 namespace hooke {
 namespace {
 
-// Walks over the text for the parser and lets the handler of its events know how far it has come.
+// Walks over the text for the parser and tells the event handler how far the parser has read.
 struct CountingIterator {
   using iterator_category = std::input_iterator_tag;
   using value_type = char;
@@ -41,10 +41,10 @@ struct CountingIterator {
 
 struct Overflow {
   std::size_t begin = 0;
-  std::size_t size = 0;  // 0: there was none
+  std::size_t size = 0;  // 0: no overflow
 };
 
-// Builds the value from the parser's events, and notes what the parser itself would let pass.
+// Builds the value from the parser's events and notes faults that the parser itself would accept.
 class Builder : public nlohmann::json_sax<Json> {
  public:
   Builder(std::string_view text, const std::string& name, const std::string& path, JsonReading& out)
@@ -64,7 +64,7 @@ class Builder : public nlohmann::json_sax<Json> {
   bool number_integer(number_integer_t v) override { return put(v); }
   bool number_unsigned(number_unsigned_t v) override { return put(v); }
   bool number_float(number_float_t v, const string_t&) override {
-    // 1e6 and 4.0 may stand where a whole number is asked for.
+    // 1e6 and 4.0 are allowed where a whole number is asked for.
     constexpr double kExact = 9007199254740992;
     const bool whole = std::trunc(v) == v && std::abs(v) <= kExact && !(v == 0 && std::signbit(v));
     return whole ? put(static_cast<number_integer_t>(v)) : put(v);
@@ -96,7 +96,7 @@ class Builder : public nlohmann::json_sax<Json> {
                                fmt::format("is {}, beyond the largest number (1.8e308)", printable(token, 40)));
       return false;
     }
-    // "[json.exception.parse_error.101] parse error at line 3, column 7: what": the place is named our own way.
+    // "[json.exception.parse_error.101] parse error at line 3, column 7: what": our own message names the place.
     std::string what = fault.what();
     const auto column = what.find("column");
     const auto colon = what.find(": ", column == std::string::npos ? 0 : column);
@@ -107,14 +107,14 @@ class Builder : public nlohmann::json_sax<Json> {
   }
 
  private:
-  // An array or object that is being read.
+  // An array or object being read.
   struct Level {
-    Json* container;  // null within the second value of a doubled key, which is dropped
+    Json* container;  // null within the second value of a duplicate key, which is dropped
     std::string path;
-    std::string key;    // in an object, the one read last
-    bool doubled;       // that key was there before
+    std::string key;    // in an object, the key read last
+    bool doubled;       // the object already had that key
     std::unordered_set<std::string> keys;
-    std::size_t index;  // in an array, of the next value
+    std::size_t index;  // in an array, the index of the next value
     bool is_array;
   };
 
@@ -124,7 +124,7 @@ class Builder : public nlohmann::json_sax<Json> {
     return level.is_array ? join_path(level.path, level.index) : join_path(level.path, level.key);
   }
 
-  // Line of the token that was read last. The parser reads one character past the end of a number.
+  // The line of the token read last. The parser reads one character past the end of a number.
   int line() {
     const char* const token_end = read_to_ > text_.data() ? read_to_ - 1 : read_to_;
     if (token_end > counted_to_) {
@@ -134,13 +134,13 @@ class Builder : public nlohmann::json_sax<Json> {
     return line_;
   }
 
-  // Puts a value where it belongs; null within what is dropped.
+  // Puts a value into its container; null within a value that is dropped.
   Json* insert(Json&& value) {
     if (open_.empty()) return &out_.value.emplace(std::move(value));
     Level& level = open_.back();
     if (level.container == nullptr || level.doubled) return nullptr;
     if (level.is_array) return &level.container->emplace_back(std::move(value));
-    // Keys are known to be new: no need to look for them again.
+    // The key is known to be new, so there is no need to search for it again.
     auto& members = level.container->get_ref<Json::object_t&>();
     static_cast<Json::object_t::Container&>(members).emplace_back(level.key, std::move(value));
     return &members.back().second;
@@ -223,8 +223,8 @@ JsonReading read_json(std::string_view text, const std::string& name, const std:
     reading.stopped = Finding{name, text.empty() ? "is empty" : "is blank: it holds nothing but white space"};
     return reading;
   }
-  // The parser can't go on after a number that overflows. Each is blotted out for another reading, so that all
-  // findings come at once.
+  // The parser can't go on after a number that overflows. The number is blanked out and the text read again, so that
+  // all findings are reported at once.
   constexpr std::size_t kMostOverflows = 50;
   std::string copy;
   std::vector<std::pair<std::string, std::string>> overflows;
@@ -251,7 +251,7 @@ JsonReading read_json(std::string_view text, const std::string& name, const std:
 }
 
 std::string printable(std::string_view text, std::size_t most) {
-  // The dump replaces ill-formed bytes and escapes control characters; its quotes are not wanted.
+  // The dump replaces ill-formed bytes and escapes control characters; its quotes are removed.
   std::string all = Json(std::string(text.substr(0, most))).dump(-1, ' ', false, Json::error_handler_t::replace);
   all = all.substr(1, all.size() - 2);
   std::string plain;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// LAMMPS data file: a head of counts and bounds, then sections. "Atoms # sphere" says the style, which says the
-// columns. Types get names by the section Atom Type Labels, by comments in the section Masses ("1 18.0 # water"), or by
-// comments of the head ("# type 1 water").
+// LAMMPS data file: a head of counts and bounds, then sections. "Atoms # sphere" names the style, which determines the
+// columns. Names of types come from the section Atom Type Labels, from comments in the section Masses ("1 18.0 #
+// water"), or from comments of the head ("# type 1 water").
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint64_t kSmallestRow = 10;  // "1 1 0 0 0\n", bytes
 
-// A sphere's radius and mass are written as its diameter and density.
+// The file gives a sphere's diameter and density; they stand for its radius and mass.
 const Column kId{Field::id, "id"}, kType{Field::material, "type"}, kX{Field::x, "x"}, kY{Field::y, "y"},
     kZ{Field::z, "z"}, kDiameter{Field::radius, "diameter"}, kDensity{Field::mass, "density"},
     kOther{Field::passed_over, ""};
@@ -90,7 +90,7 @@ class DataReader {
   }
 
   void start_section(std::string_view text, std::string_view comment) {
-    // A section ends where the next one starts.
+    // A section ends where the next begins.
     if (section_ == Section::atoms && atoms_ < *count_) {
       throw FileFault(in_.line_number(), fmt::format("comes after {} of {} atoms", atoms_, *count_));
     }
@@ -124,7 +124,7 @@ class DataReader {
     if (read_count(number, type) && !name.empty()) labels_.names[type] = name;
   }
 
-  // Rows say of which style they are only by how many columns they have.
+  // Without a named style, the number of columns is the only clue.
   void choose_style() {
     constexpr std::size_t kAtomic = 5;
     if (style_.empty() && (words_.size() == kAtomic || words_.size() == kAtomic + kImageFlags)) style_ = "atomic";
@@ -161,7 +161,7 @@ class DataReader {
     rows_.add(row, in_.line_number());
   }
 
-  // "id vx vy vz", of spheres with three figures of their spin.
+  // "id vx vy vz"; spheres have three more numbers, their spin.
   void read_velocity() {
     const std::uint64_t line = in_.line_number();
     if (words_.size() != 4 && words_.size() != 7) {

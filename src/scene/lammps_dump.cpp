@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// LAMMPS dump, as text: snapshots one after the other, each of items ("ITEM: BOX BOUNDS pp pp ff") that end with a row
-// an atom, under the names of the columns. Without being asked for another one, the last snapshot is read.
+// LAMMPS dump, as text: snapshots one after the other, each of items ("ITEM: BOX BOUNDS pp pp ff"). The last item names
+// the columns and holds one row per atom. The last snapshot is read unless another is asked for.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ struct Title {
   Field field;
   bool scaled = false;
 };
-// What comes first is taken where a file has several of a kind.
+// Where a file has several columns for a field, the first in this list is used.
 constexpr Title kTitles[] = {
     {"x", Field::x},
     {"y", Field::y},
@@ -70,7 +70,7 @@ std::string_view need_line(FileScanner& in) {
   return trimmed(*line);
 }
 
-// The head of a snapshot, down to the names of its columns; nothing at the end of the file.
+// Reads the head of a snapshot, down to the names of its columns; nothing at the end of the file.
 std::optional<Head> read_head(FileScanner& in) {
   constexpr std::string_view kItem = "ITEM: ";
   auto first = in.line();
@@ -82,7 +82,7 @@ std::optional<Head> read_head(FileScanner& in) {
   }
   Head head;
   for (std::string_view line = *first;; line = need_line(in)) {
-    if (line.substr(0, kItem.size()) != kItem) continue;  // of an item that is of no use
+    if (line.substr(0, kItem.size()) != kItem) continue;  // of an item that is not used
     std::string_view item = line.substr(kItem.size());
     const std::string_view word = take_word(item);
     if (word == "NUMBER") {
@@ -94,7 +94,7 @@ std::optional<Head> read_head(FileScanner& in) {
       head.count = count;
     } else if (word == "BOX") {
       head.tilted = item.find("xy") != std::string_view::npos || item.find("abc") != std::string_view::npos;
-      take_word(item);  // "BOUNDS", and a word an axis: "pp" where it is periodic
+      take_word(item);  // "BOUNDS", and one word per axis: "pp" where it is periodic
       for (bool& periodic : head.periodic) periodic = take_word(item) == "pp" && !head.tilted;
       for (auto& bounds : head.box) {
         std::string_view text = need_line(in);
@@ -114,7 +114,7 @@ std::optional<Head> read_head(FileScanner& in) {
   }
 }
 
-// The best title of each field; others of its kind are passed over.
+// Uses the best title of each field and skips the others.
 std::vector<Column> columns_of(const std::vector<std::string>& titles) {
   std::vector<Column> columns;
   for (const std::string& title : titles) {
@@ -130,8 +130,8 @@ std::vector<Column> columns_of(const std::vector<std::string>& titles) {
   return columns;
 }
 
-// How values that are written by other measures become positions and radii. Between two neighbour lists LAMMPS lets
-// particles pass a periodic face, and writes them where they are then: they are brought back into its box.
+// Converts scaled positions and diameters to positions and radii. Between two neighbour lists LAMMPS lets particles
+// leave through a periodic face and writes them there: they are brought back into its box.
 struct Conversion {
   std::array<bool, 3> scaled{};
   bool diameter = false;
@@ -149,7 +149,7 @@ struct Conversion {
     }
   }
 
-  // False, with a finding, where a position is beyond all numbers.
+  // False, with a finding, where a position is not finite.
   bool apply(const Head& head, ParticleRows& rows, Row& row, std::uint64_t line) const {
     bool good = true;
     for (std::size_t axis = 0; axis < 3; ++axis) {

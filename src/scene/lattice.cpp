@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kMostSites = 9223372036854775808.0;  // 2^63
 
-// How many sites `distance` apart fit on a line of this length, one at its start. A length that is short of the next
-// site by rounding (9.999999 spacings) still holds it.
+// Number of sites `distance` apart on a line of this length, the first at its start. A length that misses the next site
+// by rounding (9.999999 spacings) still holds it.
 std::uint64_t sites_on(double length, double distance) {
   constexpr double kRounding = 1e-5;
   if (length < -kRounding * distance) return 0;
@@ -24,7 +24,7 @@ std::uint64_t sites_on(double length, double distance) {
 
 double length(const CentreBox& box, int axis) { return component(box.max, axis) - component(box.min, axis); }
 
-// Saturates where the product of two counts does.
+// Saturates like the counts whose product it is.
 std::uint64_t saturated(double count) {
   return count >= kMostSites ? static_cast<std::uint64_t>(kMostSites) : static_cast<std::uint64_t>(count);
 }
@@ -64,7 +64,7 @@ Lattice::Layer Lattice::layer(bool odd) const {
   const double half = spacing_ / 2;
   Layer found{};
   if (kind_ == LatticeKind::hcp) {
-    // Every other layer (ABAB...) lies over the hollows of the one below.
+    // Every other layer (ABAB...) lies over the hollows of the layer below.
     found.row_offset = odd ? spacing_ * std::sqrt(3.0) / 6 : 0;
     found.site_offset[0] = odd ? half : 0;
     found.site_offset[1] = odd ? 0 : half;
@@ -92,7 +92,7 @@ std::uint64_t Lattice::site_count() const {
 
 void Lattice::append_sites(std::uint64_t count, std::vector<Vec3d>& out) const {
   const Layer parities[2] = {layer(false), layer(true)};
-  // The last site may lie beyond the box by what rounding was forgiven; it is drawn back to the face.
+  // The last site may lie beyond the box by the rounding tolerance; it is moved back to the face.
   const auto put = [this](Vec3d& site, int axis, double offset) {
     component(site, axis) = std::min(component(box_.min, axis) + offset, component(box_.max, axis));
   };

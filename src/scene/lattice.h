@@ -15,7 +15,7 @@ struct CentreBox {
   Vec3d max{0, 0, 0};
 };
 
-/// Which way is up: against gravity along its largest component; +y without gravity.
+/// The upward direction: against gravity's largest component; +y without gravity.
 struct UpDirection {
   int axis = 1;  ///< 0, 1, 2 for x, y, z
   bool positive = true;
@@ -24,17 +24,17 @@ UpDirection up_against(const Vec3d& gravity);
 
 enum class LatticeKind { cubic, hcp };
 
-/// The sites of a lattice in a box, layer by layer from the lowest. Along each axis a lattice starts at the box's
-/// lower face, but its layers at the lowest face.
+/// The sites of a lattice in a box, layer by layer from the lowest. Within a layer the lattice starts at the box's
+/// lower faces; the layers start at the box's lowest face, seen along `up`.
 class Lattice {
  public:
   /// `spacing`: distance of nearest neighbours, m, > 0.
   Lattice(LatticeKind kind, const CentreBox& box, double spacing, UpDirection up);
 
-  /// Number of sites; stays at 2^63 where there are more.
+  /// Number of sites; saturates at 2^63.
   std::uint64_t site_count() const;
 
-  /// Appends the first `count` sites, or all where there are fewer.
+  /// Appends the first `count` sites, or all if there are fewer.
   void append_sites(std::uint64_t count, std::vector<Vec3d>& out) const;
 
  private:

@@ -41,7 +41,7 @@ Expected<LoadedScene> parse(std::string_view text, const std::string& name, cons
   build_scene(json, folder, options, findings, loaded);
   loaded.particles = load_particles(json, loaded.scene, folder, options, findings, loaded.warnings);
   LoadOptions ties = options;
-  ties.with_particles = options.with_particles && !findings.touches("particles");  // whose ids are to be relied on
+  ties.with_particles = options.with_particles && !findings.touches("particles");  // only then are the ids reliable
   loaded.scene.structure = load_structure(json, loaded.scene, folder, ties, findings, loaded.particles);
   if (findings.empty()) refuse_overlaps(loaded.scene, loaded.particles, options, findings);
   if (!findings.empty()) return refuse();
@@ -53,7 +53,7 @@ Expected<LoadedScene> parse(std::string_view text, const std::string& name, cons
 
 Expected<LoadedScene> parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                                   const LoadOptions& options) {
-  // What is used below reports by exceptions; no scene should raise one, and none leaves this function.
+  // The libraries used below throw; no scene should make them throw, and no exception leaves this function.
   try {
     return parse(text, name, folder, options);
   } catch (const std::bad_alloc&) {

@@ -14,51 +14,51 @@
 
 namespace hooke {
 
-/// What one particle needs in all: in the back end, in its neighbour list, and on its way to files, bytes.
+/// Bytes that one particle needs in all: in the back end, in its neighbour list, and while it is written to files.
 inline constexpr double kBytesPerParticle = 260;
 
-/// What one spring needs likewise.
+/// Bytes that one spring needs, likewise.
 inline constexpr double kBytesPerSpring = 130;
 
-/// How a scene is read.
+/// Options for reading a scene.
 struct LoadOptions {
-  /// "PATH=VALUE" each, as of --set: replaces (or adds) the value at a JSON path such as "time.step",
-  /// "materials.water.radius" or "particles[0].block.count" before anything is checked. VALUE is JSON; what
-  /// is no JSON counts as a string.
+  /// "PATH=VALUE" each, as for --set: replaces (or adds) the value at a JSON path such as "time.step",
+  /// "materials.water.radius" or "particles[0].block.count" before anything is checked. VALUE is JSON; a VALUE that is
+  /// not JSON counts as a string.
   std::vector<std::string> overrides;
   /// Lets paths inside the scene be absolute or lead out of its folder.
   bool allow_outside = false;
-  /// False where the particles come from a checkpoint: sources are checked as far as they are written, not read.
+  /// False where the particles come from a checkpoint: the text of the sources is checked, but they are not read.
   bool with_particles = true;
-  /// Bytes that the particles may need in all; 0: what the machine has.
+  /// Bytes that the particles may need in all; 0: the memory that the machine has available.
   std::uint64_t memory_limit = 0;
 };
 
-/// A file that a scene was read from beside itself, and that is needed to read it again.
+/// A file that the scene refers to and that is needed to read the scene again.
 struct SceneFile {
-  std::string name;             ///< as the scene writes it
-  std::filesystem::path path;   ///< where it is
+  std::string name;  ///< as the scene writes it
+  std::filesystem::path path;  ///< where it is
 };
 
 /// A scene file, read, checked and resolved.
 struct LoadedScene {
   Scene scene;
-  ParticleSet particles;           ///< what its sources hold, ids from 1 in order of the sources, or the files' own
-  std::string resolved;            ///< the scene as it was understood, overrides and defaults written out, JSON;
-                                   ///< its paths still relative to the scene's folder
-  std::vector<SceneFile> files;    ///< meshes; files of particles are not among them
-  std::vector<Finding> warnings;   ///< e.g. CSV columns that are ignored
+  ParticleSet particles;  ///< of its sources; ids from 1 in order of the sources, or the files' own
+  std::string resolved;  ///< the scene as it was understood, with overrides and defaults written out, JSON;
+                         ///< its paths are still relative to the scene's folder
+  std::vector<SceneFile> files;  ///< meshes; particle files are not listed
+  std::vector<Finding> warnings;  ///< e.g. CSV columns that are ignored
 };
 
-/// Reads a scene file (docs/scene.md). Every finding at once, each with its JSON path (or CSV file and line), the
-/// value and what is allowed; Error::Kind::bad_input.
+/// Reads a scene file (docs/scene.md). Reports all findings at once, each with its JSON path (or CSV file and line),
+/// the value and what is allowed; Error::Kind::bad_input.
 Expected<LoadedScene> load_scene(const std::filesystem::path& file, const LoadOptions& options = {});
 
-/// The same for a text; `folder` is what its paths are relative to, `name` what messages call it.
+/// The same for a text; its paths are relative to `folder`, and messages call it `name`.
 Expected<LoadedScene> parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                                   const LoadOptions& options = {});
 
-/// The JSON Schema that rules scene files: the one source of keys, defaults, units and ranges.
+/// The JSON Schema of scene files: the one source of keys, defaults, units and ranges.
 std::string_view scene_schema();
 
 }  // namespace hooke

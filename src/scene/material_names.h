@@ -12,7 +12,7 @@
 
 namespace hooke {
 
-/// The index of the material that the text at the path `where` names; nothing, with a finding, where there is none.
+/// The index of the material that the text at the path `where` names; nothing, with a finding, if there is none.
 std::optional<std::size_t> material_named(const std::string& name, const std::string& where,
                                           const std::vector<Material>& materials, Findings& findings);
 

@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 30U;
 
-// One text in memory.
+// A text in memory as a stream.
 class MemoryStream : public Assimp::IOStream {
  public:
   explicit MemoryStream(const std::string& text) : text_(text) {}
@@ -53,7 +53,7 @@ class MemoryStream : public Assimp::IOStream {
   std::size_t at_ = 0;
 };
 
-// Knows one file and no other.
+// A file system that holds one file and no other.
 class OneFile : public Assimp::IOSystem {
  public:
   OneFile(std::string name, const std::string& text) : name_(std::move(name)), text_(text) {}
@@ -78,7 +78,7 @@ struct PlaceHash {
   }
 };
 
-// Gathers triangles, places once each.
+// Collects triangles and merges vertices at the same position.
 class Welder {
  public:
   void add(const aiMesh& mesh) {
@@ -120,7 +120,7 @@ Expected<TriangleMesh> read_mesh(const std::filesystem::path& file) {
   if (!text) return refuse(text.error().findings.front().message);
   Assimp::Importer importer;
   const std::string name = "mesh" + extension;
-  importer.SetIOHandler(new OneFile(name, *text));  // the importer's from now on
+  importer.SetIOHandler(new OneFile(name, *text));  // the importer owns it from now on
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
                                                           aiComponent_COLORS | aiComponent_TEXCOORDS |
                                                           aiComponent_MATERIALS);

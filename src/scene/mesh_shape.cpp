@@ -22,7 +22,7 @@ namespace {
 // A gigabyte of samples.
 constexpr double kMostSamples = 2.5e8;
 
-// A cell is a third of the smallest radius: what is as thick as that radius is kept.
+// A cell is a third of the smallest radius, so features as thick as that radius are kept.
 constexpr double kCellsPerRadius = 3;
 
 void place(TriangleMesh& mesh, double scale, const Vec3d& rotation, const Vec3d& translation) {

@@ -9,8 +9,8 @@
 
 namespace hooke {
 
-/// The mesh that a "mesh" object of a scene at the path `where` describes: read, scaled, turned, moved, and its
-/// distance field made. Findings where it can't be had.
+/// Makes the mesh that the "mesh" object at the path `where` of a scene describes: reads, scales, turns and moves it
+/// and makes its distance field. Findings where that fails.
 std::optional<MeshShape> read_mesh_shape(const Json& json, const std::string& where, const ShapeFiles& files,
                                          Findings& findings);
 

@@ -18,12 +18,12 @@
 namespace hooke {
 namespace {
 
-// A neighbour list has a number of 4 bytes for either particle of a pair, and holds about as many pairs again that are
-// only near.
+// A neighbour list holds a 4-byte number for each particle of a pair, and about as many pairs again that are near but
+// do not overlap.
 constexpr double kBytesPerPair = 16;
 
-// About how many pairs overlap if each cell as long as the largest diameter is filled evenly, or more: cells share
-// counters.
+// Estimates the number of overlapping pairs if every cell, as wide as the largest diameter, is filled evenly. The
+// estimate may be too high, because cells share counters.
 double most_pairs(const Scene& scene, const ParticleSet& particles) {
   double radius = 0;
   for (const std::uint16_t m : particles.material) radius = std::max(radius, scene.materials[m].radius);

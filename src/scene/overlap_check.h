@@ -9,8 +9,8 @@
 
 namespace hooke {
 
-/// Adds a finding where so many pairs of particles overlap that no list of them fits into memory: how many, and which
-/// pair overlaps most. Scenes that are not so crowded cost next to nothing.
+/// Adds a finding where so many pairs of particles overlap that their list does not fit into memory: how many pairs,
+/// and which pair overlaps most. Costs next to nothing for less crowded scenes.
 void refuse_overlaps(const Scene& scene, const ParticleSet& particles, const LoadOptions& options, Findings& findings);
 
 }  // namespace hooke

@@ -12,7 +12,7 @@
 namespace hooke {
 namespace {
 
-// The '=' between path and value: the first one outside of a quoted key.
+// The '=' between path and value: the first one outside quoted keys.
 std::size_t find_equals(const std::string& text) {
   bool quoted = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -35,7 +35,7 @@ bool is_utf8(const std::string& text) {
   }
 }
 
-// Walks down a path and makes what is not there yet.
+// Walks down a path and creates what is missing.
 class Setter {
  public:
   Setter(Json& scene, Findings& findings) : at_(&scene), schema_(&schema_root()), findings_(findings) {}
@@ -44,7 +44,7 @@ class Setter {
     for (std::size_t i = 0; i < path.size(); ++i) {
       const bool found = std::visit([this](const auto& part) { return descend(part); }, path[i]);
       if (!found) return;
-      // What is about to be filled starts as the kind of thing that the next part of the path is looked up in.
+      // A missing value starts as the container that the next part of the path needs.
       if (at_->is_null() && i + 1 < path.size()) {
         *at_ = std::holds_alternative<std::string>(path[i + 1]) ? Json::object() : Json::array();
       }
@@ -88,7 +88,7 @@ class Setter {
   }
 
   Json* at_;
-  const Json* schema_;  // null where the schema knows nothing of this
+  const Json* schema_;  // null where the schema has no entry for this
   std::string where_;
   Findings& findings_;
 };

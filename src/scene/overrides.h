@@ -11,7 +11,7 @@
 namespace hooke {
 
 /// Applies "PATH=VALUE" texts to a scene in their order. A key that excludes another ("time.end", "time.steps")
-/// takes its place. What can't be applied becomes a finding.
+/// replaces it. An override that can't be applied becomes a finding.
 void apply_overrides(const std::vector<std::string>& overrides, Json& scene, Findings& findings);
 
 }  // namespace hooke

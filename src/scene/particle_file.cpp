@@ -73,7 +73,7 @@ std::optional<ParticleFileFormat> particle_file_format(const std::filesystem::pa
 }
 
 std::uint64_t count_particles(const std::filesystem::path& file, const ParticleFileRules& rules) {
-  // Whatever is wrong will be said by whoever reads it.
+  // Faults are dropped here: reading the file will report them.
   Findings findings("");
   std::vector<Finding> warnings;
   ParticleRows rows(rules, file.string(), true, findings, warnings);

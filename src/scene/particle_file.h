@@ -19,24 +19,24 @@ namespace hooke {
 
 inline constexpr std::uint64_t kLastFrame = std::numeric_limits<std::uint64_t>::max();
 
-/// What a scene says of the particles in a file, for what the file leaves open.
+/// What a scene says about the particles of a file, for what the file leaves open.
 struct ParticleFileRules {
-  std::span<const Material> materials;    ///< of the scene: particles name one, and have its radius and mass
-  std::optional<std::uint16_t> material;  ///< index; of particles that name none
-  Vec3d velocity{0, 0, 0};                ///< m/s; of particles that have none
-  /// Index of the material that a type or species of the file stands for.
+  std::span<const Material> materials;    ///< of the scene: a particle names one and has its radius and mass
+  std::optional<std::uint16_t> material;  ///< index; for particles that name no material
+  Vec3d velocity{0, 0, 0};                ///< m/s; for particles without a velocity
+  /// Index of the material for each type or species of the file.
   std::map<std::string, std::uint16_t, std::less<>> types;
-  /// Which snapshot, from 0, or kLastFrame; without one it is up to the format.
+  /// Which snapshot, from 0, or kLastFrame; if empty, the format decides.
   std::optional<std::uint64_t> frame;
 };
 
-/// The particles of a file, one entry of every column a particle, in the order of the file.
+/// The particles of a file in the order of the file; every column has one entry per particle.
 struct FileParticles {
   std::vector<std::uint64_t> id;  ///< empty where the file has no such column
   std::vector<std::uint16_t> material;
   std::vector<Vec3d> position;       ///< m
   std::vector<Vec3d> velocity;       ///< m/s
-  std::vector<std::uint64_t> place;  ///< line, the first being 1, or byte where the file is binary
+  std::vector<std::uint64_t> place;  ///< line, from 1; or byte offset where the file is binary
   bool binary = false;
 };
 
@@ -48,19 +48,19 @@ struct ParticleFileFormat {
 };
 std::vector<ParticleFileFormat> particle_file_formats();
 
-/// The format that the extension of `file` names, in any case of letters; nothing where it names none.
+/// The format that the extension of `file` names, upper or lower case; nothing where it names none.
 std::optional<ParticleFileFormat> particle_file_format(const std::filesystem::path& file);
 
-/// About how many particles read_particle_file will find: what the file says of itself, as far as its size allows.
-/// 0 where it can't be read.
+/// Estimates how many particles read_particle_file will find: the number that the file states, limited by what its size
+/// allows. 0 where the file can't be read.
 std::uint64_t count_particles(const std::filesystem::path& file, const ParticleFileRules& rules);
 
 /// Reads a file whose extension names a format (docs/scene.md, "Particle files"). Findings and warnings call it `name`
-/// and say the line; particles with a fault are left out. Ids may still be twins, and positions anywhere.
+/// and give the line; faulty particles are left out. Accepts duplicate ids and any positions.
 FileParticles read_particle_file(const std::filesystem::path& file, const std::string& name,
                                  const ParticleFileRules& rules, Findings& findings, std::vector<Finding>& warnings);
 
-/// How messages call a place of a file: "initial.csv:12", "initial.ply, byte 4096".
+/// A place in a file, as messages write it: "initial.csv:12", "initial.ply, byte 4096".
 std::string place_in_file(const std::string& name, std::uint64_t place, bool binary);
 
 }  // namespace hooke

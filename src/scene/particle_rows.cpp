@@ -20,10 +20,10 @@ namespace hooke {
 namespace {
 
 constexpr double kNotSaid = std::numeric_limits<double>::quiet_NaN();
-// The next free id must exist, too.
+// The next free id must exist as well.
 constexpr std::uint64_t kIdLimit = std::numeric_limits<std::int64_t>::max();
 
-// Formats that part columns by blanks hold "salt water" as "salt%20water".
+// Formats that separate columns by blanks write "salt water" as "salt%20water".
 std::string without_escapes(std::string_view word) {
   std::string plain;
   for (std::size_t i = 0; i < word.size(); ++i) {
@@ -52,7 +52,7 @@ ParticleRows::ParticleRows(const ParticleFileRules& rules, std::string name, boo
              0,
              rules.material.value_or(0)} {}
 
-// A file with one kind of fault on every line would bury everything else.
+// A file with the same fault on every line would bury everything else.
 void ParticleRows::complain(std::uint64_t place, std::string message) {
   constexpr std::uint64_t kMost = 20;
   if (said_++ < kMost) {
@@ -134,7 +134,7 @@ bool ParticleRows::read(Field field, std::string_view title, double value, Row& 
     return false;
   }
   if (field >= Field::passed_over) return true;
-  // Beyond 2^53 a double no longer tells whole numbers apart.
+  // Above 2^53 a double can't represent every whole number.
   constexpr double kMost = 9007199254740992;
   if (!(value >= 0 && value <= kMost && value == std::floor(value))) {
     complain(place,
@@ -174,7 +174,7 @@ void ParticleRows::add(const Row& row, std::uint64_t place) {
 }
 
 void ParticleRows::set_velocity(std::uint64_t id, const Vec3d& velocity, std::uint64_t place) {
-  // Most files give velocities in the order of the particles.
+  // Most files list velocities in the order of the particles.
   if (next_velocity_ < out_.id.size() && out_.id[next_velocity_] == id) {
     out_.velocity[next_velocity_++] = velocity;
     return;
@@ -187,7 +187,7 @@ void ParticleRows::set_velocity(std::uint64_t id, const Vec3d& velocity, std::ui
   if (found != by_id_.end() && found->first == id) {
     out_.velocity[found->second] = velocity;
     next_velocity_ = found->second + 1;
-  } else if (said_ == 0) {  // a particle with a fault was left out
+  } else if (said_ == 0) {  // a faulty particle was left out
     complain(place, fmt::format("has the velocity of id {}, which no particle has", id));
   }
 }
@@ -206,7 +206,7 @@ FileParticles ParticleRows::finish() {
 }
 
 bool ParticleRows::read_material(std::string_view label, std::uint16_t& index, std::uint64_t place) {
-  // Most rows name what the row before did.
+  // Most rows name the same material as the row before.
   if (!last_material_ || label != last_label_) {
     last_material_ = find_material(label, place);
     if (!last_material_) return false;
@@ -256,10 +256,10 @@ std::optional<std::uint16_t> ParticleRows::find_name(std::string_view name) cons
 
 void ParticleRows::compare(double value, double expected, const Row& row, std::uint64_t place,
                            Difference& difference) const {
-  // Six digits, as many programs write them.
+  // Many programs write six digits.
   constexpr double kRounding = 1e-5;
   const double relative = std::abs(value - expected) / expected;
-  if (!(relative > kRounding)) return;  // not said, too
+  if (!(relative > kRounding)) return;  // also true where the file gives no value (NaN)
   ++difference.rows;
   if (relative <= difference.worst) return;
   difference.worst = relative;

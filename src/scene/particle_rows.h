@@ -17,7 +17,7 @@
 
 namespace hooke {
 
-/// What a column of a file of particles holds. SI units.
+/// What a column of a particle file holds. SI units.
 enum class Field : std::uint8_t {
   x,
   y,
@@ -29,31 +29,31 @@ enum class Field : std::uint8_t {
   mass,
   id,
   material,     ///< a name, or a number that stands for one
-  passed_over,  ///< known, and of no use
+  passed_over,  ///< known but not used
   unknown,
 };
-inline constexpr std::size_t kNumbers = 8;  ///< fields that are numbers: those before Field::id
+inline constexpr std::size_t kNumbers = 8;  ///< number of numeric fields: all those before Field::id
 
 struct Column {
   Field field;
-  std::string title;  ///< as the file calls it
+  std::string title;  ///< the file's name for it
 };
 
-/// What particles of a file may say instead of the name of a material.
+/// What a file may write in place of the name of a material.
 struct MaterialLabels {
-  std::string title = "material";  ///< how messages call a label
+  std::string title = "material";  ///< what messages call a label
   bool numbers = false;            ///< whether numbers stand for materials
-  std::uint64_t first = 1;         ///< number of the scene's first material, where the file names none
-  std::map<std::uint64_t, std::string> names;  ///< that the file gives to numbers
+  std::uint64_t first = 1;         ///< number of the scene's first material, where the file names no materials
+  std::map<std::uint64_t, std::string> names;  ///< names that the file gives to numbers
 };
 
-/// One particle on its way.
+/// One particle while it is being read.
 struct Row {
   std::array<double, kNumbers> number;
   std::uint64_t id;
   std::uint16_t material;
 
-  /// Of a field that is a number.
+  /// The value of a numeric field.
   double& operator[](Field field) {
     HOOKE_ASSERT(field < Field::id, field);
     return number[static_cast<std::size_t>(field)];
@@ -61,7 +61,7 @@ struct Row {
 };
 
 /// Makes particles from the columns of a file, the same way for every format: checks values, finds materials, notes
-/// what is wrong (all of it, but not forever) and which columns were of no use.
+/// faults (a limited number of them) and which columns were not used.
 class ParticleRows {
  public:
   ParticleRows(const ParticleFileRules& rules, std::string name, bool only_count, Findings& findings,
@@ -69,42 +69,42 @@ class ParticleRows {
 
   const ParticleFileRules& rules() const { return rules_; }
 
-  /// What the file calls materials; by name alone if this is not called. Before set_columns.
+  /// Sets how the file refers to materials; without this call, by name alone. To be called before set_columns.
   void set_labels(MaterialLabels labels) {
     HOOKE_ASSERT(columns_.empty(), columns_.size());
     labels_ = std::move(labels);
   }
-  /// Places from now on are bytes, not lines.
+  /// From now on places are bytes, not lines.
   void set_binary() { out_.binary = true; }
-  /// The columns of every row. False, with findings at `place`, where they can't make particles.
+  /// Sets the columns of every row. False, with findings at `place`, where particles can't be made from them.
   bool set_columns(std::vector<Column> columns, std::uint64_t place);
-  /// Something in the file that is not read.
+  /// Notes a column of the file that is not read.
   void ignore(std::string title) { ignored_.push_back(std::move(title)); }
-  /// How many rows the file says there are, and how many its size allows. False if no more was to be found out.
+  /// `count`: rows that the file states; `most`: rows that its size allows. False where only the number is wanted.
   [[nodiscard]] bool expect(std::uint64_t count, std::uint64_t most);
   std::uint64_t expected() const { return expected_; }
 
-  /// A row in which nothing has been read yet.
+  /// A row with no values read yet.
   Row blank() const { return blank_; }
-  /// Reads one value into `row`. False, with a finding, where it is not good.
+  /// Reads one value into `row`. False, with a finding, where the value is not valid.
   bool read(Field field, std::string_view title, std::string_view text, Row& row, std::uint64_t place);
   bool read(Field field, std::string_view title, double value, Row& row, std::uint64_t place);
-  /// Reads a row of as many texts as there are columns. False, with findings, where it is not good.
+  /// Reads a row of one text per column. False, with findings, where a value is not valid.
   bool read(std::span<const std::string_view> texts, Row& row, std::uint64_t place);
-  /// A row in which every column has been read.
+  /// Adds a row whose columns have all been read.
   void add(const Row& row, std::uint64_t place);
-  /// Velocities of particles that are known by their ids, where they follow later.
+  /// Sets the velocity of the particle `id`, for files in which velocities follow the particles.
   void set_velocity(std::uint64_t id, const Vec3d& velocity, std::uint64_t place);
 
-  /// Notes a fault after which reading goes on.
+  /// Notes a fault after which reading continues.
   void complain(std::uint64_t place, std::string message);
-  /// Notes what ended the reading.
+  /// Notes the fault that ended the reading.
   void give_up(const FileFault& fault);
-  /// All particles, and the warnings about them.
+  /// Returns all particles and adds the warnings about them.
   FileParticles finish();
 
  private:
-  // How far a column is from what the materials say.
+  // How far a column differs from what the materials say.
   struct Difference {
     std::uint64_t rows = 0;
     double worst = 0;  // relative
@@ -137,7 +137,7 @@ class ParticleRows {
   Difference mass_;
   std::uint64_t said_ = 0;
   std::uint64_t held_back_ = 0;
-  std::vector<std::pair<std::uint64_t, std::size_t>> by_id_;  // id and row, once velocities are looked for
+  std::vector<std::pair<std::uint64_t, std::size_t>> by_id_;  // id and row, sorted, for velocities out of order
   std::size_t next_velocity_ = 0;
 };
 

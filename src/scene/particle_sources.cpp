@@ -21,19 +21,19 @@
 namespace hooke {
 namespace {
 
-constexpr std::size_t kMostFindings = 20;  // of one kind about the particles of one source
+constexpr std::size_t kMostFindings = 20;  // of one kind, about the particles of one source
 
-// One entry of "particles", looked at but not yet made.
+// One entry of "particles", checked but not yet made.
 struct Source {
   std::string path;  // in the scene: "particles[0]"
-  ParticleFileRules rules;  // material and velocity hold for a block, too
+  ParticleFileRules rules;  // material and velocity are used for a block, too
   std::optional<BlockSource> block;
   std::optional<ClusterSource> cluster;
   std::string file_name;  // as the scene writes it
   std::filesystem::path file;
 };
 
-// Where the particles of one source lie among all.
+// The range of one source's particles among all particles.
 struct Span {
   const Source* source;
   std::size_t begin;
@@ -62,12 +62,12 @@ class Loader {
   void plan(const Json& entries) {
     for (std::size_t i = 0; i < entries.size(); ++i) {
       const std::string path = join_path("particles", i);
-      // An entry with both a block and a file, say, still has a material to be looked at.
+      // An entry with both a block and a file, for example, still has a material to check.
       if (entries[i].is_object()) plan_source(entries[i], path);
     }
   }
 
-  // Whether there is memory for what is planned.
+  // Whether there is memory for the planned particles.
   bool fits() {
     double particles = 0;
     for (const Source& source : sources_) {
@@ -120,7 +120,7 @@ class Loader {
     if (source.block || source.cluster || !source.file.empty()) sources_.push_back(std::move(source));
   }
 
-  // Index of the material of this name; a finding at `where` where the scene has none.
+  // Index of the material of this name; a finding at `where` where the scene has no such material.
   std::optional<std::uint16_t> material_named(const std::string& name, const std::string& where) {
     const auto found = std::find(names_.begin(), names_.end(), name);
     if (found != names_.end()) {
@@ -142,7 +142,7 @@ class Loader {
     source.rules.material = material_named(entry.at("material").get_ref<const std::string&>(), where);
   }
 
-  // What only files have.
+  // Keys that only files have.
   void plan_types_and_frame(const Json& entry, Source& source) {
     for (const char* key : {"types", "frame"}) {
       if (entry.contains(key) && !entry.contains("file")) {
@@ -189,7 +189,7 @@ class Loader {
 
   void plan_block(const Json& json, Source& source) {
     const std::string path = join_path(source.path, "block");
-    // A block with a count ends one radius from the domain's faces: without a good radius there is nothing to plan.
+    // A block with a count ends one radius from the domain's faces: without a valid radius nothing can be planned.
     if (!source.rules.material || findings_.touches(join_path("materials", names_[*source.rules.material]))) return;
     source.block = read_block(json, path, scene_, scene_.materials[*source.rules.material].radius, findings_);
     if (source.block && source.block->lattice == "random" && json.at("jitter") != 0) {
@@ -231,7 +231,7 @@ class Loader {
     append_common(std::move(span), read.material, read.velocity, read.id);
   }
 
-  // Everything but the positions, which are in place. Without ids of their own, particles number on.
+  // Appends everything but the positions, which are in place. Particles without ids of their own get the next ones.
   void append_common(Span span, const std::vector<std::uint16_t>& material, const std::vector<Vec3d>& velocity,
                      const std::vector<std::uint64_t>& id) {
     particles_.material.insert(particles_.material.end(), material.begin(), material.end());
@@ -248,7 +248,7 @@ class Loader {
     spans_.push_back(std::move(span));
   }
 
-  // The two faces of a periodic axis are the same place; it belongs to the lower one.
+  // The two faces of a periodic axis are the same place, which belongs to the lower face.
   bool is_on_periodic_face(const Vec3d& x) const {
     for (int axis = 0; axis < 3; ++axis) {
       const bool periodic = scene_.domain.boundary[static_cast<std::size_t>(axis)] == Boundary::periodic;
@@ -268,7 +268,7 @@ class Loader {
   void refuse_outside(const Span& span) {
     std::size_t outside = 0;
     const auto text = [](const Vec3d& x) { return fmt::format("[{}, {}, {}]", x.x, x.y, x.z); };
-    // A block is one thing to correct, a file's rows are many.
+    // A block is one thing to correct, but the rows of a file are many.
     const std::size_t most = span.places.empty() ? 1 : kMostFindings;
     for (std::size_t i = span.begin; i < span.end; ++i) {
       if (is_inside(particles_.position[i]) || ++outside > most) continue;
@@ -284,7 +284,7 @@ class Loader {
     }
   }
 
-  // A block's findings are about the scene's text, a file's about a text of its own.
+  // Findings about a block name the scene's text, those about a file name the file's text.
   void complain(const Span& span, const std::string& where, std::string message) {
     if (span.places.empty()) {
       findings_.add(where, std::move(message));

@@ -13,9 +13,9 @@
 
 namespace hooke {
 
-/// The particles that a scene's sources hold, by id. First all sources are looked at and what they will need is held
-/// against the memory there is; only then anything is made. Sources that earlier findings touch are left out.
-/// Without options.with_particles sources are checked as they are written, and nothing is made.
+/// Makes the particles of a scene's sources, sorted by id. Checks all sources and compares the memory they will need
+/// with the memory available before it makes any particles. Leaves out sources that earlier findings touch. Without
+/// options.with_particles it checks the text of the sources and makes nothing.
 ParticleSet load_particles(const Json& json, const Scene& scene, const std::filesystem::path& folder,
                            const LoadOptions& options, Findings& findings, std::vector<Finding>& warnings);
 

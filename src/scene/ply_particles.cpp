@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// PLY, as text or binary in either order of bytes: a particle a vertex. Other elements and colours are passed over.
-// Materials are numbers from 0, and comments may name them: "comment material 0 water". PLY has no integers of 64
-// bits: a property id_high holds the upper half of an id.
+// PLY, as text or binary in either byte order: one particle per vertex. Other elements and colours are skipped.
+// Materials are numbers from 0, and comments may name them: "comment material 0 water". PLY has no 64-bit integers: a
+// property id_high holds the upper half of an id.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -69,7 +69,7 @@ struct Property {
   std::string name;
   Field field = Field::unknown;
   Type type = Type::float32;
-  std::optional<Type> count;  // of a list: the type of its length
+  std::optional<Type> count;  // of a list: the type of its length; empty for a single value
   bool id_high = false;
 };
 
@@ -81,7 +81,7 @@ struct Element {
   bool has_lists() const {
     return std::any_of(properties.begin(), properties.end(), [](const Property& p) { return p.count.has_value(); });
   }
-  // Of one entry, bytes; of its lists only the length.
+  // Bytes of one entry; a list counts with its length only.
   std::size_t size() const {
     std::size_t all = 0;
     for (const Property& p : properties) all += size_of(p.count.value_or(p.type));
@@ -189,7 +189,7 @@ class HeaderReader {
     if (property.name.empty()) refuse("is a property without a name");
     const auto* known = std::find_if(std::begin(kNames), std::end(kNames),
                                      [&property](const PropertyName& n) { return n.name == property.name; });
-    // The one list that is of use is the velocity.
+    // The velocity is the only list that is used.
     if (known != std::end(kNames) && property.count.has_value() == (property.name == "velocity")) {
       property.field = known->field;
     }
@@ -205,7 +205,7 @@ class HeaderReader {
   std::size_t properties_ = 0;
 };
 
-// Values as text, an entry a line.
+// Values as text, one entry per line.
 class TextValues {
  public:
   explicit TextValues(FileScanner& in) : in_(in) {}
@@ -304,7 +304,7 @@ std::optional<std::uint64_t> whole(double value) {
   return value >= 0 ? std::optional(static_cast<std::uint64_t>(value)) : std::nullopt;
 }
 
-// One vertex. False, with findings, where it is not good.
+// Reads one vertex. False, with findings, where it is not valid.
 template <class Values>
 bool read_vertex(const Element& vertex, Values& values, ParticleRows& rows, Row& row) {
   const std::uint64_t place = values.place();

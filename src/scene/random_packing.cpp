@@ -13,13 +13,13 @@
 namespace hooke {
 namespace {
 
-// Keeps these draws apart from the jitter's of the same seed.
+// Makes these draws differ from the jitter's with the same seed.
 constexpr std::uint32_t kPurpose = 1;
 
 using Index3 = std::array<std::uint64_t, 3>;
 
 // Ebeida et al., "A simple algorithm for maximal Poisson-disk sampling in high dimensions", 2012: darts are thrown at
-// voxels that are not yet wholly covered; when few of them stick, voxels are split in eight and the covered dropped.
+// voxels that are not yet wholly covered; when few darts stick, voxels are split in eight and covered ones dropped.
 class Packing {
  public:
   Packing(const CentreBox& box, double spacing, std::uint64_t count, std::uint64_t seed)
@@ -27,8 +27,8 @@ class Packing {
         spacing_squared_(spacing * spacing),
         count_(count),
         seed_(seed) {
-    // Cells at least a spacing wide: whoever is nearer is in one of the 27 around. No more of them than about two
-    // a centre, so that a few centres in a vast box need little memory.
+    // Cells are at least a spacing wide, so any nearer centre lies in one of the 27 cells around. There are at most
+    // about two cells per centre, so that a few centres in a vast box need little memory.
     width_ = spacing;
     const double most_cells = 64 + 2 * std::min(static_cast<double>(count), random_packing_bound(box, spacing));
     while (cell_count(width_) > most_cells) width_ *= 2;
@@ -47,7 +47,7 @@ class Packing {
   }
 
   std::vector<Vec3d> run() {
-    constexpr int kMostSplits = 6;  // what is free then is less than 1e-5 of the box
+    constexpr int kMostSplits = 6;  // less than 1e-5 of the box is free then
     for (int splits = 0; splits <= kMostSplits && !voxels_.empty(); ++splits) {
       while (throw_darts()) {}
       if (centres_.size() >= count_) break;
@@ -71,7 +71,7 @@ class Packing {
     return product;
   }
 
-  // One round: as many darts as there are voxels. Whether enough stuck to go on like this.
+  // One round: as many darts as there are voxels. Returns whether enough of them stuck to throw another round.
   bool throw_darts() {
     const std::uint64_t darts = std::max<std::uint64_t>(voxels_.size(), 256);
     const std::size_t before = centres_.size();
@@ -83,7 +83,7 @@ class Packing {
       for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         const double offset = (static_cast<double>(voxels_[pick][a]) + random[a + 1]) * voxel_width_in_cells_ * width_;
-        // A box flat along an axis has one plane of centres there.
+        // A box that is flat along an axis has one plane of centres there.
         component(dart, axis) = component(box_.min, axis) + (length(a) > 0 ? offset : 0);
         inside = inside && component(dart, axis) <= component(box_.max, axis);
       }
@@ -137,7 +137,7 @@ class Packing {
     centres_.push_back(x);
   }
 
-  // Whether one centre covers all of a voxel: its farthest corner is within reach.
+  // Whether a single centre covers all of a voxel: the voxel's farthest corner is within the spacing.
   bool is_covered(const Index3& voxel, double voxel_width) const {
     Vec3d low{0, 0, 0};
     Vec3d high{0, 0, 0};
@@ -179,12 +179,12 @@ class Packing {
   double spacing_squared_;
   std::uint64_t count_;
   std::uint64_t seed_;
-  double width_;          // of a cell, m
+  double width_;  // of a cell, m
   Index3 cells_{1, 1, 1};
   std::vector<std::uint32_t> first_in_cell_;  // linked lists of the centres in each cell
   std::vector<std::uint32_t> next_in_cell_;
   std::vector<Vec3d> centres_;
-  std::vector<Index3> voxels_;        // not yet known to be covered; in units of their width
+  std::vector<Index3> voxels_;  // voxels not yet known to be covered, in units of their width
   double voxel_width_in_cells_ = 1;
   std::uint64_t next_dart_ = 0;
 };
@@ -193,7 +193,7 @@ class Packing {
 
 double random_packing_bound(const CentreBox& box, double spacing) {
   HOOKE_ASSERT(spacing > 0, spacing);
-  // Spheres of one spacing across, in the box grown by half a spacing all around, fill at most 0.74 of it.
+  // Spheres with a diameter of one spacing, in the box grown by half a spacing on all sides, fill at most 0.74 of it.
   constexpr double kDensestPacking = 1.4142135623730951;  // centres a cubed spacing
   double bound = kDensestPacking;
   for (int axis = 0; axis < 3; ++axis) bound *= (component(box.max, axis) - component(box.min, axis)) / spacing + 1;

@@ -20,9 +20,9 @@
 namespace hooke {
 namespace {
 
-constexpr std::int64_t kMostSteps = 9007199254740992;  // 2^53: step * dt is still exact in the step
+constexpr std::int64_t kMostSteps = 9007199254740992;  // 2^53: step * dt still has an exact step
 
-// The member of an object; null where there is none.
+// The member `key` of an object; null where there is none.
 const Json& member(const Json& object, const char* key) {
   static const Json nothing;
   const auto found = object.is_object() ? object.find(key) : object.end();
@@ -39,8 +39,8 @@ std::string text_or(const Json& value, const std::string& fallback) {
   return value.is_string() ? value.get<std::string>() : fallback;
 }
 
-// The first step at or after `end`, as t = step * dt counts it; the quotient of two decimal numbers may miss a whole
-// number by rounding.
+// The first step at or after `end`, where t = step * dt; the quotient of two decimal numbers may miss a whole number by
+// rounding.
 double steps_until(double end, double dt) {
   const double quotient = end / dt;
   const double nearest = std::round(quotient);
@@ -67,7 +67,7 @@ Boundary boundary_of(const Json& name) {
 }
 
 void build_domain(const Json& domain, Scene& scene, const Findings& findings) {
-  // One corner without the other would only lead to findings that are none.
+  // One corner without the other would only lead to false findings.
   if (!findings.touches("domain.min") && !findings.touches("domain.max")) {
     scene.domain.min = vec3_or(member(domain, "min"), scene.domain.min);
     scene.domain.max = vec3_or(member(domain, "max"), scene.domain.max);
@@ -78,7 +78,7 @@ void build_domain(const Json& domain, Scene& scene, const Findings& findings) {
   }
 }
 
-// Radius and mass may be left out, both, where colliders have the material.
+// Both radius and mass may be left out where a collider has the material.
 void find_size(const Json& entry, const std::string& where, const Json& colliders, Material& material,
                Findings& findings) {
   const auto has = [&entry](const char* key) { return entry.contains(key); };
@@ -95,7 +95,7 @@ void find_size(const Json& entry, const std::string& where, const Json& collider
   }
 }
 
-// Friction, tension and cohesion of a material or of a pair; what is left out, or was refused, is as in `fallback`.
+// Reads friction, tension and cohesion of a material or of a pair; values left out or refused are those of `fallback`.
 SurfaceCoefficients<double> read_surface(const Json& entry, const std::string& where,
                                          const SurfaceCoefficients<double>& fallback, const Findings& findings) {
   SurfaceCoefficients<double> surface = fallback;
@@ -116,7 +116,7 @@ void build_materials(const Json& materials, const Json& colliders, Scene& scene,
     material.name = name;
     const std::string where = join_path("materials", name);
     if (name.empty()) findings.add(where, "the name of a material must not be empty");
-    // A value that the schema refused stays at its default: it has been spoken of.
+    // A value that the schema refused keeps its default: it has been reported.
     const auto value = [&, &values = entry](const char* key, double fallback) {
       return findings.touches(join_path(where, key)) ? fallback : number_or(member(values, key), fallback);
     };
@@ -135,12 +135,12 @@ void build_materials(const Json& materials, const Json& colliders, Scene& scene,
     if (member(entry, "interacts") == false) material.interacts = false;
     scene.materials.push_back(std::move(material));
   }
-  // Those of colliders alone come last: particles' materials are told apart by fewer numbers then.
+  // Materials of colliders alone come last, so that fewer numbers tell the particles' materials apart.
   std::stable_partition(scene.materials.begin(), scene.materials.end(),
                         [](const Material& m) { return m.is_of_particles(); });
 }
 
-// What distance fields of meshes must serve: the particles' sizes.
+// What the distance fields of meshes are needed for: the sizes of the particles.
 ShapeFiles shape_files(const std::filesystem::path& folder, const LoadOptions& options, LoadedScene& loaded) {
   double smallest = INFINITY, largest = 0;
   for (const Material& m : loaded.scene.materials) {
@@ -172,7 +172,7 @@ std::vector<std::string> names_of(const std::vector<Material>& materials) {
   return names;
 }
 
-// Contact entries; `index_of` tells which entry of the file each one of the scene is.
+// Builds contacts; `index_of` gives the file's entry of each contact in the scene.
 class ContactBuilder {
  public:
   ContactBuilder(Scene& scene, Findings& findings)
@@ -248,10 +248,10 @@ class ContactBuilder {
   std::vector<std::string> names_;
 };
 
-// Of lists in the scene file: which entry each one of the scene's is, where some were left out.
+// For each list of the scene file: the file's entry of each element in the scene, since some entries were left out.
 using EntriesOf = std::map<std::string, std::vector<std::size_t>>;
 
-// What the core finds wrong with the scene, where nothing has been said about it yet.
+// Adds the faults that the core finds in the scene, where none has been reported yet.
 void add_core_findings(const Scene& scene, const EntriesOf& entries_of, Findings& findings) {
   for (Finding& finding : validate(scene)) {
     const auto path = parse_path(finding.where);

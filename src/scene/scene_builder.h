@@ -11,15 +11,13 @@
 
 namespace hooke {
 
-/// Fills `loaded.scene` with the rules of a scene from its JSON, defaults already in place, and says what is wrong with
-/// them beyond the schema:
-/// names that do not exist, values that contradict each other. What the schema's findings touch is passed over. Files
-/// are looked for in `folder`. Writes mixed coefficients that contact entries leave out, and names of colliders, into
-/// `json`.
+/// Fills `loaded.scene` from a scene's JSON, defaults already in place, and reports faults beyond the schema: names
+/// that do not exist, values that contradict each other. Skips what the schema's findings touch. Looks for files in
+/// `folder`. Writes the mixed coefficients that contact entries leave out, and names of colliders, into `json`.
 void build_scene(Json& json, const std::filesystem::path& folder, const LoadOptions& options, Findings& findings,
                  LoadedScene& loaded);
 
-/// A list of three numbers; `fallback` where the value is none.
+/// A list of three numbers as a vector; `fallback` where the value is not such a list.
 Vec3d vec3_or(const Json& value, const Vec3d& fallback);
 
 }  // namespace hooke

@@ -27,7 +27,7 @@ Expected<fs::path> find_scene_file(const fs::path& folder, const std::string& na
   if (!allow_outside && std::mismatch(home.begin(), home.end(), file.begin(), file.end()).first != home.end()) {
     return refuse("leads out of the scene's folder through a symbolic link (--allow-outside lifts this)");
   }
-  // A folder, a device or a pipe: reading one may never end.
+  // Reading a folder, a device or a pipe may never end.
   if (!fs::is_regular_file(file, fault)) return refuse("is no regular file");
   return file;
 }

@@ -13,7 +13,7 @@ const Json* find(const Json& object, const char* key) {
   return found == object.end() ? nullptr : &*found;
 }
 
-// "required" of each branch of a oneOf or anyOf: which keys are alternatives.
+// "required" of each branch of a oneOf or anyOf: the keys that are alternatives.
 Alternatives from_branches(const Json& schema) {
   Alternatives found;
   for (const char* keyword : {"oneOf", "anyOf"}) {
@@ -36,7 +36,7 @@ bool condition_holds(const Json& condition, const Json& value) {
   return true;
 }
 
-// Puts what {"$ref": "#/definitions/NAME", ...} refers to in its place; what else is written there goes before.
+// Replaces {"$ref": "#/definitions/NAME", ...} by the definition; keys written beside "$ref" take precedence.
 void put_in_definitions(const Json& definitions, Json& schema) {
   if (schema.is_object() && schema.contains("$ref")) {
     const std::string name = schema.at("$ref").get<std::string>();

@@ -28,7 +28,7 @@ struct CompiledSchema {
   valijson::Schema schema;
 };
 
-// A value that valijson complained about, with the schema that rules it.
+// A value that valijson refused, with its part of the schema.
 struct Fault {
   std::string path;
   const Json* value;
@@ -36,7 +36,7 @@ struct Fault {
   std::string description;  // valijson's words
 };
 
-// Follows valijson's "<root>", "[key]", "[3]" down into the scene.
+// Follows valijson's path "<root>", "[key]", "[3]" down into the scene.
 Fault locate(const valijson::ValidationResults::Error& error, const Json& scene) {
   Fault fault{"", &scene, &schema_root(), error.description};
   for (std::size_t i = 1; i < error.context.size(); ++i) {
@@ -92,7 +92,7 @@ bool breaks_range(const Json& schema, const Json& value) {
                                beyond("maximum", [](double v, double b) { return !(v <= b); }));
 }
 
-// Whether a plain value is of the right type and yet not allowed.
+// Whether a plain value has the right type but is not allowed.
 bool breaks_rule(const Json& schema, const Json& value) {
   if (breaks_range(schema, value)) return true;
   if (schema.contains("const")) return value != schema.at("const");
@@ -121,7 +121,7 @@ std::vector<std::string> enum_names(const Json& schema) {
   return names;
 }
 
-// Words what is wrong with one value itself, not with its parts.
+// Words what is wrong with one value itself, not with its members.
 class Wording {
  public:
   Wording(const Fault& fault, Findings& findings)
@@ -130,7 +130,7 @@ class Wording {
         schema_(chosen_branch(*fault.schema, value_)),
         findings_(findings) {}
 
-  // Whether there was anything to say.
+  // Whether anything was wrong.
   bool say() {
     const bool no_branch_fits = schema_.contains("anyOf") && !schema_.contains("type");
     if (no_branch_fits || !has_type(schema_, value_) || breaks_rule(schema_, value_)) {
@@ -252,7 +252,7 @@ void check_against_schema(const Json& scene, Findings& findings) {
   if (validator.validate(compiled.schema, valijson::adapters::NlohmannJsonAdapter(target), &results)) return;
 
   // valijson reports a fault once for every rule and every level that it breaks. Each value is worded once, and only
-  // for what is wrong with itself.
+  // for faults of its own.
   std::set<std::string> seen;
   std::vector<Fault> unworded;
   for (const auto& error : results) {

@@ -9,8 +9,8 @@
 
 namespace hooke {
 
-/// Holds a scene against the schema and words every finding from it: the value, what is allowed, the nearest key
-/// for a misspelling.
+/// Checks a scene against the schema and words every finding from it: the value, what is allowed, the nearest key for a
+/// misspelling.
 void check_against_schema(const Json& scene, Findings& findings);
 
 /// What a part of the schema allows, in words: "a number > 0 (m)".

@@ -10,7 +10,7 @@
 namespace hooke {
 namespace {
 
-// The only member of a "shape" object, once the schema has let it pass.
+// Reads the only member of a "shape" object that has passed the schema.
 class ShapeReader {
  public:
   explicit ShapeReader(const Json& json) : json_(json) {}

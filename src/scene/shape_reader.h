@@ -14,19 +14,19 @@
 
 namespace hooke {
 
-/// Where the files of shapes are, and what their distance fields must serve.
+/// Where the files of shapes are, and what their distance fields are needed for.
 struct ShapeFiles {
   std::filesystem::path folder;  ///< of the scene
   bool allow_outside = false;    ///< files may lie elsewhere
-  double smallest_radius = 1;    ///< of particles, m, > 0: features of this size are kept
-  double reach = 1;              ///< m, > 0: as far from surfaces as distances are needed
+  double smallest_radius = 1;    ///< of particles, m, > 0: distance fields keep features of this size
+  double reach = 1;              ///< m, > 0: distances are needed this far from surfaces
   std::vector<Finding>* warnings = nullptr;
-  std::vector<SceneFile>* used = nullptr;  ///< gets every file that is read
+  std::vector<SceneFile>* used = nullptr;  ///< every file that is read is added here
 };
 
-/// The shape that a "shape" object of a scene at the path `where` describes (schema/scene.json, definition "shape"):
-/// of colliders and whatever else takes a part of space. Nothing, with findings, where there is something wrong; what
-/// the schema has found wrong is passed over.
+/// Reads the "shape" object at the path `where` of a scene (schema/scene.json, definition "shape"), for colliders and
+/// anything else that occupies a part of space. The result is empty, with findings, where the shape is wrong; what the
+/// schema has refused is skipped.
 std::optional<Shape> read_shape(const Json& shape, const std::string& where, const ShapeFiles& files,
                                 Findings& findings);
 

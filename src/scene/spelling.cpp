@@ -8,7 +8,7 @@
 namespace hooke {
 namespace {
 
-// Optimal string alignment: Damerau-Levenshtein distance in which no part is edited twice.
+// Optimal string alignment: the Damerau-Levenshtein distance in which no part is edited twice.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before_last(b.size() + 1);
   std::vector<std::size_t> last(b.size() + 1);
@@ -30,14 +30,14 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
-  constexpr std::size_t kLongest = 64;  // nobody misspells what is longer; keeps the cost of hostile input down
+  constexpr std::size_t kLongest = 64;  // longer words are not compared; limits the cost of hostile input
   if (word.size() > kLongest) return "";
   std::size_t best = std::max<std::size_t>(2, word.size() / 3) + 1;
   std::string nearest;
   for (const std::string& name : names) {
     if (name.size() > kLongest) continue;
     const std::size_t distance = edit_distance(word, name);
-    // A word all of whose letters must change is no misspelling.
+    // A word whose letters must all change is no misspelling.
     if (distance < best && distance < std::max(word.size(), name.size())) {
       best = distance;
       nearest = name;

@@ -8,8 +8,8 @@
 
 namespace hooke {
 
-/// The one of `names` that `word` is most likely a misspelling of, or "" where none is near: fewest letters
-/// inserted, left out, replaced or swapped with their neighbour, at most a third of the word, two at least.
+/// The entry of `names` that `word` most likely misspells, or "" where none is near: the one with the fewest letters
+/// inserted, left out, replaced or swapped with their neighbour, at most a third of the word or two, whichever is more.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names);
 
 /// "; did you mean \"radius\"?", or "" where no name is near.

@@ -27,7 +27,7 @@ SpringMode mode_of(const Json& name) {
                                : SpringMode::both;
 }
 
-// Adds springs one by one, and notes what is wrong with them.
+// Adds springs one by one and notes their faults.
 class SpringReader {
  public:
   explicit SpringReader(StructureMaker& maker) : maker_(maker), before_(maker.structure.springs.size()) {}
@@ -53,7 +53,7 @@ class SpringReader {
     }
   }
 
-  // Two springs between the same particles.
+  // Refuses two springs between the same particles.
   void refuse_twins() {
     const SpringSet& s = maker_.structure.springs;
     struct Pair {
@@ -79,7 +79,7 @@ class SpringReader {
   struct Source {
     std::string path, file;
     std::size_t begin;                 // its first spring
-    std::vector<std::uint64_t> place;  // of each, in its list or file
+    std::vector<std::uint64_t> place;  // of each spring, in its list or file
   };
 
   std::string where(std::size_t spring) const {
@@ -180,7 +180,7 @@ class SpringReader {
   }
 
   StructureMaker& maker_;
-  std::size_t before_;  // springs that are no section's
+  std::size_t before_;  // springs from other sections
   std::vector<Source> sources_;
   std::size_t faults_ = 0;
 };

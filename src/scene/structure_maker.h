@@ -16,8 +16,8 @@
 
 namespace hooke {
 
-/// What the sections of a scene that tie particles together work on: the particles so far, to which they add, and the
-/// structure that comes out.
+/// Shared by the sections of a scene that tie particles together: the particles so far, to which they add, and the
+/// structure that they build.
 struct StructureMaker {
   const Scene& scene;
   const std::filesystem::path& folder;
@@ -26,23 +26,23 @@ struct StructureMaker {
   ParticleSet& particles;
   Structure structure{};
 
-  /// Index of the material that `entry` names; a finding where the scene has none of this name.
+  /// Index of the material that `entry` names; a finding where the scene has no material of this name.
   std::optional<std::uint16_t> material_of(const Json& entry, const std::string& path);
 
-  /// Whether there is memory for so many particles and springs more; a finding at `path` where not.
+  /// Whether there is memory for this many more particles and springs; a finding at `path` if not.
   bool fits(double particle_count, double spring_count, const std::string& path);
 
-  /// Adds particles with the next ids; returns the first one's. A finding at `path` where one is outside the domain.
+  /// Adds particles with the next ids; returns the first id. A finding at `path` where one is outside the domain.
   std::uint64_t add_particles(const std::vector<Vec3d>& positions, std::uint16_t material, const Vec3d& velocity,
                               const std::string& path);
 
-  /// The springs that were added since the last call are those of the entry at `path`.
+  /// Assigns the springs added since the last call to the entry at `path`.
   void end_group(const std::string& path);
 
-  /// Distance of two particles (ids) that there are, by the nearest image, m.
+  /// Distance of two existing particles (ids), by the nearest image, m.
   double distance(std::uint64_t a, std::uint64_t b) const;
 
-  // The sections, one file each. Nothing is made where findings touch an entry, or of what options.with_particles
+  // The sections, one file each. They make nothing from an entry that findings touch, nor what options.with_particles
   // leaves out.
   void add_cloths(const Json& cloths);
   void add_bodies(const Json& bodies);
@@ -52,8 +52,8 @@ struct StructureMaker {
 /// The entry's "break_strain", or infinity.
 double break_strain_of(const Json& entry);
 
-/// What ties and holds a scene's particles, and the particles of its cloths and bodies added to `particles`. Null where
-/// there is nothing.
+/// The springs and held particles of a scene; adds the particles of its cloths and bodies to `particles`. Null where
+/// there are none.
 std::shared_ptr<const Structure> load_structure(const Json& json, const Scene& scene,
                                                 const std::filesystem::path& folder, const LoadOptions& options,
                                                 Findings& findings, ParticleSet& particles);

@@ -10,7 +10,7 @@
 
 namespace hooke {
 
-/// All bytes of a file; an error names the file where it can't be opened or read, or holds more than `most` bytes.
+/// All bytes of a file; an error names the file if it can't be opened or read, or holds more than `most` bytes.
 Expected<std::string> read_text_file(const std::filesystem::path& file, std::uint64_t most);
 
 }  // namespace hooke

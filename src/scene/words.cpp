@@ -41,7 +41,7 @@ bool read_number(std::string_view text, double& value) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   const auto [stop, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (stop != text.data() + text.size()) return false;
-  // Too small for a double is as good as 0; too large is not: strtod tells them apart.
+  // A number too small for a double counts as 0, one too large is refused: strtod tells them apart.
   if (fault == std::errc::result_out_of_range) value = std::strtod(std::string(text).c_str(), nullptr);
   return (fault == std::errc() || fault == std::errc::result_out_of_range) && std::isfinite(value);
 }

@@ -11,16 +11,16 @@ namespace hooke {
 /// `text` without blanks at both ends.
 std::string_view trimmed(std::string_view text);
 
-/// The words of a line, between blanks, into `words`.
+/// Splits a line at blanks into `words`.
 void split_words(std::string_view line, std::vector<std::string_view>& words);
 
-/// Takes the next word off `line`; empty where there is none.
+/// Removes the next word from `line` and returns it; empty where there is none.
 std::string_view take_word(std::string_view& line);
 
-/// All of `text` as a finite number, "+1.5" too. What is too small for a double is 0. False where it is none.
+/// Reads all of `text` as a finite number, also "+1.5"; one too small for a double is 0. False where it is no number.
 bool read_number(std::string_view text, double& value);
 
-/// All of `text` as a whole number. False where it is none, or larger than fits.
+/// Reads all of `text` as a whole number. False where it is none or too large.
 bool read_count(std::string_view text, std::uint64_t& value);
 
 }  // namespace hooke

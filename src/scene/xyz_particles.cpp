@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// XYZ: snapshots one after the other, each a count, a line of comment, and a row a particle. Plain rows are species
-// and position; the comment of extended XYZ names the columns: Properties=species:S:1:pos:R:3:velo:R:3:id:I:1. Without
-// being asked for another one, the first snapshot is read.
+// XYZ: snapshots one after the other, each a count, a comment line and one row per particle. Plain rows hold species
+// and position; the comment of extended XYZ names the columns: Properties=species:S:1:pos:R:3:velo:R:3:id:I:1. The
+// first snapshot is read unless another is asked for.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -65,7 +65,7 @@ std::string value_of(std::string_view wanted, std::string_view text) {
   }
 }
 
-// "name:T:width" again and again.
+// "name:T:width", repeated.
 std::vector<Column> columns_of(std::string_view properties, std::uint64_t line) {
   const auto take = [&properties] {
     const auto colon = properties.find(':');
@@ -93,7 +93,7 @@ std::vector<Column> columns_of(std::string_view properties, std::uint64_t line) 
       columns.push_back({field, std::string(name)});
     }
   }
-  // A species is a name, which says more than the number of a type.
+  // A species is a name, which is clearer than the number of a type.
   const auto has_species = std::any_of(columns.begin(), columns.end(),
                                        [](const Column& c) { return c.field == Field::material && c.title != "type"; });
   for (Column& c : columns) {
@@ -102,7 +102,7 @@ std::vector<Column> columns_of(std::string_view properties, std::uint64_t line) 
   return columns;
 }
 
-// Species, position, and what the first row has beyond.
+// Species, position, and any further columns of the first row.
 std::vector<Column> plain_columns(std::size_t width) {
   std::vector<Column> columns{{Field::material, "species"}, {Field::x, "x"}, {Field::y, "y"}, {Field::z, "z"}};
   for (std::size_t i = columns.size(); i < std::min<std::size_t>(width, kMostColumns); ++i) {
@@ -111,7 +111,7 @@ std::vector<Column> plain_columns(std::size_t width) {
   return columns;
 }
 
-// The count that a snapshot starts with; nothing at the end of the file.
+// Reads the count at the start of a snapshot; nothing at the end of the file.
 std::optional<std::uint64_t> read_head(FileScanner& in) {
   auto line = in.line();
   while (line && trimmed(*line).empty()) line = in.line();
