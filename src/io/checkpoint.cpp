@@ -25,7 +25,7 @@ constexpr const char* kType = "hooke checkpoint";
 
 static_assert(sizeof(Vec3d) == 3 * sizeof(double));
 
-/// The numbers of a state beside its particles and step, in the order of the file; `visit` may read or set them.
+/// The numbers of a state besides its particles and step, in the order of the file; `visit` may read or set them.
 template <class State, class Visit>
 void for_each_integer(State& s, Visit&& visit) {
   visit(s.next_id);
@@ -69,16 +69,16 @@ Numbers numbers_of(const SimulationState& state) {
   return numbers;
 }
 
-/// The last bytes of a checkpoint: HDF5 looks at nothing behind its own end. They tell a whole file from one that was
-/// cut short or changed before HDF5 reads it, which would notice no changed bit in an array.
+/// The last bytes of a checkpoint; HDF5 reads nothing behind its own end. The seal shows, before HDF5 reads the file,
+/// whether it was cut short or changed; HDF5 would not notice a changed bit in an array.
 struct Seal {
   std::uint64_t magic = 0x314b4843454b4f48;  // "HOKECHK1", little endian
-  std::uint64_t checksum = 0;                // of all bytes before
+  std::uint64_t checksum = 0;                // of all bytes before the seal
 
   friend bool operator==(const Seal&, const Seal&) = default;
 };
 
-/// The seal that the first `size` bytes of a file deserve. Throws Failure.
+/// Makes the seal for the first `size` bytes of a file. Throws Failure.
 Seal make_seal(int fd, std::uint64_t size, const std::filesystem::path& path) {
   constexpr std::size_t kBlockBytes = std::size_t{1} << 20U;
   std::vector<std::uint64_t> words(kBlockBytes / sizeof(std::uint64_t) + 1);
@@ -86,7 +86,7 @@ Seal make_seal(int fd, std::uint64_t size, const std::filesystem::path& path) {
   seal.checksum = size;
   for (std::uint64_t at = 0; at < size; at += kBlockBytes) {
     const auto n = static_cast<std::size_t>(std::min<std::uint64_t>(size - at, kBlockBytes));
-    words[n / sizeof words[0]] = 0;  // the bytes that fill up the last word
+    words[n / sizeof words[0]] = 0;  // zero padding of the last word
     if (const int error = read_at(fd, words.data(), n, at)) {
       throw Failure(Error::Kind::io, path, "can't be read: " + system_message(error));
     }
@@ -105,7 +105,7 @@ void append_seal(const std::filesystem::path& path) {
   }
 }
 
-/// The seal at the end of a file; without magic where there is none.
+/// The seal at the end of a file; its magic is wrong where there is no seal.
 Seal read_seal(int fd, std::uint64_t size, const std::filesystem::path& path) {
   Seal seal{0, 0};
   if (size <= sizeof seal) return seal;
@@ -208,7 +208,7 @@ Expected<void> write_checkpoint(const std::filesystem::path& path, const Simulat
     } catch (const Failure& failure) {
       std::error_code ignored;
       std::filesystem::remove(unfinished, ignored);
-      // The caller knows the file by its final name.
+      // The caller knows only the file's final name.
       throw Failure(Error::Kind::io, path, failure.error().findings.front().message);
     }
     publish(path);

@@ -39,8 +39,8 @@ FileDescription describe_run_file(const fs::path& file) {
   return description;
 }
 
-/// The bytes of a file; 0 for what is none, or is gone since the folder was listed: a writer replaces its checkpoint
-/// under a reader's hands. Throws std::filesystem::filesystem_error.
+/// The size of a file; 0 if it is no regular file, or if it vanished since the folder was listed: a writer may replace
+/// its checkpoint meanwhile. Throws std::filesystem::filesystem_error.
 std::uint64_t listed_size(const fs::path& file) {
   struct stat status{};
   if (::stat(file.c_str(), &status) != 0) {

@@ -12,20 +12,20 @@
 
 namespace hooke {
 
-/// What a file or folder of Hooke's holds.
+/// What a file or folder written by Hooke holds.
 struct FileDescription {
   enum class Kind { run_folder, particles_file, checkpoint };
   Kind kind = Kind::run_folder;
   RunInfo info;
   std::uint64_t bytes = 0;  ///< of the file, or of all files of the run
 
-  std::vector<std::int64_t> steps;              ///< of the snapshots; of the one state of a checkpoint
+  std::vector<std::int64_t> steps;              ///< of the snapshots, or of a checkpoint's one state
   std::vector<double> times;                    ///< s
   std::vector<std::uint64_t> particle_counts;
   std::optional<std::int64_t> checkpoint_step;  ///< of a run folder that holds a checkpoint
 };
 
-/// Looks into a run folder, particles.vtkhdf or checkpoint. bad_input, and why, where it is none of them or damaged.
+/// Describes a run folder, particles.vtkhdf or checkpoint. bad_input, with the reason, if it is none or damaged.
 Expected<FileDescription> describe_file(const std::filesystem::path& file);
 
 /// "run folder", "snapshots", "checkpoint".

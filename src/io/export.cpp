@@ -59,7 +59,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// Whether a material index of the run means the same in the scene.
+/// Whether the material indices of the run mean the same materials in the scene.
 bool same_materials(const Scene& scene, const RunInfo& info) {
   return std::equal(scene.materials.begin(), scene.materials.end(), info.materials.begin(), info.materials.end(),
                     [](const Material& a, const MaterialInfo& b) { return a.name == b.name; });

@@ -15,7 +15,7 @@
 
 namespace hooke {
 
-/// What of a snapshot is written.
+/// Which content of a snapshot is exported.
 enum class ExportContent { particles, contacts, surface, volume, cloths, springs };
 
 /// "particles", "contacts", "surface", "volume", "cloths", "springs".
@@ -23,14 +23,14 @@ const char* to_string(ExportContent content);
 
 struct ExportOptions {
   ExportContent content = ExportContent::particles;
-  /// The rules of the run, with its materials: needed for contacts, which are computed from a snapshot by the law and
-  /// its coefficients. Where other formats say the domain, the direction up or colours, they take them from here, and
-  /// leave them out or fall back without. Cloths need its structure.
+  /// The rules of the run, with its materials. Contacts need it: they are computed from a snapshot with the law and its
+  /// coefficients. Cloths need its structure. Other formats take the domain, the upward direction or colours from it;
+  /// without it they omit them or use defaults.
   const Scene* scene = nullptr;
   SurfaceOptions surface;
 };
 
-/// An extension that export_run knows for some content, with its dot, and what it stands for.
+/// An extension that export_run knows for some content, with its dot, and a description.
 struct ExportFormatInfo {
   const char* extension;
   ExportContent content;
@@ -39,8 +39,8 @@ struct ExportFormatInfo {
 std::vector<ExportFormatInfo> export_formats();
 
 /// Writes snapshots (indices into `run`, each < run.size(), ascending, at least one) in the format that the extension
-/// of `file` names for what the options ask for, and returns the files that were written, the one to open first. Each
-/// is written beside and renamed. A format that holds one instant a file numbers several: FILE_0000.ply, FILE_0001.ply.
+/// of `file` names for the requested content. Returns the files written, the one to open first at the front; each is
+/// written beside and renamed. A format with one snapshot per file numbers several: FILE_0000.ply, FILE_0001.ply.
 Expected<std::vector<std::filesystem::path>> export_run(const RunReader& run, std::span<const std::size_t> indices,
                                                         const std::filesystem::path& file,
                                                         const ExportOptions& options = {});

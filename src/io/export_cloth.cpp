@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// The cloths of a scene as one mesh of triangles, one file a snapshot.
+// The cloths of a scene as one mesh of triangles, one file per snapshot.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,7 +28,7 @@ Vec3d cross(const Vec3d& a, const Vec3d& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// Without the triangles that miss a particle, or have a torn edge.
+// Leaves out triangles that lack a particle or have a torn edge.
 void add_surface(const Surface& surface, const TornEdges& torn, const ParticleSet& p, ClothMesh& mesh) {
   constexpr std::uint32_t kGone = ~std::uint32_t{0};
   std::vector<std::uint32_t> number(surface.particles.size(), kGone);  // in the mesh

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Contacts, as core/contacts.h finds them in a snapshot. CSV: a row a contact. VTK: a line from centre to centre, or
-// from a centre to the wall or the collider, with the contact's figures.
+// Contacts of a snapshot, found by core/contacts.h. CSV: one row per contact. VTK: a line from centre to centre, or
+// from a centre to the wall or the collider, with the contact's quantities.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The scene that the job's run is of.
+/// The scene of the job's run.
 const Scene& scene_of(const ExportJob& job) {
   if (!job.options.scene) {
     throw Failure(Error::Kind::bad_input, job.file, "contacts follow from the law: the run's scene is needed for them");
@@ -32,7 +32,7 @@ const Scene& scene_of(const ExportJob& job) {
   return scene;
 }
 
-/// The springs of the run that are broken, as of its checkpoint: of those that keep particles from touching.
+/// The broken springs of the run, from its checkpoint; needed only if some springs keep particles from touching.
 std::vector<std::uint64_t> broken_springs(const ExportJob& job, const Scene& scene) {
   if (!scene.structure || scene.structure->springs.empty()) return {};
   const std::vector<std::uint8_t>& contact = scene.structure->springs.contact;
@@ -85,8 +85,8 @@ void write_csv(const ExportJob& job, const Scene& scene) {
   out.finish();
 }
 
-/// Where the contact's line ends: the centre that particle a touches, in its image, or the nearest point of the wall or
-/// of the collider.
+/// The end of the contact's line: the centre of the touching particle b, in its image, or the nearest point of the wall
+/// or of the collider.
 Vec3d far_end(const Contact& c, const Scene& scene, const ParticleSet& particles) {
   if (c.b == Contact::kCollider) return c.point;
   const Domain& domain = scene.domain;

@@ -13,7 +13,7 @@
 
 namespace hooke {
 
-/// One call of export_run, checked: at least one index, ascending, each < run.size().
+/// A checked call of export_run: at least one index, ascending, each < run.size().
 struct ExportJob {
   const RunReader& run;
   std::span<const std::size_t> indices;  ///< snapshots of `run`
@@ -21,18 +21,18 @@ struct ExportJob {
   const ExportOptions& options;
 };
 
-/// Writes the job's snapshots and returns the files that it wrote, the one to open first. Throws Failure.
+/// Writes the job's snapshots and returns the files that it wrote; the first is the one to open. Throws Failure.
 using ExportFunction = std::vector<std::filesystem::path>(const ExportJob& job);
 
-/// The file of snapshot `k` of `count` in a format that holds one a file: out/water.ply -> out/water_0007.ply.
+/// The file of snapshot `k` of `count` in a format with one snapshot per file: out/water.ply -> out/water_0007.ply.
 std::filesystem::path numbered_file(const std::filesystem::path& file, std::size_t k, std::size_t count);
 
-/// For a format of one snapshot a file: calls write(index, file) for each of the job's, and returns the files, which
-/// are numbered where there are several.
+/// For a format with one snapshot per file: calls write(index, file) for each snapshot of the job and returns the
+/// files, which are numbered if there are several.
 std::vector<std::filesystem::path> export_each(
     const ExportJob& job, const std::function<void(std::size_t, const std::filesystem::path&)>& write);
 
-// One a format, each in a file of its own; export.cpp lists them.
+// One function per format, each in its own file; export.cpp lists them.
 ExportFunction export_cloth_obj;
 ExportFunction export_cloth_ply;
 ExportFunction export_contacts_csv;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// LAMMPS's data file of one snapshot, for read_data with atom_style sphere and units si. The type is the material,
-// from 1; comments name them. The box is the scene's domain, or without a scene what the particles take.
+// LAMMPS data file of one snapshot, for read_data with atom_style sphere and units si. The type is the material, from
+// 1; comments name them. The box is the scene's domain, or without a scene the box around the particles.
 #include <numbers>
 
 #include "hooke/io/export_format.h"
@@ -15,7 +15,7 @@ namespace hooke {
 
 namespace {
 
-constexpr std::size_t kLongestWord = 200;  // LAMMPS takes no line of more than 255 bytes
+constexpr std::size_t kLongestWord = 200;  // LAMMPS accepts no line longer than 255 bytes
 
 template <class Real>
 void write_file(const Snapshot& snapshot, const std::vector<MaterialInfo>& materials, const Scene* scene,
@@ -31,7 +31,7 @@ void write_file(const Snapshot& snapshot, const std::vector<MaterialInfo>& mater
   head += " atoms\n";
   append_number(head, static_cast<std::uint64_t>(materials.size()));
   head += " atom types\n";
-  std::vector<std::string> columns;  // that follow from the material
+  std::vector<std::string> columns;  // text of the columns that depend on the material
   for (std::size_t m = 0; m < materials.size(); ++m) {
     const auto [name, radius, mass] = materials[m];
     std::string type;
@@ -53,7 +53,7 @@ void write_file(const Snapshot& snapshot, const std::vector<MaterialInfo>& mater
 
   OutputFile out(file);
   out.write(head);
-  if (!p.empty()) {  // LAMMPS takes an empty section for an error
+  if (!p.empty()) {  // for LAMMPS an empty section is an error
     out.write("\nAtoms # sphere\n\n");
     write_rows(out, p.size(), [&](std::string& text, std::size_t i) {
       append_number(text, p.id[i]);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// LAMMPS's text dump: all snapshots in one file, for OVITO, and for LAMMPS's read_dump and rerun. The type is the
-// material, from 1; the element is its name. The box is the scene's domain, faces other than periodic ones fixed
-// (f); without a scene it is what the particles take (shrink-wrapped, s).
+// LAMMPS text dump: all snapshots in one file, for OVITO and for LAMMPS's read_dump and rerun. The type is the
+// material, from 1; the element is its name. The box is the scene's domain, with faces that are not periodic fixed (f);
+// without a scene it is the box around the particles (shrink-wrapped, s).
 #include "hooke/io/export_format.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/lammps_box.h"
@@ -39,7 +39,7 @@ void write_frame(OutputFile& out, const Snapshot& snapshot, const std::vector<Ma
   head += "ITEM: ATOMS id type element radius mass x y z vx vy vz\n";
   out.write(head);
 
-  std::vector<std::string> columns;  // that follow from the material
+  std::vector<std::string> columns;  // text of the columns that depend on the material
   for (std::size_t m = 0; m < materials.size(); ++m) {
     std::string& text = columns.emplace_back(" ");
     append_number(text, static_cast<std::uint64_t>(m + 1));

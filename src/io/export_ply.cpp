@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Binary PLY of one snapshot's particles as points: x y z vx vy vz radius id material, and red green blue where a
-// scene tells the materials' colours. PLY has no 64-bit integers: `id` holds the lower 32 bits; where an id has
-// more, `id_high` holds the upper ones of each. Comments name the materials, which count from 0.
+// Binary PLY of one snapshot's particles as points: x y z vx vy vz radius id material, and red green blue where a scene
+// gives the materials' colours. PLY has no 64-bit integers: `id` holds the lower 32 bits; if any id has more, `id_high`
+// holds the upper 32. Comments name the materials, which count from 0.
 #include "hooke/io/export_format.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/material_words.h"
@@ -33,7 +33,7 @@ void write_file(const Snapshot& snapshot, const std::vector<MaterialInfo>& mater
   head += "\ncomment time ";
   append_number(head, snapshot.time);
   head += '\n';
-  std::vector<std::string> columns;  // that follow from the material
+  std::vector<std::string> columns;  // bytes of the columns that depend on the material
   for (std::size_t m = 0; m < materials.size(); ++m) {
     head += "comment material ";
     append_number(head, static_cast<std::uint64_t>(m));

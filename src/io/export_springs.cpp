@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// The springs of a run and which of them are broken, as of its checkpoint. CSV: a row a spring.
+// The springs of a run and which of them are broken, from its checkpoint. CSV: one row per spring.
 #include <algorithm>
 
 #include "hooke/io/checkpoint.h"

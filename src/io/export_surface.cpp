@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// The fluid's surface as a mesh of four-sided faces, one file a snapshot.
+// The fluid's surface as a mesh of four-sided faces, one file per snapshot.
 #include "hooke/io/export_format.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/mesh_file.h"

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// USD as text: one UsdGeomPoints prim with a time sample a snapshot. Lengths are in metres; a time code is one
-// snapshot of an evenly spaced run (a frame), so timeCodesPerSecond is their rate. Widths are diameters. What USD
-// wants in single precision (points, velocities) is rounded to it. Up is against the scene's gravity, if that is along
-// y or z; colours are the scene's; without a scene up is y, and there are no colours.
+// USD as text: one UsdGeomPoints prim with a time sample per snapshot. Lengths are in metres. One time code is one
+// snapshot of an evenly spaced run (a frame), so timeCodesPerSecond is the rate of snapshots. Widths are diameters.
+// Values that USD stores in single precision (points, velocities) are rounded to it. Up is against the scene's gravity,
+// if that is along y or z; colours are the scene's; without a scene up is y, and there are no colours.
 //
-// USD keeps all samples of an attribute together, so the snapshots are gone through once an attribute that moves, one
-// of them in memory at a time.
+// USD keeps all samples of an attribute together, so the exporter reads all snapshots once per moving attribute, with
+// one snapshot in memory at a time.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,13 +22,13 @@ namespace hooke {
 
 namespace {
 
-constexpr double kDefaultRate = 24;  // time codes a second where one snapshot tells none; USD's own default
+constexpr double kDefaultRate = 24;  // time codes a second where one snapshot gives no rate; USD's own default
 
 double rounded_if_near(double value, double nearness) {
   return std::abs(value - std::round(value)) <= nearness ? std::round(value) : value;
 }
 
-/// Snapshots a second: of most of them, if they are not evenly spaced.
+/// Snapshots per second; if they are not evenly spaced, the rate at the median spacing.
 double snapshot_rate(const std::vector<double>& times) {
   if (times.size() < 2) return kDefaultRate;
   std::vector<double> spacing;
@@ -62,7 +62,7 @@ const char* up_axis(const Scene* scene) {
   return scene && std::abs(scene->gravity.z) > std::abs(scene->gravity.y) ? "Z" : "Y";
 }
 
-/// sRGB as in "#rrggbb" to the linear light that USD's colours are.
+/// Converts sRGB, as in "#rrggbb", to linear light, as in USD's colours.
 float linear_light(std::uint8_t byte) {
   const double c = byte / 255.0;
   return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
@@ -128,7 +128,7 @@ class UsdaWriter {
     out_.write(fmt::format("    custom uniform string[] materialNames = [{}]\n", names));
   }
 
-  /// Points and, since all snapshots come by, their extents, and where the particles are others than before.
+  /// Writes points, and notes each snapshot's extent and whether its particles differ from those before.
   void write_points() {
     std::string extents;
     ParticleSet before;
@@ -149,7 +149,7 @@ class UsdaWriter {
     out_.write("    }\n");
   }
 
-  /// What stays with a particle.
+  /// Writes the attributes that stay with a particle.
   void write_materials() {
     std::vector<std::string> indices, widths, colors;
     for (std::size_t m = 0; m < info_.materials.size(); ++m) {
@@ -172,8 +172,8 @@ class UsdaWriter {
     if (job_.options.scene) write_lasting("color3f[] primvars:displayColor", kOneEach, by_material(colors));
   }
 
-  /// An attribute that changes only when the particles are others: one value, or samples on both sides of each change,
-  /// so that nothing in between is interpolated.
+  /// Writes an attribute that changes only with the set of particles: one value, or samples on both sides of each
+  /// change, so that nothing is interpolated in between.
   template <class Append>
   void write_lasting(const std::string& attribute, const std::string& metadata, const Append& append) {
     const auto write_value = [&](std::size_t k) {
@@ -220,7 +220,7 @@ class UsdaWriter {
   OutputFile out_;
   double rate_ = kDefaultRate;
   std::vector<std::string> codes_;  ///< time code of each sample
-  std::vector<bool> others_;  ///< whether a sample has other particles than the one before
+  std::vector<bool> others_;  ///< whether a sample's particles differ from those before
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// OpenVDB, one file a snapshot: particles as points, or the fluid that they are as a volume.
+// OpenVDB, one file per snapshot: particles as points, or their fluid as a volume.
 #include "hooke/io/export_format.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/output_file.h"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Extended XYZ: all snapshots in one file, each a count, a line of key=value, and a row a particle. Columns have the
-// names that OVITO maps to its own properties. The cell is the scene's domain; without a scene there is none.
+// Extended XYZ: all snapshots in one file, each a count, a line of key=value, and one row per particle. Columns have
+// the names that OVITO maps to its own properties. The cell is the scene's domain; without a scene there is no cell.
 #include "hooke/io/export_format.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/material_words.h"

@@ -12,8 +12,8 @@
 
 namespace hooke {
 
-/// How the inner functions of this library report: hundreds of HDF5 calls can each fail. No public function lets
-/// it out; guarded() turns it into an Error.
+/// The exception by which the inner functions of this library report errors: hundreds of HDF5 calls can each fail. It
+/// leaves no public function; guarded() turns it into an Error.
 class Failure : public std::exception {
  public:
   Failure(Error::Kind kind, const std::filesystem::path& file, std::string message)
@@ -27,7 +27,7 @@ class Failure : public std::exception {
   Error error_;
 };
 
-/// Calls `work`, which returns a T or throws, as a function that returns Expected<T>.
+/// Calls `work`, which returns a T or throws, and returns an Expected<T>.
 template <class Work>
 auto guarded(const std::filesystem::path& file, Work&& work) noexcept -> Expected<decltype(work())> {
   try {
@@ -46,14 +46,14 @@ auto guarded(const std::filesystem::path& file, Work&& work) noexcept -> Expecte
   }
 }
 
-/// The value of `expected`, or its error thrown.
+/// Returns the value of `expected` or throws its error.
 template <class T>
 T take(Expected<T> expected) {
   if (!expected) throw Failure(std::move(expected.error()));
   if constexpr (!std::is_void_v<T>) return std::move(*expected);
 }
 
-/// The same for an error that names no place: thrown, it names `file`.
+/// The same for an error that names no file: if thrown, it names `file`.
 template <class T>
 T take(Expected<T> expected, const std::filesystem::path& file) {
   if (!expected) expected.error().findings.front().where = file.string();

@@ -15,7 +15,7 @@ namespace {
 
 constexpr unsigned kDeflateLevel = 1;
 
-/// The name of the file that an object is in, for messages.
+/// The name of the file that holds an object, for messages.
 std::filesystem::path file_of(hid_t object) {
   char name[4096];
   const ssize_t length = H5Fget_name(object, name, sizeof name);
@@ -26,7 +26,7 @@ std::filesystem::path file_of(hid_t object) {
   throw Failure(Error::Kind::bad_input, file_of(object), "is damaged or not one of Hooke's: " + what);
 }
 
-/// `id`, or Failure.
+/// Returns `id` if valid; otherwise throws Failure.
 hid_t check(hid_t id, hid_t object, const std::string& what) {
   if (id < 0) fail_at(object, what);
   return id;
@@ -60,7 +60,7 @@ Handle::~Handle() {
       H5Tclose(id_);
       break;
     case H5I_BADID:
-      break;  // closed with its file
+      break;  // already closed with its file
     default:
       H5Oclose(id_);
       break;
@@ -244,7 +244,7 @@ template <class Real>
 hsize_t Column::append_chunks(const Real* values, hsize_t count) {
   const hsize_t first = next_chunk(rows_);
   resize(next_chunk(first + count));
-  std::vector<Real> last;  // filled up with zeros
+  std::vector<Real> last;  // padded with zeros
   for (hsize_t start = 0; start < count; start += chunk_rows_) {
     const Real* chunk = values + start * width_;
     if (count - start < chunk_rows_) {
@@ -355,7 +355,7 @@ std::vector<T> read_array(hid_t parent, const char* name, hsize_t width) {
   hsize_t size[2] = {0, 1};
   const int rank = H5Sget_simple_extent_ndims(space.get());
   if (rank == 1 || rank == 2) H5Sget_simple_extent_dims(space.get(), size, nullptr);
-  // A damaged header must not make us ask for more memory than the file could fill.
+  // A damaged header must not make us allocate more memory than the file could fill.
   const hsize_t stored = H5Dget_storage_size(dataset.get());
   if (rank < 1 || rank > 2 || size[1] != width || stored / sizeof(T) / width != size[0]) {
     fail_at(parent, std::string(name) + " is no table of this kind");

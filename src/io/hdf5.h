@@ -16,14 +16,14 @@
 #include "hooke/base/vec3.h"
 #include "hooke/io/journaled_file.h"
 
-// What this library needs of HDF5's C interface. Everything throws Failure; callers hold hdf5::lock() throughout: a
-// run's writer has a thread of its own, and a build of HDF5 need not be one that several threads may use (Debian's is).
+// The part of HDF5's C interface that this library needs. All functions throw Failure. Callers hold hdf5::lock()
+// throughout: a run's writer has its own thread, and HDF5 may be built without thread safety (Debian's is).
 namespace hooke::hdf5 {
 
-/// Sole use of the HDF5 library until it goes out of scope; turns off the library's own printing of errors.
+/// Exclusive use of the HDF5 library while the lock exists; turns off the library's own error messages.
 [[nodiscard]] std::unique_lock<std::recursive_mutex> lock();
 
-/// An HDF5 identifier of any kind that closes itself.
+/// An HDF5 identifier of any kind; closes itself.
 class Handle {
  public:
   Handle() = default;
@@ -40,8 +40,8 @@ class Handle {
   hid_t id_ = H5I_INVALID_HID;
 };
 
-/// An HDF5 file whose bytes go through a JournaledFile, so that a failed write never makes the library stumble: it
-/// shows in commit() or close() alone.
+/// An HDF5 file whose bytes go through a JournaledFile, so that a failed write never disturbs the library: only
+/// commit() or close() reports it.
 class File {
  public:
   File(const std::filesystem::path& path, JournaledFile::Mode mode);
@@ -52,11 +52,11 @@ class File {
   hid_t id() const { return file_.get(); }
   JournaledFile& bytes() { return *bytes_; }
 
-  /// Everything written so far becomes the committed state.
+  /// Makes everything written so far the committed state.
   void commit();
   /// Throws the error of the first write that failed, if one did.
   void check_writes() const;
-  /// Flushes and closes; for files that were written without a commit. The last error, if there was one.
+  /// Flushes and closes; for files written without a commit. Throws the first write error, if there was one.
   void close();
 
  private:
@@ -64,7 +64,7 @@ class File {
   Handle file_;
 };
 
-/// HDF5's type of a number in memory, and in files (the same, little endian).
+/// HDF5's type of a number in memory, and in files (the same type, little endian).
 template <class T>
 hid_t memory_type();
 template <class T>
@@ -74,25 +74,25 @@ hid_t file_type();
 class Column {
  public:
   Column() = default;
-  Column(hid_t parent, const char* name, hsize_t width);  ///< one that is there
-  /// A new one without rows. width 1 makes it one-dimensional. Compressed ones are shuffled and deflated.
+  Column(hid_t parent, const char* name, hsize_t width);  ///< opens an existing dataset
+  /// Creates a dataset without rows. width 1 makes it one-dimensional. Compressed datasets are shuffled and deflated.
   static Column create(hid_t parent, const char* name, hid_t type, hsize_t width, hsize_t chunk_rows, bool compressed);
 
   hsize_t rows() const { return rows_; }
-  /// The first row at or behind `rows` that starts a chunk.
+  /// The first row at or after `rows` that starts a chunk.
   hsize_t next_chunk(hsize_t rows) const;
   void resize(hsize_t rows);
 
-  /// `count` rows from `start` on, within rows(). Of what is to be read a damaged file may hold less: a Failure.
+  /// `count` rows from `start` on, within rows(). Reading throws a Failure where a damaged file holds less.
   void write(hsize_t start, hsize_t count, hid_t type, const void* data);
   void read(hsize_t start, hsize_t count, hid_t type, void* data) const;
 
-  /// Appends rows of floating-point numbers at the next whole chunk, compressed by shuffle_deflate; returns where they
-  /// start. For columns that were made compressed.
+  /// Appends rows of floating-point numbers from the next chunk on, compressed by shuffle_deflate; returns their first
+  /// row. For columns created as compressed.
   template <class Real>
   hsize_t append_chunks(const Real* values, hsize_t count);
 
-  /// Throws the Failure that this table's file is damaged, and how.
+  /// Throws a Failure that says how this table's file is damaged.
   [[noreturn]] void fail(const std::string& how) const;
 
   template <class T>
@@ -122,18 +122,18 @@ Handle open_group(hid_t parent, const char* name);
 bool exists(hid_t parent, const char* name);
 void remove(hid_t parent, const char* name);
 
-/// Scalar or short vector attributes, 64-bit whole numbers or doubles.
+/// Scalar or short vector attributes: 64-bit whole numbers or doubles.
 void write_integer_attribute(hid_t object, const char* name, const std::vector<std::int64_t>& values,
                              bool scalar = false);
 void write_text_attribute(hid_t object, const char* name, const std::string& text);
 std::int64_t read_integer_attribute(hid_t object, const char* name);
 void set_integer_attribute(hid_t object, const char* name, std::int64_t value);
 
-/// One text, a scalar dataset of fixed length.
+/// A single text: a scalar dataset of fixed length.
 void write_text(hid_t parent, const char* name, const std::string& text);
 std::string read_text(hid_t parent, const char* name);
 
-/// A whole array in one piece, not compressed: rows of `width` numbers.
+/// A whole array, contiguous and uncompressed: rows of `width` numbers.
 template <class T>
 void write_array(hid_t parent, const char* name, const T* values, hsize_t rows, hsize_t width = 1);
 template <class T>

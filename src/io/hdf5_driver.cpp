@@ -10,7 +10,7 @@ namespace hooke::hdf5 {
 
 namespace {
 
-/// What HDF5 hands back to each call; its own part comes first.
+/// The file object that HDF5 passes to each call; HDF5's own part comes first.
 struct DriverFile {
   H5FD_t base;
   JournaledFile* bytes;
@@ -19,7 +19,7 @@ struct DriverFile {
 JournaledFile& bytes_of(H5FD_t* file) { return *reinterpret_cast<DriverFile*>(file)->bytes; }
 const JournaledFile& bytes_of(const H5FD_t* file) { return *reinterpret_cast<const DriverFile*>(file)->bytes; }
 
-/// What the file access properties carry; HDF5 copies it byte by byte.
+/// The data of the file access properties; HDF5 copies it byte by byte.
 struct DriverInfo {
   JournaledFile* bytes;
 };
@@ -58,7 +58,7 @@ herr_t read_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t offset, std::size_t s
   return bytes_of(file).read(offset, data, size) == 0 ? 0 : -1;
 }
 
-// Always succeeds: JournaledFile remembers what went wrong, and File says so at a moment when something can be done.
+// Always succeeds: JournaledFile remembers the error, and File reports it when the caller can react.
 herr_t write_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t offset, std::size_t size, const void* data) {
   bytes_of(file).write(offset, data, size);
   return 0;
@@ -96,8 +96,8 @@ Handle access_through(JournaledFile& bytes) {
   static const hid_t driver = register_driver();
   Handle access(H5Pcreate(H5P_FILE_ACCESS));
   const DriverInfo info{&bytes};
-  // The oldest format that can hold the file: its superblock has no "still being written" mark, which would make
-  // other programs refuse the file of a run that was killed.
+  // The oldest format that can hold the file: its superblock has no "still being written" mark, which would make other
+  // programs refuse the file of a killed run.
   if (driver < 0 || H5Pset_driver(access.get(), driver, &info) < 0 ||
       H5Pset_libver_bounds(access.get(), H5F_LIBVER_EARLIEST, H5F_LIBVER_V18) < 0 ||
       H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG) < 0) {

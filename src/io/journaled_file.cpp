@@ -30,8 +30,8 @@ std::uint64_t checksum(const std::vector<std::uint64_t>& words, std::size_t coun
   return hash;
 }
 
-// While a reader holds the file, a commit waits with its changes, but not for ever: a stopped reader must not stop a
-// run. File systems without locks work without.
+// A commit waits with its changes while a reader holds the file, but not for ever: a stopped reader must not stop a
+// run. On file systems without locks it does not wait.
 void lock_against_readers(int fd) {
   for (int tries = 0; tries < 100; ++tries) {
     if (::flock(fd, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
@@ -91,7 +91,7 @@ std::uint64_t JournaledFile::size() const {
   return bytes;
 }
 
-// A journal is words: magic, number of pages, then each page's index and content, then the checksum of all that.
+// A journal consists of words: magic, number of pages, each page's index and content, then the checksum of all these.
 bool JournaledFile::load_journal() {
   const Descriptor journal(::open(journal_path().c_str(), O_RDONLY | O_CLOEXEC));
   struct stat status{};
@@ -174,7 +174,7 @@ void JournaledFile::commit() {
     throw Failure(Error::Kind::io, file_, "can't be written: " + system_message(error_number));
   };
   if (error_) give_up(error_);
-  // What is allocated but was not written yet must be there too: readers take a shorter file for a damaged one.
+  // Bytes allocated but not yet written must exist too: readers consider a shorter file damaged.
   if (size() < end_ && ::ftruncate(fd_.get(), static_cast<off_t>(end_)) != 0) give_up(errno);
   if (!pages_.empty()) {
     if (const int error = write_journal()) {
@@ -193,7 +193,7 @@ void JournaledFile::commit() {
 }
 
 void JournaledFile::trim() {
-  // Best effort: what lies there does no harm but takes space.
+  // Best effort: leftover bytes only take space.
   if (writable()) [[maybe_unused]]
     const int ignored = ::ftruncate(fd_.get(), static_cast<off_t>(committed_end_));
 }

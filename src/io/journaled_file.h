@@ -14,17 +14,17 @@
 
 namespace hooke {
 
-/// A file that changes by whole commits only, whatever moment its writer is killed at.
+/// A file that changes by whole commits only, no matter when its writer is killed.
 ///
-/// What is written behind the committed end goes straight to the file, where nobody looks for it yet. Changes before
-/// that end are kept in memory, by pages, until commit() has put them into a journal beside the file; only then
-/// are they made in place, and the journal removed. Whoever opens the file with a whole journal beside it sees the
-/// journal's pages; an unfinished journal counts as none. A failed write (a full disk) changes nothing either.
+/// Writes behind the committed end go straight to the file, where no reader looks yet. Changes before that end stay in
+/// memory, as pages, until commit() has written them to a journal beside the file; only then does it apply them in
+/// place and remove the journal. A reader that finds a complete journal beside the file sees the journal's pages; an
+/// incomplete journal is ignored. A failed write (a full disk) changes nothing either.
 class JournaledFile {
  public:
   enum class Mode {
-    read,    ///< sees the last commit; holds off the writer's next one until it is closed
-    update,  ///< makes the last commit whole first where its writer was killed in it
+    read,    ///< sees the last commit; while open, delays the writer's next one (about 1 s at most)
+    update,  ///< first completes a commit in which a writer was killed
     create,  ///< a new file; nothing is committed
   };
 
@@ -32,28 +32,28 @@ class JournaledFile {
   JournaledFile(const std::filesystem::path& file, Mode mode);
 
   const std::filesystem::path& path() const { return file_; }
-  /// Tells it that the file, and its journal from now on, has another name.
+  /// Sets the new name of a renamed file; its journal uses that name from now on.
   void set_path(const std::filesystem::path& file) { file_ = file; }
 
   bool writable() const { return mode_ != Mode::read; }
   std::uint64_t size() const;  ///< bytes in the file, committed or not
 
-  /// Past the end there are zeros. 0, or errno.
+  /// Bytes past the end read as zeros. Returns 0 or errno.
   int read(std::uint64_t offset, void* data, std::size_t size);
-  /// Of a file that is writable(), like commit(). The first error stays: from then on writes do nothing, and commit()
+  /// Like commit(), only for a file that is writable(). The first error stays: later writes do nothing, and commit()
   /// fails.
   void write(std::uint64_t offset, const void* data, std::size_t size);
   int write_error() const { return error_; }
 
-  /// Bytes in use, of which the next commit will be.
+  /// The number of bytes in use; the next commit commits these.
   void set_end(std::uint64_t end) { end_ = end; }
   std::uint64_t end() const { return end_; }
 
-  /// All or nothing. Throws Failure.
+  /// Commits all changes or none. Throws Failure.
   void commit();
-  /// Cuts off what lies behind the committed end.
+  /// Cuts off the bytes behind the committed end.
   void trim();
-  /// What is committed survives a power failure too. Throws Failure.
+  /// Makes the committed state survive a power failure too. Throws Failure.
   void sync();
 
  private:
@@ -61,7 +61,7 @@ class JournaledFile {
   using Page = std::array<std::byte, kPageBytes>;
 
   std::filesystem::path journal_path() const;
-  bool load_journal();  // into pages_; false where there is none that is whole
+  bool load_journal();  // into pages_; false without a complete journal
   int write_journal() const;
   int apply_pages() const;
   Page& page(std::uint64_t index);
@@ -69,7 +69,7 @@ class JournaledFile {
   std::filesystem::path file_;
   Mode mode_;
   Descriptor fd_;
-  std::map<std::uint64_t, std::unique_ptr<Page>> pages_;  // by index: changes before the committed end
+  std::map<std::uint64_t, std::unique_ptr<Page>> pages_;  // changed pages before the committed end, by index
   std::uint64_t committed_pages_ = 0;
   std::uint64_t committed_end_ = 0;
   std::uint64_t end_ = 0;

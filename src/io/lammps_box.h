@@ -7,8 +7,8 @@
 
 namespace hooke {
 
-/// A box that LAMMPS loses no particle of: along periodic axes the domain; along others the domain, and whoever has
-/// its centre on its faces or beyond them, wholly. Without a scene, what holds all particles, periodic nowhere.
+/// A box from which LAMMPS loses no particle: the domain, extended along axes that are not periodic to hold the whole
+/// of particles with their centre on a face or beyond. Without a scene, a box around all particles, periodic nowhere.
 Domain lammps_box(const Snapshot& snapshot, const std::vector<MaterialInfo>& materials, const Scene* scene);
 
 }  // namespace hooke

@@ -19,8 +19,8 @@ void append_bytes(std::string& bytes, const T& value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// Wavefront OBJ: positions and normals, as text. A mesh has columns of position, normal and velocity, and faces, each
-/// an array of its corners.
+/// Wavefront OBJ: positions and normals, as text. A mesh has columns of position, normal and velocity, and faces; a
+/// face is an array of corner indices.
 template <class Mesh>
 void write_obj(OutputFile& out, const Snapshot& snapshot, const Mesh& mesh) {
   out.write(fmt::format("# step {}, {} s\no surface\n", snapshot.step, snapshot.time));

@@ -93,7 +93,7 @@ void publish(const std::filesystem::path& file) {
   const Descriptor written(::open(unfinished.c_str(), O_RDONLY | O_CLOEXEC));
   if (!written || ::fsync(written.get()) != 0) give_up(errno);
   if (::rename(unfinished.c_str(), file.c_str()) != 0) give_up(errno);
-  // The new name is on the disk only when its folder is; file systems that can't sync one do it themselves.
+  // The new name is on the disk only when its folder is synced; file systems that can't sync a folder do it themselves.
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   const Descriptor parent(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (parent) ::fsync(parent.get());

@@ -10,7 +10,7 @@
 
 namespace hooke {
 
-/// A file descriptor that closes itself; -1 where there is none.
+/// A file descriptor that closes itself; -1 if none.
 class Descriptor {
  public:
   Descriptor() = default;
@@ -26,33 +26,33 @@ class Descriptor {
   int fd_ = -1;
 };
 
-/// What errno says, in words.
+/// The text for an errno value.
 std::string system_message(int error_number);
 
-/// Writes or reads all of it at `offset`, however many calls that takes; 0, or errno. A read past the end gives zeros.
+/// Writes or reads all bytes at `offset`, in as many calls as needed; 0 or errno. A read past the end gives zeros.
 int write_at(int fd, const void* data, std::size_t size, std::uint64_t offset);
 int read_at(int fd, void* data, std::size_t size, std::uint64_t offset);
 
-/// The size of an open file in bytes, whatever has taken its name since. Throws Failure.
+/// The size of an open file in bytes, even if its name now belongs to another file. Throws Failure.
 std::uint64_t size_of(int fd, const std::filesystem::path& path);
 
-/// The name that a file has while it is being written: beside `file`.
+/// The name of a file while it is being written, beside `file`.
 std::filesystem::path unfinished_name(const std::filesystem::path& file);
 
-/// Makes a finished file, so far called unfinished_name(file), take the place of `file`, synced to the disk. Throws
-/// Failure, and removes it, where that fails.
+/// Syncs a finished file, so far called unfinished_name(file), to the disk and renames it to `file`. On failure removes
+/// it and throws Failure.
 void publish(const std::filesystem::path& file);
 
-/// A text or binary file that appears under its name only when it is whole. Throws Failure.
+/// A text or binary file that appears under its name only when complete. Throws Failure.
 class OutputFile {
  public:
   explicit OutputFile(const std::filesystem::path& file);
-  ~OutputFile();  ///< without finish(), removes what was written
+  ~OutputFile();  ///< without finish(), removes the unfinished file
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
   void write(std::string_view bytes);
-  void finish();  ///< nothing may be written after it
+  void finish();  ///< no writes after this
 
  private:
   void flush();
@@ -63,7 +63,7 @@ class OutputFile {
   std::uint64_t written_ = 0;
 };
 
-/// Appends the shortest digits that read back to the same number, in the number's own type.
+/// Appends the shortest digits that read back to the same number of that type.
 void append_number(std::string& text, float value);
 void append_number(std::string& text, double value);
 void append_number(std::string& text, std::int64_t value);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::int64_t kFormat = 1;
 
-/// Row `row` of a column of whole numbers, or of its first component.
+/// Row `row` of a column of whole numbers; its first component if it has several.
 std::int64_t at(const hdf5::Column& column, hsize_t row) {
   std::int64_t values[4] = {};
   column.read(row, 1, hdf5::memory_type<std::int64_t>(), values);
@@ -28,7 +28,7 @@ std::int64_t at(const hdf5::Column& column, hsize_t row) {
 
 void put(hdf5::Column& column, std::int64_t value) { column.append(std::vector<std::int64_t>{value}); }
 
-/// Appends rows of whole numbers at a whole chunk; returns where they start.
+/// Appends rows of whole numbers from the next chunk on; returns their first row.
 std::int64_t append_rows(hdf5::Column& column, hsize_t count, hid_t type, const void* data) {
   const hsize_t start = column.next_chunk(column.rows());
   column.resize(column.next_chunk(start + count));
@@ -82,7 +82,7 @@ Snapshot read_snapshot(const VtkhdfColumns& columns, std::size_t index) {
   columns.values.read(index, 1, hdf5::memory_type<double>(), &snapshot.time);
   const auto row = [index](const hdf5::Column& offsets) { return static_cast<hsize_t>(at(offsets, index)); };
   const auto n = static_cast<hsize_t>(at(columns.number_of_points, row(columns.part_offsets)));
-  // A damaged count must not make us ask for more memory than there are rows to fill it.
+  // A damaged count must not make us allocate more memory than the rows could fill.
   if (n > columns.points.rows()) columns.points.fail("a snapshot is longer than its table");
   ParticleSet& p = snapshot.particles;
   p.id.resize(n);
@@ -101,18 +101,18 @@ Snapshot read_snapshot(const VtkhdfColumns& columns, std::size_t index) {
 struct ParticlesFile::Columns : VtkhdfColumns {
   explicit Columns(VtkhdfColumns columns) : VtkhdfColumns(std::move(columns)) {}
 
-  // Of the last snapshot: what the next one may point to.
+  // Of the last snapshot: data that the next one may refer to.
   std::vector<std::uint64_t> last_id;
   std::vector<std::uint16_t> last_material;
   std::int64_t last_id_offset = 0, last_material_offset = 0, last_radius_offset = 0;
-  std::int64_t part = -1;        // none yet
+  std::int64_t part = -1;        // -1: none yet
   std::int64_t cell_offset = 0;  // its first vertex
 
   void choose_part(std::int64_t particles);
   void append_identity(const ParticleSet& particles, const RunInfo& info);
 };
 
-// The list of vertices for so many particles: the last one, or a new one.
+// Selects the list of vertices for this many particles: the last one, or a new one.
 void ParticlesFile::Columns::choose_part(std::int64_t particles) {
   const std::int64_t before = part < 0 ? 0 : at(number_of_points, static_cast<hsize_t>(part));
   if (part >= 0 && before == particles) return;
@@ -127,7 +127,7 @@ void ParticlesFile::Columns::choose_part(std::int64_t particles) {
     std::vector<std::int64_t> offsets(static_cast<std::size_t>(cells) + 1);
     std::iota(offsets.begin(), offsets.end(), 0);
     topology.offsets.append(offsets);
-    // Vertex i is particle i in every part: one list, as long as the longest, serves all.
+    // Vertex i is particle i in every part, so one list, as long as the longest part, serves all.
     const auto listed = static_cast<std::int64_t>(topology.connectivity.rows());
     if (listed >= cells) continue;
     std::vector<std::int64_t> connectivity(static_cast<std::size_t>(cells - listed));
@@ -217,7 +217,7 @@ void ParticlesFile::cut(std::size_t snapshots) {
     c.part = at(c.part_offsets, snapshots - 1);
     c.cell_offset = at(c.cell_offsets, snapshots - 1);
   }
-  // Offsets never go back, so the last snapshot's rows are the last that are needed.
+  // Offsets never decrease, so no rows beyond the last snapshot's are needed.
   const auto end_of = [&](const hdf5::Column& column, const hdf5::Column& offsets) {
     return snapshots == 0 ? 0 : column.next_chunk(static_cast<hsize_t>(at(offsets, snapshots - 1)) + particles);
   };
@@ -245,7 +245,7 @@ void ParticlesFile::append(const Snapshot& snapshot) {
     last_step_ = snapshot.step;
   } catch (const std::exception&) {
     file_.bytes().trim();
-    // HDF5 may have stumbled over what is not on the disk; the disk is the cause.
+    // HDF5 may have failed over bytes missing on the disk; then report the disk's error.
     file_.check_writes();
     throw;
   }

@@ -14,17 +14,17 @@
 
 namespace hooke {
 
-/// A .vtp file of VTK: points with data, and cells with data that are all vertices or all lines. Arrays are base64
-/// within the XML: with a recent Expat, ParaView up to 5.12.0 (VTK 9.3.0) can't read data appended behind it.
+/// A .vtp file of VTK: points with data, and cells with data, either all vertices or all lines. Arrays are base64
+/// within the XML: with a recent Expat, ParaView up to 5.12.0 (VTK 9.3.0) can't read data appended after it.
 class PolyDataFile {
  public:
   enum class Cells { vertices, lines };
 
-  /// Every cell takes the next one (vertices) or two (lines) of the points.
+  /// Cell by cell, the points are used in order: one for a vertex, two for a line.
   PolyDataFile(Cells cells, std::size_t point_count, double time);
 
-  /// `values` has `components` numbers a point or cell; a point's vector becomes what VTK's filters take by default. T:
-  /// float, double, std::int64_t, std::uint16_t, std::uint8_t.
+  /// `values` has `components` numbers per point or cell; a vector of the points becomes the default input of VTK's
+  /// filters. T: float, double, std::int64_t, std::uint16_t, std::uint8_t.
   template <class T>
   void add_point_data(const char* name, const std::vector<T>& values, int components = 1) {
     HOOKE_ASSERT(values.size() == point_count_ * static_cast<std::size_t>(components), name, values.size(),
@@ -39,7 +39,7 @@ class PolyDataFile {
                  components);
     cell_data_ += array(name, values, components);
   }
-  /// Three numbers a point, m. Float or double. Before write().
+  /// Three numbers per point, m, float or double. To be called before write().
   template <class T>
   void set_points(const std::vector<T>& values) {
     HOOKE_ASSERT(values.size() == 3 * point_count_, values.size(), point_count_);
@@ -56,10 +56,10 @@ class PolyDataFile {
   std::size_t point_count_;
   double time_;
   std::string point_data_, cell_data_, points_;  // XML
-  std::string vectors_;  // name of the points' vectors
+  std::string vectors_;  // name of the points' vector array
 };
 
-/// The components of vectors, one after the other.
+/// The components of all vectors in one list.
 template <class Real>
 std::vector<Real> flatten(const std::vector<Vec3d>& vectors) {
   std::vector<Real> values;
@@ -70,8 +70,8 @@ std::vector<Real> flatten(const std::vector<Vec3d>& vectors) {
   return values;
 }
 
-/// Calls write(index, file) for each snapshot of the job. A .vtp of one snapshot is that file; else there are one a
-/// snapshot and a .pvd that lists them, which is the first file returned.
+/// Calls write(index, file) for each snapshot of the job. A job of one snapshot writes that .vtp file; a longer one
+/// writes a .vtp per snapshot and a .pvd that lists them, which is the first file returned.
 std::vector<std::filesystem::path> export_polydata(
     const ExportJob& job, const std::function<void(std::size_t, const std::filesystem::path&)>& write);
 

@@ -8,7 +8,7 @@ namespace hooke {
 
 namespace {
 
-constexpr std::size_t kEmitterNumbers = 4;  // a row of whole numbers an emitter
+constexpr std::size_t kEmitterNumbers = 4;  // whole numbers per emitter, one row each
 
 template <class T>
 void write_column(hid_t file, const char* name, const std::vector<T>& column, std::size_t width = 1) {

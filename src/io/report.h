@@ -14,7 +14,7 @@
 
 namespace hooke {
 
-/// What came out of a run: the object that report.json, --report and `bench --json` hold.
+/// The results of a run: the object in report.json, --report and `bench --json`.
 struct RunReport {
   std::string scene;              ///< its name
   std::uint64_t particles = 0;    ///< at the end
@@ -26,36 +26,36 @@ struct RunReport {
   Precision precision = Precision::double_precision;
   int threads = 1;
   std::uint64_t peak_bytes = 0;   ///< largest resident memory so far
-  std::uint64_t program_bytes = 0;  ///< of it, before the scene was read: the program and its libraries; 0 if unknown
+  std::uint64_t program_bytes = 0;  ///< the part in use before the scene was read: program and libraries; 0 if unknown
   std::uint64_t state_hash = 0;
   Measurements measurements;
   Ledger ledger;
   std::vector<std::string> colliders;  ///< names, in the order of Measurements::colliders
   double initial_energy = 0;  ///< kinetic, potential, elastic and springs' at step 0, J
   double integration = 0;  ///< integration_error(), J
-  double momentum_drift = 0;  ///< beyond what gravity, walls, colliders, drag and departures account for, relative
+  double momentum_drift = 0;  ///< not explained by gravity, walls, colliders, drag and departures, relative
   NeighbourStatistics neighbours;
   StageTimes stages;  ///< of those steps
-  std::optional<double> walls;  ///< s, the part of stages.force that walls take, where somebody has measured it
+  std::optional<double> walls;  ///< s, the walls' part of stages.force, where it was measured
 
   double steps_per_second() const { return seconds > 0 ? static_cast<double>(steps) / seconds : 0; }
   double particle_steps_per_second() const { return steps_per_second() * static_cast<double>(particles); }
-  double bytes_per_particle() const;  ///< of peak_bytes, beyond program_bytes; 0 without particles
-  double rest() const { return seconds - stages.total(); }  ///< of `seconds`, in no stage
+  double bytes_per_particle() const;  ///< of peak_bytes without program_bytes; 0 without particles
+  double rest() const { return seconds - stages.total(); }  ///< the part of `seconds` outside all stages
   double contacts_per_particle() const;  ///< 2 contacts / particles
-  double energy_balance() const;  ///< what the ledger leaves unexplained of the change of energy, J
+  double energy_balance() const;  ///< change of energy that the ledger does not explain, J
 };
 
-/// Everything but `steps` and `seconds`, which the caller has timed, and `walls`. `stages` are those of all steps of
+/// Fills all fields but `walls`, `steps` and `seconds`, which the caller has timed. `stages` are those of all steps of
 /// `simulation`.
 RunReport make_report(const Simulation& simulation, const Measurements& measurements);
 
 /// One JSON object, indented, with a line feed at the end. Numbers that are not finite become null. "stages" holds
-/// seconds that add up to "seconds": where walls were measured, "force" is what is left without them, else "walls" is
-/// null and "force" the whole pass.
+/// seconds that add up to "seconds": if walls were measured, "force" excludes them; otherwise "walls" is null and
+/// "force" is the whole pass.
 std::string to_json(const RunReport& report);
 
-/// Writes text beside `file` and renames: at any moment the old text or the new one is there, whole.
+/// Writes text beside `file` and renames: the old or the new text is there at any moment, complete.
 Expected<void> write_text_file(const std::filesystem::path& file, const std::string& text);
 
 /// Largest resident memory of this process so far, bytes.

@@ -29,27 +29,27 @@ inline constexpr const char* kReportFile = "report.json";
 /// Whether `folder` holds files of a run.
 bool holds_run(const std::filesystem::path& folder);
 
-/// Writes a run folder. Snapshots and checkpoints are written by a thread of its own, in the order given; one may
-/// wait while another is written, a third makes the caller wait. What goes wrong there (a full disk) is returned by
-/// the next call and by every one after it; what was complete before stays readable. Not thread-safe.
+/// Writes a run folder. Its own thread writes snapshots and checkpoints, in the order given; one may wait while another
+/// is written, and a third makes the caller wait. An error of the thread (a full disk) is returned by the next call
+/// that queues or waits and by all such calls after it; everything complete before stays readable. Not thread-safe.
 class RunWriter {
  public:
   struct Options {
-    bool overwrite = false;  ///< replaces a run that is there; files of others are left alone
+    bool overwrite = false;  ///< replaces an existing run; other files are left alone
   };
 
-  /// Starts a new run. `scene_json` is the scene as resolved. bad_input where the folder holds a run, io where it
-  /// can't be written; then nothing new is left behind.
+  /// Starts a new run. `scene_json` is the resolved scene. bad_input where the folder already holds a run, io where it
+  /// can't be written; then no new files are left behind.
   static Expected<RunWriter> create(const std::filesystem::path& folder, const RunInfo& info,
                                     const std::string& scene_json, const Options& options);
 
-  /// Goes on in a folder from a checkpoint of `step` (>= 0): snapshots and rows of later steps are cut, and so are
-  /// those of this very step unless it is due by `cadence` (they were there because the run ended), so that the files
-  /// become those of a run that never stopped.
+  /// Continues a run in its folder from a checkpoint of `step` (>= 0). Cuts snapshots and rows of later steps, and
+  /// those of `step` itself unless `cadence` makes it due (they were written because the run ended), so that the files
+  /// become those of an uninterrupted run.
   static Expected<RunWriter> resume(const std::filesystem::path& folder, const RunInfo& info,
                                     const std::string& scene_json, std::int64_t step, const OutputCadence& cadence);
 
-  /// Without finish() before, waits for what is queued and forgets its errors.
+  /// Without finish(), waits for queued items and drops their errors.
   ~RunWriter();
   RunWriter(RunWriter&&) noexcept;
   RunWriter& operator=(RunWriter&&) noexcept;
@@ -58,18 +58,18 @@ class RunWriter {
   std::filesystem::path log_path() const;
   std::filesystem::path checkpoint_path() const;
 
-  /// Queues a snapshot. Steps ascend; a step that has been written already is not written twice.
+  /// Queues a snapshot. Steps must ascend; a step that was already written is not written again.
   Expected<void> write_snapshot(std::shared_ptr<const Snapshot> snapshot);
   Expected<void> write_snapshot(Snapshot snapshot);
-  /// Queues the checkpoint that replaces the one there, after all snapshots queued before it.
+  /// Queues a checkpoint, which replaces the existing one after all snapshots queued before it are written.
   Expected<void> write_checkpoint(SimulationState state);
-  /// Appends a row to series.csv at once. A step that has been written already is not written twice.
+  /// Appends a row to series.csv at once. A step that was already written is not written again.
   Expected<void> write_series(const SeriesRow& row);
   Expected<void> write_report(const RunReport& report);
 
-  /// Waits until everything queued is in its file; the first error, if there was one.
+  /// Waits until everything queued is in its file; returns the first error, if any.
   Expected<void> flush();
-  /// flush(), syncs to the disk and closes. Nothing may be written after it.
+  /// flush(), syncs to the disk and closes. No writes after this.
   Expected<void> finish();
 
  private:
@@ -81,7 +81,7 @@ class RunWriter {
 /// Reads the snapshots of a run, finished, running or killed.
 class RunReader {
  public:
-  /// `run` is a run folder or its particles.vtkhdf. bad_input, and why, where it is missing, no run or damaged.
+  /// `run` is a run folder or its particles.vtkhdf. bad_input, with the reason, where it is missing, no run or damaged.
   static Expected<RunReader> open(const std::filesystem::path& run);
 
   ~RunReader();
@@ -95,7 +95,7 @@ class RunReader {
   std::span<const double> times() const;  ///< s
   std::span<const std::uint64_t> particle_counts() const;
 
-  /// Index of the snapshot of this step, or of the one nearest in time (the earlier of two), where there is one.
+  /// Index of the snapshot of this step, or of the one nearest in time (the earlier of two); empty if there is none.
   std::optional<std::size_t> find_step(std::int64_t step) const;
   std::optional<std::size_t> find_time(double seconds) const;
 

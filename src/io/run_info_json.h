@@ -9,7 +9,7 @@
 
 namespace hooke {
 
-/// A RunInfo as every binary file of a run holds it, and back. Throws Failure, naming `file`.
+/// Converts a RunInfo to the JSON stored in every binary file of a run, and back. Throws Failure that names `file`.
 std::string to_json(const RunInfo& info);
 RunInfo parse_run_info(const std::string& json, const std::filesystem::path& file);
 

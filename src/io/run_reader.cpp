@@ -59,7 +59,7 @@ std::optional<std::size_t> RunReader::find_time(double seconds) const {
   return static_cast<std::size_t>(nearest - times.begin());
 }
 
-// The file is opened anew each time: a run that still goes on changes it meanwhile.
+// Opens the file anew each time, because a run still in progress changes it.
 Expected<Snapshot> RunReader::read(std::size_t index) const {
   HOOKE_ASSERT(index < size(), index, size());
   return guarded(impl_->file, [&] {

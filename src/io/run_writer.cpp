@@ -18,12 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a run leaves in its folder, the snapshots first: they make a folder a run's.
+/// The files of a run, the snapshots first: they mark the folder as a run's.
 constexpr const char* kRunFiles[] = {kParticlesFile, kCheckpointFile, kSeriesFile, kSceneFile, kLogFile, kReportFile};
 
 fs::path journal_of(fs::path file) { return file += ".journal"; }
 
-/// Removes a run's files, those that make it one last: a kill in between leaves a run, not somebody's files.
+/// Removes a run's files, the snapshots last: if killed in between, the folder still counts as a run.
 void remove_run(const fs::path& folder) {
   for (auto name = std::rbegin(kRunFiles); name != std::rend(kRunFiles); ++name) {
     const fs::path file = folder / *name;
@@ -35,7 +35,7 @@ void remove_run(const fs::path& folder) {
   }
 }
 
-/// Makes the folder; returns the outermost folder that was not there before, or nothing.
+/// Creates the folder; returns the outermost folder that had to be created, or nothing.
 fs::path make_folder(const fs::path& folder) {
   std::error_code error;
   fs::path made;
@@ -98,7 +98,7 @@ struct RunWriter::Impl {
         particles.append(**snapshot);
       });
     }
-    // A checkpoint says that all before it is there: so it must not reach the disk before them.
+    // A checkpoint implies that everything before it exists, so it must reach the disk after them.
     Expected<void> synced = guarded(folder / kParticlesFile, [&] {
       particles.sync();
       series.sync();
@@ -141,13 +141,13 @@ struct RunWriter::Impl {
 
   fs::path folder;
   RunInfo info;
-  ParticlesFile particles;  // the thread's own, once it runs
+  ParticlesFile particles;  // used by the thread alone while it runs
   SeriesFile series;
   std::optional<std::int64_t> last_queued;  // step of the last snapshot
 
-  std::mutex mutex;  // of all below
+  std::mutex mutex;  // guards all members below
   std::condition_variable changed;
-  std::deque<Item> queue;  // at most one: another is being written
+  std::deque<Item> queue;  // at most one item waits while another is written
   std::optional<Error> error;
   bool busy = false;
   bool stopping = false;
@@ -186,7 +186,7 @@ Expected<RunWriter> RunWriter::create(const fs::path& folder, const RunInfo& inf
       take(write_text_file(folder / kSceneFile, scene_json));
       return RunWriter(std::make_unique<Impl>(folder, info, std::move(particles), std::move(series)));
     } catch (const std::exception&) {
-      // Nothing half-made stays behind; what made this fail is what gets reported.
+      // Leave nothing half-made behind; the original error is the one reported.
       try {
         remove_run(folder);
       } catch (const Failure&) {}

@@ -11,7 +11,7 @@
 
 namespace hooke {
 
-/// One row of series.csv: the physical figures of one instant.
+/// One row of series.csv: the physical quantities at one instant.
 struct SeriesRow {
   std::int64_t step = 0;
   double time = 0;  ///< s
@@ -21,12 +21,12 @@ struct SeriesRow {
   std::uint64_t rebuilds = 0;  ///< of the neighbour list, since the program started
 };
 
-/// The row of this instant. `measurements` are those of Simulation::measure() now.
+/// The row of the present instant. `measurements` must come from Simulation::measure() now.
 SeriesRow make_series_row(const Simulation& simulation, const Measurements& measurements);
 
 /// The first line of series.csv, and a row as text, both without a line feed. Columns are in SI units; front_x is the
-/// largest x of a centre. For each of the scene's colliders, by name, follow the force and the torque about its pivot
-/// that particles put on it. Numbers are the shortest that read back to the same double.
+/// largest x of a centre. The last columns give for each collider, by name, the force of the particles on it and their
+/// torque about its pivot. Numbers are the shortest that read back to the same double.
 std::string series_header(const std::vector<std::string>& colliders = {});
 std::string to_csv(const SeriesRow& row);
 

@@ -69,7 +69,7 @@ void SeriesFile::append(const SeriesRow& row) {
   if (last_step_ && row.step == *last_step_) return;
   const std::string line = to_csv(row) + '\n';
   if (const int error = write_at(fd_.get(), line.data(), line.size(), size_)) {
-    // Without the half of a row that may be there now.
+    // Removes the part of a row that may have been written.
     [[maybe_unused]] const int ignored = ::ftruncate(fd_.get(), static_cast<off_t>(size_));
     throw Failure(Error::Kind::io, path_, "can't be written: " + system_message(error));
   }

@@ -11,15 +11,15 @@
 
 namespace hooke {
 
-/// series.csv, written row by row: whatever happens, it ends with a whole row. Throws Failure.
+/// series.csv, written row by row; it always ends with a whole row. Throws Failure.
 class SeriesFile {
  public:
   /// `header`: series_header() of the run.
   static SeriesFile create(const std::filesystem::path& path, const std::string& header);
-  /// One that is there, or a new one; cut before the first row of a step >= end_step.
+  /// Opens an existing file, or creates one; cuts it before the first row of a step >= end_step.
   static SeriesFile update(const std::filesystem::path& path, const std::string& header, std::int64_t end_step);
 
-  /// Rows ascend by step; a step that is there already is not written twice.
+  /// Steps must ascend; a row whose step is already there is not written again.
   void append(const SeriesRow& row);
   void sync();
 

@@ -14,7 +14,7 @@ namespace hooke {
 
 namespace {
 
-/// Whether Huffman codes alone would save a twentieth; looks at some of the bytes.
+/// Whether Huffman codes alone would save a twentieth; samples some of the bytes.
 bool is_compressible(const std::string& bytes, std::size_t begin, std::size_t size) {
   constexpr std::size_t kSamples = 8192;
   const std::size_t stride = size / kSamples + 1;
@@ -56,7 +56,7 @@ std::string shuffle_deflate(const void* data, std::size_t count, std::size_t ele
 
   Deflate deflater;
   z_stream& stream = deflater.stream();
-  // Room for every change of level too, each of which ends a block.
+  // Room for every change of level too, because each one ends a block.
   std::string out(deflateBound(&stream, static_cast<uLong>(planes.size())) + 64 * element_size + 64, '\0');
   stream.next_out = reinterpret_cast<Bytef*>(out.data());
   stream.avail_out = static_cast<uInt>(out.size());

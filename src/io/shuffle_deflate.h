@@ -7,9 +7,9 @@
 
 namespace hooke {
 
-/// What HDF5's shuffle and deflate filters make of `count` elements of `element_size` bytes, or another stream that
-/// they undo just so. HDF5 by itself spends most of its time on the low bytes of a mantissa, which are noise: bytes
-/// that are too evenly spread to become smaller are stored as they are. Throws Failure when memory runs out.
+/// The output of HDF5's shuffle and deflate filters for `count` elements of `element_size` bytes, or another stream
+/// that they decode to the same data. HDF5 itself spends most of its time on the low bytes of mantissas, which are
+/// noise: here, bytes too evenly spread to be compressed are stored as they are. Throws Failure when memory runs out.
 std::string shuffle_deflate(const void* data, std::size_t count, std::size_t element_size);
 
 }  // namespace hooke

@@ -13,7 +13,7 @@
 
 namespace hooke {
 
-/// What files keep of a material.
+/// The properties of a material that files keep.
 struct MaterialInfo {
   std::string name;
   double radius = 0;  ///< m
@@ -22,22 +22,22 @@ struct MaterialInfo {
   friend bool operator==(const MaterialInfo&, const MaterialInfo&) = default;
 };
 
-/// The radius of each, m.
+/// The radius of each material, m.
 std::vector<double> radii(const std::vector<MaterialInfo>& materials);
 
-/// What every file of a run says about the run it belongs to.
+/// The description of its run in every file of a run.
 struct RunInfo {
   std::string scene;      ///< Scene::name
   double time_step = 0;   ///< dt, s
   Integrator integrator = Integrator::symplectic_euler;
-  Precision precision = Precision::single_precision;  ///< that the back end computed in
-  std::vector<MaterialInfo> materials;                ///< ParticleSet::material counts in these
+  Precision precision = Precision::single_precision;  ///< in which the back end computed
+  std::vector<MaterialInfo> materials;                ///< ParticleSet::material is an index into these
   std::vector<std::string> colliders{};               ///< their names
 
   friend bool operator==(const RunInfo&, const RunInfo&) = default;
 };
 
-/// What files will say about a run of `scene` in this precision (that of BackendInfo).
+/// The description of a run of `scene` in this precision (that of BackendInfo).
 RunInfo describe_run(const Scene& scene, Precision precision);
 RunInfo describe_run(const Simulation& simulation);
 

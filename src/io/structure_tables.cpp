@@ -10,7 +10,7 @@ namespace hooke {
 
 namespace {
 
-/// The springs' columns, by the names of their tables.
+/// The springs' columns with the names of their tables.
 template <class Springs, class Visit>
 void for_each_column(Springs& springs, Visit&& visit) {
   visit("spring_a", springs.a);

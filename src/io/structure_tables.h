@@ -10,11 +10,10 @@
 
 namespace hooke {
 
-/// Writes a scene's structure and what of a state belongs to it into an HDF5 file; nothing where there is no structure.
-/// Throws Failure.
+/// Writes a scene's structure and its part of the state into an HDF5 file; nothing without a structure. Throws Failure.
 void write_structure(hid_t file, const SimulationState& state);
 
-/// Reads them back into `state`; its structure stays null where the file has none. Throws Failure.
+/// Reads these tables into `state`; its structure stays null where the file has none. Throws Failure.
 void read_structure(hid_t file, const std::filesystem::path& path, SimulationState& state);
 
 }  // namespace hooke

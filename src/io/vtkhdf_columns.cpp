@@ -8,11 +8,11 @@ namespace hooke {
 
 namespace {
 
-constexpr hsize_t kMostRows = 65536;   // of a chunk of particles: 0.8 to 1.6 MB of positions
+constexpr hsize_t kMostRows = 65536;   // rows of a chunk of particles: 0.8 to 1.6 MB of positions
 constexpr hsize_t kFewestRows = 1024;
-constexpr hsize_t kTableRows = 256;    // of a chunk of a table by step or part
+constexpr hsize_t kTableRows = 256;    // rows of a chunk of a table by step or part
 
-// Snapshots start at whole chunks: so many rows that little is left over in the last one.
+// Snapshots start at whole chunks: chooses a chunk size that leaves little unused in the last one.
 hsize_t chunk_rows_for(hsize_t particles) {
   const hsize_t chunks = std::max<hsize_t>((particles + kMostRows - 1) / kMostRows, 1);
   return std::max((particles + chunks - 1) / chunks, kFewestRows);

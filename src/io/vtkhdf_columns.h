@@ -11,11 +11,11 @@
 
 namespace hooke {
 
-/// Groups of a particles.vtkhdf: what VTK reads, and what it ignores.
+/// Groups of a particles.vtkhdf: the one that VTK reads and the one that it ignores.
 inline constexpr const char* kVtkGroup = "VTKHDF";
 inline constexpr const char* kHookeGroup = "Hooke";
 
-/// One kind of cell of a PolyData. Particles are Vertices; the others must be there and stay empty.
+/// One kind of cell of a PolyData. Particles are Vertices; the other kinds must exist and stay empty.
 struct VtkTopology {
   hdf5::Column number_of_cells, number_of_connectivity_ids, offsets, connectivity;
 };
@@ -24,17 +24,17 @@ struct VtkTopology {
 struct VtkhdfColumns {
   static constexpr std::array<const char*, 4> kTopologies{"Vertices", "Lines", "Polygons", "Strips"};
 
-  // By particle: a snapshot's rows are together.
+  // By particle: the rows of a snapshot are contiguous.
   hdf5::Column points, velocity, id, material, radius;
-  // By part: a number of particles and its list of vertices, which snapshots share.
+  // By part: a number of particles and its list of vertices, shared by snapshots.
   hdf5::Column number_of_points;
   std::array<VtkTopology, 4> topologies;
-  // By step: where its rows are.
+  // By step: the position of its rows.
   hdf5::Column values, part_offsets, number_of_parts, point_offsets, cell_offsets, connectivity_offsets;
   hdf5::Column velocity_offsets, id_offsets, material_offsets, radius_offsets;
   hdf5::Column step;  // Hooke's own: the step number
 
-  /// Makes them, empty, in chunks that suit snapshots of so many particles.
+  /// Creates empty tables, with chunks that suit snapshots of this many particles.
   static VtkhdfColumns create(hid_t file, std::size_t particles, Precision precision);
   static VtkhdfColumns open(hid_t file);
 

@@ -13,8 +13,8 @@
 
 namespace hooke {
 
-/// Writes `count` rows in their order; append(text, i) appends row `i`. Rows are made by all threads at once, some
-/// megabytes at a time: turning numbers into digits is what text formats take their time for.
+/// Writes `count` rows in order; append(text, i) appends row `i`. All threads make rows at once, some megabytes at a
+/// time, because turning numbers into digits takes most of the time of text formats.
 template <class Append>
 void write_rows(OutputFile& out, std::size_t count, const Append& append) {
   constexpr std::size_t kGrain = 2048;
@@ -29,7 +29,7 @@ void write_rows(OutputFile& out, std::size_t count, const Append& append) {
   }
 }
 
-/// A name as a CSV field: quoted where it must be.
+/// A name as a CSV field, quoted if necessary.
 inline std::string csv_field(const std::string& name) {
   if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
   std::string quoted = "\"";
@@ -37,7 +37,7 @@ inline std::string csv_field(const std::string& name) {
   return quoted + '"';
 }
 
-/// "x y z" with another separator if need be, rounded to Real.
+/// "x y z" with the given separator, rounded to Real.
 template <class Real>
 void append_vector(std::string& text, const Vec3d& v, const char* separator = " ") {
   append_number(text, static_cast<Real>(v.x));
