@@ -47,7 +47,7 @@ void FieldBlocks::add(const Coordinates& at, std::size_t n, std::span<const std:
                       Sums<kValues>& sums) const {
   const std::size_t particle = order_[n];
   const double reach = reach_[particle] / voxel_;
-  // In voxels from the block's first one.
+  // In voxels from the block's first voxel.
   const auto from_corner = [&](int axis) {
     return component(position_[particle], axis) / voxel_ - double{kEdge} * at[static_cast<std::size_t>(axis)];
   };

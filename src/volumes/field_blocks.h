@@ -15,10 +15,10 @@
 
 namespace hooke {
 
-/// What particles add up to on a lattice of voxels, block by block: each particle adds to every voxel within its reach
-/// the weight w = (1 - d^2 / reach^2)^3, d (m) its distance from the voxel's centre, and w times each of its values.
-/// Voxel (i, j, k) has its centre at (i, j, k) * edge of a voxel. Blocks are 8 x 8 x 8 voxels, k fastest: OpenVDB's
-/// leaves. All blocks are worked on at once; the sums do not depend on the number of threads.
+/// Sums over particles on a lattice of voxels, block by block. To every voxel within its reach, a particle adds the
+/// weight w = (1 - d^2 / reach^2)^3, d (m) its distance from the voxel's centre, and w times each of its values. Voxel
+/// (i, j, k) has its centre at (i, j, k) * edge of a voxel. Blocks are 8 x 8 x 8 voxels, k fastest: OpenVDB's leaves.
+/// Threads work on all blocks at once; the sums do not depend on the number of threads.
 class FieldBlocks {
  public:
   static constexpr int kEdge = 8;
@@ -32,7 +32,7 @@ class FieldBlocks {
     std::array<std::array<float, kVoxels>, kValues> value;
   };
 
-  /// The coordinates, in blocks, of what is at `x`; nothing where that is beyond kMaxBlock.
+  /// The coordinates, in blocks, of the block at `x`; empty where they exceed kMaxBlock.
   static std::optional<Coordinates> block_at(const Vec3d& x, double voxel) {
     Coordinates at{};
     for (int axis = 0; axis < 3; ++axis) {
@@ -43,23 +43,23 @@ class FieldBlocks {
     return at;
   }
 
-  /// Every position within kMaxBlock; reach (m, > 0) at most 32 blocks.
+  /// All positions must be within kMaxBlock, and reach (m, > 0) at most 32 blocks.
   FieldBlocks(std::span<const Vec3d> position, std::span<const double> reach, double voxel);
 
-  /// Blocks that a particle may reach, by their keys.
+  /// Number of blocks that a particle may reach, sorted by their keys.
   std::size_t size() const { return blocks_.size(); }
   Coordinates coordinates(std::size_t block) const { return coordinates_of(blocks_[block]); }
-  /// Index of the block at these coordinates, if there is one.
+  /// Index of the block at these coordinates; empty if there is none.
   std::optional<std::size_t> find(const Coordinates& at) const;
 
-  /// use(block, sums) for each of `chosen` (indices below size(), ascending), on all threads. `values` has an entry a
-  /// particle.
+  /// Calls use(block, sums) for each of `chosen` (indices below size(), ascending), on all threads. `values` has one
+  /// entry per particle.
   template <std::size_t kValues>
   void sum(std::span<const std::size_t> chosen, std::span<const std::array<float, kValues>> values,
            const std::function<void(std::size_t, const Sums<kValues>&)>& use) const;
 
  private:
-  // 21 bits an axis, z fastest: a row of blocks along z is one range of keys.
+  // 21 bits per axis, z fastest: a row of blocks along z is one range of keys.
   static constexpr std::int32_t kOffset = 1 << 20;
   static std::uint64_t key_of(const Coordinates& at) {
     const auto bits = [](std::int32_t c) { return static_cast<std::uint64_t>(c + kOffset); };
@@ -79,9 +79,9 @@ class FieldBlocks {
   std::span<const Vec3d> position_;
   std::span<const double> reach_;
   double voxel_;
-  std::int32_t halo_ = 1;  // as many blocks away a particle may be that reaches into a block
-  std::vector<std::uint64_t> keys_;  // of the blocks that particles are in, ascending
-  std::vector<std::uint32_t> order_;  // whose they are
+  std::int32_t halo_ = 1;  // blocks: the distance at which a particle may still reach into a block
+  std::vector<std::uint64_t> keys_;  // of the blocks that hold particles, ascending
+  std::vector<std::uint32_t> order_;  // particle of each key
   std::vector<std::uint64_t> blocks_;  // keys, ascending
 };
 

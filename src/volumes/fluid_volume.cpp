@@ -38,7 +38,7 @@ openvdb::Coord corner(const FieldBlocks::Coordinates& at) {
   return {at[0] * FieldBlocks::kEdge, at[1] * FieldBlocks::kEdge, at[2] * FieldBlocks::kEdge};
 }
 
-// The blocks that the surface passes through or between, and those around them.
+// The blocks that the surface passes through or between, and their neighbours.
 std::vector<std::size_t> surface_blocks(const FieldBlocks& blocks, float threshold) {
   enum Side : std::uint8_t { outside = 1, inside = 2, both = 3 };
   std::vector<std::uint8_t> side(blocks.size());
@@ -50,7 +50,7 @@ std::vector<std::size_t> surface_blocks(const FieldBlocks& blocks, float thresho
     side[b] = static_cast<std::uint8_t>(found);
   });
 
-  const auto with_neighbours = [&](std::size_t b, const auto& visit) {  // what no particle reaches is outside
+  const auto with_neighbours = [&](std::size_t b, const auto& visit) {  // a missing block is outside
     const FieldBlocks::Coordinates at = blocks.coordinates(b);
     for (std::int32_t x = -1; x <= 1; ++x) {
       for (std::int32_t y = -1; y <= 1; ++y) {
@@ -60,7 +60,7 @@ std::vector<std::size_t> surface_blocks(const FieldBlocks& blocks, float thresho
   };
   std::vector<std::uint8_t> chosen(blocks.size());
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    if (side[b] == outside) continue;  // its inner neighbours look after it
+    if (side[b] == outside) continue;  // its neighbours with voxels inside take care of it
     unsigned around = 0;
     with_neighbours(b, [&](std::optional<std::size_t> n) { around |= n ? side[*n] : std::uint8_t{outside}; });
     if (around != both) continue;
@@ -100,10 +100,10 @@ Expected<FluidVolume> FluidVolume::create(const ParticleSet& particles, std::spa
   return fluid;
 }
 
-// A lone particle's weight is w(d) = (1 - d^2 / reach^2)^3, and d - R the distance to its sphere. So the sum S of all
-// weights stands for a particle at the distance w^-1(S), with the mean R by weight: the surface is where
-// S = w(R), which for one particle is exactly its sphere, and a smooth skin around many (soft objects: Wyvill,
-// McPheeters, Wyvill, "Data structure for soft objects", The Visual Computer 2, 1986).
+// The weight of a lone particle is w(d) = (1 - d^2 / reach^2)^3, and d - R is the distance to its sphere. So the sum S
+// of all weights stands for one particle at the distance w^-1(S), with the weighted mean of R. The surface is where S =
+// w(R): for one particle exactly its sphere, and a smooth skin around many (soft objects: Wyvill, McPheeters, Wyvill,
+// "Data structure for soft objects", The Visual Computer 2, 1986).
 openvdb::FloatGrid::Ptr FluidVolume::surface_field() const {
   const auto ratio = static_cast<float>(reach_ratio_);
   const float at_surface = 1 - 1 / (ratio * ratio);
@@ -117,7 +117,7 @@ openvdb::FloatGrid::Ptr FluidVolume::surface_field() const {
   blocks.sum<1>(chosen, sphere_, [&](std::size_t b, const FieldBlocks::Sums<1>& sums) {
     for (std::size_t v = 0; v < FieldBlocks::kVoxels; ++v) {
       const float weight = sums.weight[v];
-      const float squared = 1 - std::cbrt(weight);  // (d / reach)^2, below 0 where particles crowd
+      const float squared = 1 - std::cbrt(weight);  // (d / reach)^2, below 0 where particles are crowded
       const float distance = squared > 0 ? ratio * std::sqrt(squared) : 0;
       const float radius = weight > 0 ? sums.value[0][v] / weight : background;
       leaf[b]->setValueOn(static_cast<openvdb::Index>(v), weight > 0 ? radius * (distance - 1) : background);
@@ -135,7 +135,7 @@ openvdb::FloatGrid::Ptr FluidVolume::level_set() const {
   field->topologyIntersection(*band);
   openvdb::FloatGrid::Ptr grid = openvdb::tools::sdfToSdf(*field);
 
-  // Beyond the band everything is the background.
+  // Voxels beyond the band become background.
   const float background = kBand * static_cast<float>(voxel_);
   openvdb::tree::LeafManager<openvdb::FloatTree> leaves(grid->tree());
   leaves.foreach ([background](openvdb::FloatTree::LeafNodeType& leaf, std::size_t) {
@@ -162,7 +162,7 @@ openvdb::Vec3SGrid::Ptr FluidVolume::velocity() const {
   grid->setTransform(openvdb::math::Transform::createLinearTransform(voxel));
   grid->setVectorType(openvdb::VEC_CONTRAVARIANT_RELATIVE);
 
-  std::vector<double> reach(reach_);  // one voxel beyond the surface, at least
+  std::vector<double> reach(reach_);  // at least one voxel beyond the surface
   for (double& r : reach) r = std::max(r, r / reach_ratio_ + 2 * voxel);
   std::vector<std::array<float, 3>> velocity;
   velocity.reserve(particles_.size());

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// For this library's own sources: OpenVDB's headers compile slowly.
+// Only for this library's own sources, because OpenVDB's headers compile slowly.
 #include <openvdb/openvdb.h>
 
 #include <array>
@@ -15,23 +15,23 @@
 
 namespace hooke {
 
-/// Particles as one fluid, on grids of OpenVDB: SurfaceOptions say where its surface is. Lengths are in m, and voxel
-/// (0, 0, 0) of every grid has its centre at the origin, so that the files of a run fit onto each other.
+/// Particles as one fluid, on OpenVDB grids: SurfaceOptions define the fluid's surface. Lengths are in m. Voxel (0, 0,
+/// 0) of every grid has its centre at the origin, so that the grids of a run's files coincide.
 class FluidVolume {
  public:
-  /// `radius` (m) is that of each material; the particles are kept by reference. An error (bad_input), which names no
-  /// place, where the options are out of range or particles are too far away.
+  /// `radius` (m) has an entry per material; the particles are kept by reference. An error (bad_input) that names no
+  /// file where the options are out of range or particles are too far away.
   static Expected<FluidVolume> create(const ParticleSet& particles, std::span<const double> radius,
                                       const SurfaceOptions& options);
 
-  /// About the distance to the surface, negative inside: exact where it is 0, and in blocks around that only.
+  /// Approximate distance to the surface, negative inside: exact where it is 0; only in blocks around the surface.
   openvdb::FloatGrid::Ptr surface_field() const;
-  /// The distance to the surface, negative inside, within three voxels of it: a level set by OpenVDB's book.
+  /// The distance to the surface, negative inside, within three voxels of it: a level set as OpenVDB defines it.
   openvdb::FloatGrid::Ptr level_set() const;
-  /// The fog in it: 1 inside, falling to 0 at the surface.
+  /// Makes a fog volume of a level set: 1 inside, falling to 0 at the surface.
   static openvdb::FloatGrid::Ptr fog(const openvdb::FloatGrid& level_set);
-  /// The velocity (m/s) of the particles around each voxel, the mean by weight, out to beyond the surface. Its voxels
-  /// are a radius of the smallest particle wide, or as wide as the surface's where those are wider.
+  /// The velocity (m/s) around each voxel, the weighted mean over its particles, out to beyond the surface. A voxel is
+  /// as wide as the radius of the smallest particle, or as the surface's voxels where those are wider.
   openvdb::Vec3SGrid::Ptr velocity() const;
 
  private:
@@ -40,7 +40,7 @@ class FluidVolume {
   const ParticleSet& particles_;
   double voxel_ = 0;  // m
   double smallest_ = 0;  // radius, m
-  double reach_ratio_ = 0;  // of a particle's reach to the radius of its sphere
+  double reach_ratio_ = 0;  // a particle's reach / the radius of its sphere
   std::vector<double> reach_;  // m, of each particle
   std::vector<std::array<float, 1>> sphere_;  // m, radius of each particle's sphere
 };

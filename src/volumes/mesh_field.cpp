@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kCells = DistanceFieldView::kCells, kSamples = DistanceFieldView::kSamples;
 
-// The mesh as OpenVDB asks for it, in cells.
+// The mesh in the interface that OpenVDB expects, in units of cells.
 class CellMesh {
  public:
   CellMesh(const TriangleMesh& mesh, double cell) : mesh_(mesh), per_cell_(1 / cell) {}
@@ -37,7 +37,7 @@ class CellMesh {
   double per_cell_;
 };
 
-// Bricks lie as the leaves of the grid do; a leaf's first samples are also the last ones of the brick before.
+// Bricks coincide with the leaves of the grid; a leaf's first samples are also the last ones of the brick before.
 class BrickLayout {
  public:
   explicit BrickLayout(const openvdb::FloatGrid& grid) {
@@ -72,7 +72,7 @@ class BrickLayout {
   int first_[3], count_[3];
 };
 
-// The bricks that hold a sample of some leaf, in ascending order.
+// The bricks that hold a sample of a leaf, in ascending order.
 std::vector<std::size_t> bricks_in_use(const openvdb::FloatGrid& grid, const BrickLayout& layout) {
   std::vector<std::size_t> used;
   for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
@@ -90,7 +90,7 @@ std::vector<std::size_t> bricks_in_use(const openvdb::FloatGrid& grid, const Bri
   return used;
 }
 
-// Marks bricks without samples that are inside of the mesh.
+// Marks bricks without samples that lie inside the mesh.
 void mark_inside(const openvdb::FloatGrid& grid, const BrickLayout& layout, std::vector<std::int32_t>& directory) {
   parallel_ranges(directory.size(), 256, [&](std::size_t first, std::size_t last) {
     const auto values = grid.getConstAccessor();
@@ -123,8 +123,8 @@ void fill_samples(const openvdb::FloatGrid& grid, const BrickLayout& layout, con
 
 DistanceField field_around(const TriangleMesh& mesh, const FieldOptions& options) {
   const CellMesh cells(mesh, options.cell);
-  // Distances in cells; three more than asked for, so that all corners of a cell that reaches so far, and of those
-  // around it, are there.
+  // Distances in cells; three more than asked for, so that all corners exist for a cell at that distance and for its
+  // neighbours.
   const auto outside = static_cast<float>(std::ceil(options.reach / options.cell) + 3);
   const float inside = options.closed ? 3 * outside : outside;
   const int flags = options.closed ? 0 : openvdb::tools::UNSIGNED_DISTANCE_FIELD;

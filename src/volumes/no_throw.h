@@ -9,7 +9,7 @@
 
 namespace hooke {
 
-/// Calls `work`, which returns an Expected. What it throws becomes the error: OpenVDB reports by exceptions.
+/// Calls `work`, which returns an Expected, and turns exceptions into errors: OpenVDB reports errors by exceptions.
 template <class Work>
 auto no_throw(const Work& work) noexcept -> decltype(work()) {
   try {

@@ -4,8 +4,8 @@
 
 namespace hooke {
 
-/// Whether OpenVDB is in this build (HOOKE_WITH_OPENVDB). Without it there are no distance fields of meshes, no
-/// surfaces and no files of OpenVDB: what makes them returns an error that says so.
+/// Whether this build includes OpenVDB (HOOKE_WITH_OPENVDB). Without it, the functions that make distance fields of
+/// meshes, surfaces and OpenVDB files return an error that says so.
 bool has_openvdb();
 
 }  // namespace hooke

@@ -16,7 +16,7 @@ namespace hooke {
 
 namespace {
 
-constexpr std::size_t kGrain = 4096;  // vertices a piece of work
+constexpr std::size_t kGrain = 4096;  // vertices per piece of work
 
 Vec3f to_vec3f(const openvdb::Vec3s& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -24,7 +24,7 @@ Vec3f cross(const Vec3f& a, const Vec3f& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// The mean of the faces around each vertex, by area.
+// The area-weighted mean of the faces around each vertex.
 std::vector<Vec3f> vertex_normals(const SurfaceMesh& mesh) {
   std::vector<Vec3f> normals(mesh.position.size(), Vec3f{0, 0, 0});
   for (const auto& f : mesh.face) {
@@ -46,7 +46,7 @@ SurfaceMesh mesh_of(const FluidVolume& fluid) {
 
   SurfaceMesh mesh;
   mesh.face.reserve(quads.size());
-  for (const openvdb::Vec4I& q : quads) mesh.face.push_back({q[3], q[2], q[1], q[0]});  // OpenVDB's are clockwise
+  for (const openvdb::Vec4I& q : quads) mesh.face.push_back({q[3], q[2], q[1], q[0]});  // OpenVDB's faces are clockwise
   mesh.position.resize(points.size());
   mesh.velocity.resize(points.size());
   const openvdb::Vec3SGrid::ConstPtr velocity = fluid.velocity();

@@ -18,12 +18,12 @@ namespace hooke {
 struct SurfaceMesh {
   std::vector<Vec3f> position;  ///< m
   std::vector<Vec3f> normal;    ///< unit vector, outward
-  std::vector<Vec3f> velocity;  ///< m/s, of the fluid there
-  std::vector<std::array<std::uint32_t, 4>> face;  ///< its corners, counterclockwise from outside
+  std::vector<Vec3f> velocity;  ///< m/s, of the fluid at the vertex
+  std::vector<std::array<std::uint32_t, 4>> face;  ///< corners, counterclockwise from outside
 };
 
-/// The surface around particles, as the options draw it; `radius` (m) is that of each material. An error, which names
-/// no place, where the options are out of range or particles too far away.
+/// The surface around particles, drawn with the options; `radius` (m) has an entry per material. An error that names no
+/// file where the options are out of range or particles are too far away.
 Expected<SurfaceMesh> make_surface_mesh(const ParticleSet& particles, std::span<const double> radius,
                                         const SurfaceOptions& options);
 

@@ -34,7 +34,7 @@ Expected<void> write_file(openvdb::GridPtrVec grids, const VdbInstant& instant, 
   return {};
 }
 
-/// Gives every point of the grid a value, by the index that it has in the set.
+/// Gives every point of the grid the value of its index in the set.
 template <class Value, class Get>
 void add_attribute(points::PointDataGrid& grid, const openvdb::tools::PointIndexGrid& index, const char* name,
                    std::size_t count, const Get& get) {

@@ -13,23 +13,23 @@
 
 namespace hooke {
 
-/// What every grid of a file says of the instant it shows.
+/// The description of the instant in every grid of a file.
 struct VdbInstant {
   std::int64_t step = 0;
   double time = 0;  ///< s
 };
 
-// Files of OpenVDB. `radius` (m) is that of each material. Errors name no place; where a file could not be written,
-// nothing of it is left.
+// OpenVDB files. `radius` (m) has an entry per material. Errors name no file; if a file can't be written, no part of it
+// is left.
 
-/// Particles as a grid of points, "particles", with attributes by Houdini's names: id, v (m/s), pscale (radius, m),
-/// material, an index into `material_names`, which the grid's metadata "materials" holds as it is.
+/// Particles as a grid of points, "particles", with Houdini's names of attributes: id, v (m/s), pscale (radius, m), and
+/// material, an index into `material_names`, which the grid's metadata "materials" holds unchanged.
 Expected<void> write_vdb_points(const ParticleSet& particles, std::span<const double> radius,
                                 const std::string& material_names, const VdbInstant& instant,
                                 const std::filesystem::path& file);
 
-/// The fluid that the particles are: "density" (fog: 1 inside, falling to 0 at the surface), "surface" (level set, m,
-/// negative inside) and "vel" (m/s). An error too where the options are out of range or particles too far away.
+/// The fluid of the particles: "density" (fog: 1 inside, falling to 0 at the surface), "surface" (level set, m,
+/// negative inside) and "vel" (m/s). Also an error where the options are out of range or particles are too far away.
 Expected<void> write_vdb_volume(const ParticleSet& particles, std::span<const double> radius,
                                 const SurfaceOptions& options, const VdbInstant& instant,
                                 const std::filesystem::path& file);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// All that needs OpenVDB, for a build that has none.
+// Replaces everything that needs OpenVDB in a build without it.
 #include "hooke/volumes/mesh_field.h"
 #include "hooke/volumes/openvdb_support.h"
 #include "hooke/volumes/surface_mesh.h"
