@@ -23,7 +23,7 @@
 namespace hooke::cli {
 namespace {
 
-// Momentum that nothing accounts for, relative: far above rounding, far below any fault.
+// Unexplained momentum, relative: far above rounding, far below any fault.
 constexpr double kDriftSingle = 1e-4;
 constexpr double kDriftDouble = 1e-10;
 
@@ -37,7 +37,7 @@ void check_domain(const Scene& scene, const Measurements& now, std::vector<Findi
   for (int axis = 0; axis < 3; ++axis) {
     const Boundary boundary = scene.domain.boundary[static_cast<std::size_t>(axis)];
     if (now.particles == 0 || boundary == Boundary::open) continue;
-    // Walls are springs: a centre may stand behind one, but by less than a radius.
+    // Walls are springs: a centre may be behind a wall, but by less than a radius.
     const double room = boundary == Boundary::spring ? largest_radius(scene) : 0;
     const double low = component(now.min, axis);
     const double high = component(now.max, axis);
@@ -50,7 +50,7 @@ void check_domain(const Scene& scene, const Measurements& now, std::vector<Findi
   }
 }
 
-// What makes the figures of a run worthless: a speed is only worth printing for steps that were right.
+// Faults that make the results of a run worthless: a speed is only worth printing for correct steps.
 std::vector<Finding> find_faults(const Simulation& simulation, const RunReport& report, std::uint64_t particles_before,
                                  std::uint64_t removed_before) {
   std::vector<Finding> faults;
@@ -79,14 +79,14 @@ std::vector<Finding> find_faults(const Simulation& simulation, const RunReport& 
   return faults;
 }
 
-// What the force pass of the next step takes, s.
+// Time of the next step's force pass, s.
 std::optional<double> time_force_pass(Simulation& simulation) {
   const double before = simulation.stage_times().force;
   if (auto stepped = simulation.step(); !stepped) return {};
   return simulation.stage_times().force - before;
 }
 
-// The scene with open faces far away in place of its walls.
+// The scene with open, distant faces instead of walls.
 Scene without_walls(Scene scene) {
   for (int axis = 0; axis < 3; ++axis) {
     Boundary& boundary = scene.domain.boundary[static_cast<std::size_t>(axis)];
@@ -99,8 +99,8 @@ Scene without_walls(Scene scene) {
   return scene;
 }
 
-// The share of the force pass that walls take. They are fused into it: so a few passes go on from where the run has
-// ended, with walls and without, in turns. Nothing where such a pass can't be had, or would need much memory.
+// The walls' share of the force pass. Walls are fused into it, so a few more passes run from the end of the run, with
+// walls and without in turns. Empty where such a pass can't be had or would need much memory.
 std::optional<double> share_of_walls(Simulation& simulation, const DeviceArguments& device) {
   constexpr std::size_t kPasses = 9;
   constexpr std::uint64_t kMostParticles = 10'000'000;
@@ -110,7 +110,7 @@ std::optional<double> share_of_walls(Simulation& simulation, const DeviceArgumen
   auto backend = make_backend(device, open.precision);
   if (!backend) return {};
   SimulationState state = simulation.state();
-  if (!simulation.restore(state)) return {};  // a fresh list, as the other has
+  if (!simulation.restore(state)) return {};  // a new list, like the other simulation's
   auto other = Simulation::resume(std::move(open), std::move(state), std::move(*backend));
   if (!other) return {};
   std::array<double, kPasses> with{}, without{};
@@ -126,7 +126,7 @@ std::optional<double> share_of_walls(Simulation& simulation, const DeviceArgumen
   return std::clamp(1 - without[kPasses / 2] / with[kPasses / 2], 0.0, 1.0);
 }
 
-// How the time of a step divides.
+// Prints how the time of a step divides into stages.
 void print_stages(const RunReport& report) {
   const auto row = [&](const char* name, double seconds) {
     fmt::print("  {:<22}{:.3f} ms, {:.1f} %\n", name, 1e3 * seconds / static_cast<double>(report.steps),
@@ -162,11 +162,11 @@ void print_table(const RunReport& report) {
   row("state hash", fmt::format("{:016x}", report.state_hash));
 }
 
-// Steps with progress shown where somebody looks.
+// Steps, with progress shown if `show`.
 Expected<void> advance(Simulation& simulation, std::int64_t steps, bool show) {
   const std::int64_t last = simulation.step_count() + steps;
   Progress progress(simulation.step_count(), last, simulation.scene().time_step, show);
-  // Large enough that looking at the clock costs nothing, small enough that the line moves.
+  // Large enough that reading the clock costs nothing, small enough that the line moves.
   const std::int64_t batch = std::max<std::int64_t>(1, steps / 100);
   while (simulation.step_count() < last) {
     if (auto stepped = simulation.step(std::min(batch, last - simulation.step_count())); !stepped) return stepped;

@@ -45,7 +45,7 @@ void print_precision(const Scene& scene) {
              spacing.radii);
 }
 
-// Of emitters, as many as are there at a time.
+// Expected number of particles from emitters at a time.
 double expected_births(const Scene& scene) {
   double expected = 0;
   for (const Emitter& emitter : scene.emitters) {

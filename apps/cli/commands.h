@@ -14,33 +14,33 @@
 
 namespace hooke::cli {
 
-/// What the program says to the shell.
+/// The exit status of the program.
 enum ExitStatus : int {
   kDone = 0,
   kBadInput = 2,       ///< bad input or usage; nothing was written
-  kRunFailed = 3,      ///< the run went bad or could not be written; the last good state is kept
+  kRunFailed = 3,      ///< the run failed or could not be written; the last good state is kept
   kInterrupted = 130,  ///< stopped by a signal; the checkpoint is written
 };
 
-/// Which scene, and how it is read.
+/// The scene, and how it is read.
 struct SceneArguments {
   std::filesystem::path file;
   std::vector<std::string> overrides;  ///< PATH=VALUE
   bool allow_outside = false;
 };
 
-/// Which back end.
+/// The back end.
 struct DeviceArguments {
   std::string device = "cpu";
   int threads = 0;  ///< 0: as many as the machine has
 };
 
-/// How pictures are taken.
+/// How pictures are drawn.
 struct PictureArguments {
   int width = 1280;  ///< pixels
   int height = 720;  ///< pixels
   double frames_per_second = 30;
-  int samples = 2;  ///< squared, a pixel
+  int samples = 2;  ///< squared: the samples per pixel
   ColorBy color_by = ColorBy::material;
   std::optional<std::array<double, 2>> range;  ///< of the colour map
   bool legend = true;
@@ -91,7 +91,7 @@ struct ExportArguments {
   SurfaceOptions surface;
 };
 
-// One command each; they print, and return the exit status.
+// One function per command; each prints and returns the exit status.
 ExitStatus run_command(const RunArguments& arguments);
 ExitStatus check_command(const CheckArguments& arguments);
 ExitStatus bench_command(const BenchArguments& arguments);

@@ -17,7 +17,7 @@
 namespace hooke::cli {
 namespace {
 
-// Which snapshots the options pick; the last one without any.
+// The snapshots that the options select; without options, the last one.
 Expected<std::vector<std::size_t>> pick(const RunReader& run, const ExportArguments& arguments) {
   if (run.size() == 0) return fail(Error::Kind::bad_input, arguments.run.string(), "holds no snapshot yet");
   if (arguments.all) {
@@ -34,7 +34,7 @@ Expected<std::vector<std::size_t>> pick(const RunReader& run, const ExportArgume
                           *arguments.step, run.steps().front(), run.steps().back(), run.steps()[nearest]));
 }
 
-// The scene that the run folder keeps; none where `run` is a file, or the folder has lost it.
+// The scene kept in the run folder; none where `run` is a file or the folder's scene is missing.
 Expected<std::optional<Scene>> scene_of(const std::filesystem::path& run) {
   std::error_code ignored;
   if (!std::filesystem::exists(run / kSceneFile, ignored)) return std::nullopt;

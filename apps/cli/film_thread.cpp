@@ -24,7 +24,7 @@ namespace hooke::cli {
 struct FilmThread::Impl {
   struct Shot {
     std::shared_ptr<const Snapshot> state;
-    double late = 0;  // s after the time of the frame
+    double late = 0;  // s after the frame's time
     double time = 0;  // of the frame, s
   };
   static constexpr std::size_t kMostWaiting = 2;
@@ -38,13 +38,13 @@ struct FilmThread::Impl {
   std::condition_variable changed;
   std::deque<Shot> waiting;
   bool ending = false;
-  std::optional<Error> error;  // nothing is drawn any more
+  std::optional<Error> error;  // if set, nothing more is drawn
   Summary summary;
   std::thread thread;
 
   double time_of(std::int64_t frame) const { return static_cast<double>(frame) / picture.frames_per_second; }
 
-  // The thread's own: OpenGL belongs to the one that opened it.
+  // Runs in the film's own thread: OpenGL belongs to the thread that opened it.
   void draw(std::shared_ptr<const Snapshot> first, std::promise<Expected<void>> started) {
     auto studio = Studio::open(picture);
     if (!studio) return started.set_value(fail(std::move(studio).error()));
@@ -52,7 +52,7 @@ struct FilmThread::Impl {
     first.reset();
     started.set_value({});
 
-    // The file is opened by the first frame: a run that does not come about leaves an older film alone.
+    // The first frame opens the file, so that a run that fails to start leaves an older film alone.
     std::optional<FilmWriter> film;
     double seconds = 0;
     while (std::optional<Shot> shot = take()) {
@@ -74,7 +74,7 @@ struct FilmThread::Impl {
     summary = {film->frames(), seconds / static_cast<double>(film->frames())};
   }
 
-  // The next shot; none where the film is to end.
+  // The next shot; empty when the film is to end.
   std::optional<Shot> take() {
     std::unique_lock lock(mutex);
     changed.wait(lock, [&] { return ending || !waiting.empty(); });
@@ -135,7 +135,7 @@ void FilmThread::show(const std::shared_ptr<const Snapshot>& now) {
     const double frame_time = impl_->time_of(impl_->next_frame);
     std::unique_lock lock(impl_->mutex);
     impl_->changed.wait(lock, [&] { return impl_->error || impl_->waiting.size() < Impl::kMostWaiting; });
-    if (impl_->error) continue;  // it is over; the run does not wait for its frames
+    if (impl_->error) continue;  // the film has failed; the run does not wait for its frames
     impl_->waiting.push_back({now, std::max(0.0, time - frame_time), frame_time});
     impl_->changed.notify_all();
   }

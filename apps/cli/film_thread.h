@@ -11,29 +11,29 @@
 
 namespace hooke::cli {
 
-/// Draws a film of a run while it runs, on a thread of its own: a frame at every multiple of 1 / frames_per_second of
-/// simulated time, of the state of the first step at or after it, drawn back by what it is late. Used by one thread at
-/// a time.
+/// Draws a film of a run in its own thread while the run continues: a frame at every multiple of 1 / frames_per_second
+/// of simulated time. A frame shows the first step at or after its time, drawn back by the difference. To be used by
+/// one thread at a time.
 class FilmThread {
  public:
   struct Summary {
     std::int64_t frames = 0;
-    double seconds_a_frame = 0;  ///< that drawing one took, on the average
+    double seconds_a_frame = 0;  ///< average time to draw a frame
   };
 
-  /// bad_input where pictures can't be drawn; what check_film() and check_output_file() say has been asked before.
-  /// Camera and colours follow from the state of `simulation` now; it is not asked again.
+  /// bad_input where pictures can't be drawn; check_film() and check_output_file() have been called before. Camera and
+  /// colours follow from the present state of `simulation`, which is not used again.
   static Expected<std::unique_ptr<FilmThread>> start(const std::filesystem::path& file, const PictureArguments& picture,
                                                      const Simulation& simulation);
 
-  /// Without finish() before, ends the film after what has been shown.
+  /// Without finish(), ends the film after the frames shown so far.
   ~FilmThread();
 
   /// Whether a frame is due at `time` (s).
   bool is_due(double time) const;
-  /// Before finish(). Takes the frames that are due from the state `now`; waits where two are still to be drawn.
+  /// To be called before finish(). Takes the frames due from the state `now`; waits while two are still to be drawn.
   void show(const std::shared_ptr<const Snapshot>& now);
-  /// Draws what is waiting and ends the film; what went wrong since the start.
+  /// Draws the waiting frames and ends the film; returns the error that occurred since the start, if any.
   Expected<Summary> finish();
 
  private:

@@ -17,7 +17,7 @@ Expected<std::unique_ptr<Renderer>> load_gl_renderer(const RenderSettings& setti
   const std::filesystem::path beside = home / "hooke-gl.so";
   const std::filesystem::path module =
       std::filesystem::exists(beside, ignored) ? beside : home / HOOKE_MODULES_FROM_PROGRAM / "hooke-gl.so";
-  // Never closed: the driver's threads may still run in it.
+  // Never closed: the driver's threads may still run in the library.
   void* const library = dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) return fail(Error::Kind::bad_input, "OpenGL", std::string("pictures need it: ") + dlerror());
   const auto make = reinterpret_cast<decltype(&hooke_make_gl_renderer)>(dlsym(library, "hooke_make_gl_renderer"));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// The part of the program that needs OpenGL's libraries, loaded only when a picture is wanted: everything else runs
-// where there are none (gl_loader.h).
+// The part of the program that needs OpenGL's libraries. It is loaded only when a picture is wanted, so that everything
+// else runs without these libraries (gl_loader.h).
 
 #include "gl_loader.h"
 #include "hooke/render/gl/gl_renderer.h"

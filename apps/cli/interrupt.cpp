@@ -22,7 +22,7 @@ Interrupt::Interrupt() {
   for (const int signal : kSignals) {
     struct sigaction before = {};
     sigaction(signal, nullptr, &before);
-    // What the caller has ignored (nohup) stays ignored.
+    // A signal that the caller ignores (nohup) stays ignored.
     if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
   }
 }

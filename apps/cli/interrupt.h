@@ -4,8 +4,8 @@
 
 namespace hooke::cli {
 
-/// While one of these lives, SIGINT, SIGTERM and SIGHUP only ask to stop. A second one ends the program at once,
-/// as it would have without this.
+/// While an Interrupt exists, SIGINT, SIGTERM and SIGHUP only ask to stop. A second signal ends the program at once, as
+/// it would without an Interrupt.
 class Interrupt {
  public:
   Interrupt();

@@ -13,7 +13,7 @@ namespace hooke::cli {
 Expected<LoadedScene> load_kept_scene(const std::filesystem::path& folder, const std::vector<std::string>& overrides) {
   LoadOptions options;
   options.overrides = overrides;
-  options.allow_outside = true;  // the particles that such paths lead to are not read again
+  options.allow_outside = true;  // the particle files at such paths are not read again
   options.with_particles = false;
   auto loaded = load_scene(folder / kSceneFile, options);
   if (!loaded) return loaded;

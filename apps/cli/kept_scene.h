@@ -11,8 +11,8 @@
 
 namespace hooke::cli {
 
-/// The scene that a run's folder keeps, with what --set changes of it, without its particles. What ties them is that of
-/// the run's checkpoint; before there is one, as the scene makes it, where its files can still be read.
+/// The scene kept in a run's folder, with the changes of --set, without its particles. Its structure is that of the
+/// run's checkpoint; before the first checkpoint it is made from the scene, if the scene's files can still be read.
 Expected<LoadedScene> load_kept_scene(const std::filesystem::path& folder,
                                       const std::vector<std::string>& overrides = {});
 

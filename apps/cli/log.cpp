@@ -16,7 +16,7 @@ void start_log(bool quiet) {
   console->set_level(quiet ? spdlog::level::err : spdlog::level::warn);
   console->set_pattern("%^%l:%$ %v");
   auto logger = std::make_shared<spdlog::logger>("hooke", std::move(console));
-  // A log that can't be written (a full disk) must not hide what the run itself reports about it.
+  // A log that can't be written (a full disk) must not hide the run's own report of the error.
   logger->set_error_handler([](const std::string&) {});
   spdlog::set_default_logger(std::move(logger));
 }

@@ -9,14 +9,14 @@
 
 namespace hooke::cli {
 
-/// Makes spdlog's default logger write warnings and errors to stderr, errors alone where `quiet`. Any thread may log:
-/// the one that draws a film does.
+/// Makes spdlog's default logger write warnings and errors to stderr, only errors if `quiet`. Any thread may log; the
+/// thread that draws a film does.
 void start_log(bool quiet);
 
-/// From now on everything goes to `file` too, which is appended to. Called while no other thread logs.
+/// From now on also appends all messages to `file`. To be called while no other thread logs.
 Expected<void> log_to_file(const std::filesystem::path& file);
 
-/// Prints every finding. What can't be read or written is bad input before a run has begun, and a failed run after.
+/// Prints every finding. A file that can't be read or written is bad input before a run starts and a failed run after.
 ExitStatus report_error(const Error& error, bool running = false);
 
 }  // namespace hooke::cli

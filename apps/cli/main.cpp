@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kMostThreads = 1024;
 
-/// What the command line says; `command` is set by the one that was given.
+/// The arguments of the command line; the chosen command sets `command`.
 struct CommandLine {
   RunArguments run;
   CheckArguments check;
@@ -55,7 +55,7 @@ void add_device_options(CLI::App& command, DeviceArguments& device) {
       ->check(CLI::IsMember({"cpu", "reference"}));
 }
 
-// "1280x720" into width and height.
+// Parses "1280x720" into width and height.
 std::string parse_size(const std::string& text, PictureArguments& picture) {
   int width = 0, height = 0;
   char rest = 0;
@@ -69,7 +69,7 @@ std::string parse_size(const std::string& text, PictureArguments& picture) {
   return {};
 }
 
-// CLI::Range lets it pass.
+// CLI::Range accepts NaN.
 std::string not_nan(const std::string& text) {
   return std::isnan(std::strtod(text.c_str(), nullptr)) ? text + " is no number" : "";
 }
@@ -139,7 +139,7 @@ void add_run(CLI::App& app, CommandLine& line) {
   command.add_option("--report", run.report, "write the report to this file too")->option_text("FILE");
   command.add_flag("-q,--quiet", run.quiet, "print nothing but errors");
   command.callback([&line] {
-    // As overrides they are checked, and written into the resolved scene, like any other value.
+    // As overrides they are checked and written into the resolved scene like any other value.
     if (line.steps) line.run.scene.overrides.push_back(fmt::format("time.steps={}", *line.steps));
     if (line.end) line.run.scene.overrides.push_back(fmt::format("time.end={}", *line.end));
     line.command = [&line] {
@@ -198,7 +198,7 @@ void add_render(CLI::App& app, CommandLine& line) {
 constexpr ExportContent kContents[] = {ExportContent::particles, ExportContent::surface, ExportContent::volume,
                                        ExportContent::contacts,  ExportContent::cloths,  ExportContent::springs};
 
-// What `export` can write, by content.
+// The formats that `export` can write, by content.
 std::string format_list() {
   std::string list = "Formats:\n";
   for (const ExportContent content : kContents) {
@@ -270,7 +270,7 @@ ExitStatus parse_and_run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    // Help and the version arrive as errors of status 0; everything else is wrong usage, whatever CLI11's number.
+    // Help and the version arrive as errors of status 0; any other error is wrong usage, whatever CLI11's number.
     return app.exit(error) == 0 ? kDone : kBadInput;
   }
   if (!line.command) {
@@ -289,7 +289,7 @@ ExitStatus parse_and_run(int argc, char** argv) {
 }  // namespace hooke::cli
 
 int main(int argc, char** argv) {
-  // A limit on file sizes is then an error of the write that meets it, like a full disk.
+  // Makes a write beyond the limit on file sizes fail with an error, like a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
   hooke::cli::start_log(false);
   try {

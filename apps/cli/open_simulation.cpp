@@ -78,7 +78,7 @@ FloatSpacing float_spacing(const Scene& scene) {
 }
 
 std::string coarse_positions(const Simulation& simulation) {
-  // What it does to a pile from here on: docs/determinism.md.
+  // docs/determinism.md says how a coarser spacing affects a pile.
   constexpr double kFinest = 1e-4;  // radii
   if (simulation.backend_info().precision == Precision::double_precision) return {};
   const double radii = float_spacing(simulation.scene()).radii;

@@ -20,7 +20,7 @@ namespace hooke::cli {
 struct OpenedSimulation {
   Simulation simulation;
   std::string resolved;           ///< the scene as it was understood, JSON
-  std::vector<SceneFile> files;   ///< that it needs beside itself
+  std::vector<SceneFile> files;   ///< the other files that it needs
   std::vector<Finding> warnings;  ///< of the loader
 };
 
@@ -31,17 +31,17 @@ Expected<std::unique_ptr<Backend>> make_backend(const DeviceArguments& arguments
 Expected<OpenedSimulation> open_simulation(const SceneArguments& scene, const DeviceArguments& device,
                                            const std::filesystem::path& resume);
 
-/// A sentence about a time step that is too long for the scene; empty where it is not.
+/// A sentence about a time step that is too long for the scene; empty if it is not too long.
 std::string unstable_step(const Simulation& simulation);
 
-/// How far apart positions lie that single precision can tell, at the coordinate of the domain that is farthest from 0.
+/// The distance between neighbouring single-precision numbers at the domain's coordinate farthest from 0.
 struct FloatSpacing {
   double metres = 0;
-  double radii = 0;  ///< in radii of the smallest particle; 0 where there is none
+  double radii = 0;  ///< in radii of the smallest particle; 0 without particles' materials
 };
 FloatSpacing float_spacing(const Scene& scene);
 
-/// A sentence about a domain that is too large for the single precision computed in; empty where it is not.
+/// A sentence about a domain too large for the single precision in use; empty if it is not too large.
 std::string coarse_positions(const Simulation& simulation);
 
 }  // namespace hooke::cli

@@ -9,8 +9,8 @@
 
 namespace hooke::cli {
 
-/// Whether `file` can be written, said before hours of work and not after: its folder exists and takes files, and
-/// it is no folder itself. `option` is what the error names, e.g. "--report".
+/// Checks that `file` can be written, before hours of work and not after: its folder exists and is writable, and it is
+/// not a folder itself. `option` is the name in the error, e.g. "--report".
 Expected<void> check_output_file(const std::filesystem::path& file, const std::string& option);
 
 }  // namespace hooke::cli

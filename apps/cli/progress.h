@@ -9,7 +9,7 @@
 
 namespace hooke::cli {
 
-/// Says how something goes on: on a terminal one line that is rewritten, on a pipe a plain line every ten seconds.
+/// Shows progress: on a terminal as one line that is rewritten, on a pipe as a plain line every ten seconds.
 class StatusLine {
  public:
   /// Silent unless `wanted`.
@@ -18,12 +18,12 @@ class StatusLine {
   StatusLine(const StatusLine&) = delete;
   StatusLine& operator=(const StatusLine&) = delete;
 
-  /// Prints text() when it is time to.
+  /// Prints text() when an update is due.
   template <class Text>
   void update(const Text& text) {
     if (due()) show(text());
   }
-  /// Takes the line off the terminal, so that something else can be printed.
+  /// Removes the line from the terminal, so that other text can be printed.
   void clear();
 
  private:
@@ -37,13 +37,13 @@ class StatusLine {
   Clock::time_point printed_;
 };
 
-/// Tells how far a run is.
+/// Shows how far a run has got.
 class Progress {
  public:
   /// A run from step `first` to step `last` of `time_step` seconds (> 0) each. Silent unless `wanted`.
   Progress(std::int64_t first, std::int64_t last, double time_step, bool wanted);
 
-  /// `step` steps are done and `particles` are there. Cheap: prints only when it is time to.
+  /// `step` steps are done and `particles` exist. Cheap: prints only when an update is due.
   void update(std::int64_t step, std::uint64_t particles);
   void clear() { status_.clear(); }
 
@@ -60,10 +60,10 @@ class Progress {
   double time_step_;
   bool wanted_;
   StatusLine status_;
-  std::deque<Sample> recent_;  // of the last seconds: what the rate is taken from
+  std::deque<Sample> recent_;  // of the last seconds, for the rate
 };
 
-/// Tells how many of a film's frames are drawn.
+/// Shows how many of a film's frames are drawn.
 class FrameProgress {
  public:
   explicit FrameProgress(std::int64_t count) : count_(count) {}
@@ -76,7 +76,7 @@ class FrameProgress {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// "512,000": a whole number with its thousands apart.
+/// "512,000": a whole number with commas between thousands.
 std::string with_commas(std::uint64_t number);
 /// "1:02:03" or "2:03".
 std::string clock_time(double seconds);

@@ -30,7 +30,7 @@ class Playback {
  public:
   Playback(const RunReader& run, const Scene& scene) : run_(run), scene_(scene) {}
 
-  /// `time` in [first, last], best ascending from call to call: the two snapshots around it are kept.
+  /// `time` in [first, last], preferably ascending from call to call: keeps the two snapshots around it.
   Expected<ParticleSet> at(double time) {
     const auto times = run_.times();
     const auto later = std::upper_bound(times.begin(), times.end(), time);
@@ -62,7 +62,7 @@ class Playback {
 
 bool is_picture(const std::filesystem::path& file) { return file.extension() == ".png" || file.extension() == ".PNG"; }
 
-// "frames/%04d.png": where the numbers go, and how many digits they have at least.
+// "frames/%04d.png": the position of the number and its minimum number of digits.
 std::optional<std::string> numbered_name(const std::filesystem::path& pattern, std::size_t number) {
   static const std::regex kNumber("%0?([0-9]{0,2})d");
   std::smatch match;
@@ -99,7 +99,7 @@ Expected<void> render_still(const RenderArguments& arguments, const RunReader& r
   return {};
 }
 
-// One image a frame of simulated time, given to `take`; how many, or that a signal came first.
+// Gives one image per frame of simulated time to `take`; returns their number and whether a signal came first.
 template <class Take>
 Expected<std::pair<std::int64_t, bool>> render_frames(const RenderArguments& arguments, const RunReader& run,
                                                       Playback& playback, Studio& studio, const Take& take) {

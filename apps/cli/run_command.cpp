@@ -30,11 +30,11 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Steps a simulation to its end and writes its folder on the way.
+/// Steps a simulation to its end and writes its folder meanwhile.
 class Run {
  public:
-  /// `in_place`: the folder holds what this run has written up to the step that it goes on from.
-  /// `film`: where one is drawn, or null.
+  /// `in_place`: the folder holds the output of this run up to the step from which it continues.
+  /// `film`: the film's thread, or null without a film.
   Run(Simulation& simulation, RunWriter& writer, FilmThread* film, const OutputCadence& checkpoints, bool in_place,
       bool quiet)
       : simulation_(simulation),
@@ -46,8 +46,8 @@ class Run {
         last_(simulation.scene().steps),
         progress_(first_, last_, simulation.scene().time_step, !quiet) {}
 
-  /// True where the end was reached, false where a signal came first; both leave a snapshot and a checkpoint of the
-  /// last step.
+  /// True if the run reached its end, false if a signal came first; either way a snapshot and a checkpoint of the last
+  /// step exist.
   Expected<bool> to_the_end() {
     const Interrupt interrupt;
     if (auto written = write_outputs(false); !written) return fail(std::move(written).error());
@@ -72,7 +72,7 @@ class Run {
     return film_ != nullptr && film_->is_due(static_cast<double>(step) * simulation_.scene().time_step);
   }
 
-  // Steps up to the next output, but for no longer than a fraction of a second: signals and progress wait meanwhile.
+  // Steps to the next output, but for at most a fraction of a second, because signals and progress wait meanwhile.
   Expected<void> advance() {
     const std::int64_t now = simulation_.step_count();
     const std::int64_t most = std::min(last_, now + batch_);
@@ -87,11 +87,11 @@ class Run {
     batch_ = static_cast<std::int64_t>(std::clamp(kBatchSeconds / std::max(a_step, 1e-9), 1.0, 1e6));
 
     progress_.update(target, simulation_.particle_count());
-    if (target == last_) return {};  // to_the_end() writes this one
+    if (target == last_) return {};  // to_the_end() writes the last step
     return write_outputs(false);
   }
 
-  // What is due at this step; at the end of the run, everything.
+  // Writes the outputs due at this step; at the end of the run, all of them.
   Expected<void> write_outputs(bool at_end) {
     const std::int64_t step = simulation_.step_count();
     if (frame_due(step)) film_->show(simulation_.snapshot());
@@ -126,7 +126,7 @@ class Run {
   Progress progress_;
 };
 
-// Ten checkpoints a run, unless told otherwise.
+// Ten checkpoints per run, unless told otherwise.
 OutputCadence checkpoint_cadence(const std::optional<double>& seconds, std::int64_t steps) {
   OutputCadence cadence;
   if (seconds) {
@@ -141,7 +141,7 @@ std::filesystem::path output_folder(const RunArguments& arguments) {
   return arguments.output.empty() ? arguments.scene.file.stem() : arguments.output;
 }
 
-// Whether the checkpoint is the one in the output folder, so that the run goes on where it is.
+// Whether the checkpoint is the one in the output folder, so that the run continues in that folder.
 bool resumes_in_place(const RunArguments& arguments) {
   std::error_code ignored;
   const std::filesystem::path& checkpoint = arguments.resume;
@@ -152,8 +152,8 @@ bool resumes_in_place(const RunArguments& arguments) {
   return !checkpoint.empty() && std::filesystem::equivalent(home, output_folder(arguments), ignored);
 }
 
-// Puts the meshes that the scene names beside the scene that the run folder keeps, so that the folder can be drawn
-// wherever it goes. Those that a scene names by an absolute path or by ".." stay where they are.
+// Copies the meshes that the scene names into the run folder, beside its scene, so that the folder can be drawn
+// anywhere. Meshes named by an absolute path or with ".." are not copied.
 Expected<void> keep_files(const std::vector<SceneFile>& files, const std::filesystem::path& folder) {
   for (const SceneFile& file : files) {
     const std::filesystem::path name(file.name), kept = folder / name;
@@ -219,7 +219,7 @@ void print_summary(const RunReport& report, const RunWriter& writer) {
   fmt::print("written to {}\n", writer.folder().string());
 }
 
-// Whether the film is whole; if not, that has been said.
+// Whether the film is complete; if not, the error has been reported.
 bool finish_film(FilmThread& film, const RunArguments& arguments) {
   const auto summary = film.finish();
   if (!summary) return false;
@@ -233,10 +233,10 @@ bool finish_film(FilmThread& film, const RunArguments& arguments) {
   return true;
 }
 
-// A run that failed keeps its last good state; says which.
+// A failed run keeps its last good state; reports which.
 ExitStatus report_failure(const Error& error, RunWriter& writer) {
   const ExitStatus status = report_error(error, true);
-  (void)writer.flush();  // fails where `error` says so; either way the file is now what it stays
+  (void)writer.flush();  // fails where `error` says so; either way the file is now final
   if (const auto checkpoint = describe_file(writer.checkpoint_path())) {
     spdlog::error("the last good checkpoint is of step {}: {}", checkpoint->steps.front(),
                   writer.checkpoint_path().string());

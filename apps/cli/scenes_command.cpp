@@ -13,7 +13,7 @@
 namespace hooke::cli {
 namespace {
 
-// The scenes installed beside this program, or those of the source that it was built from.
+// The scenes installed beside this program, or those of its source folder.
 std::filesystem::path scenes_folder() {
   std::error_code ignored;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);

@@ -14,17 +14,17 @@
 
 namespace hooke::cli {
 
-/// Takes the pictures of one run: the renderer, and what stays the same from picture to picture. Belongs to the thread
+/// Draws the pictures of one run: holds the renderer and what stays the same between pictures. Belongs to the thread
 /// that made it.
 class Studio {
  public:
-  /// bad_input where there is no OpenGL, or it can't draw pictures of this size.
+  /// bad_input where OpenGL is missing or can't draw pictures of this size.
   static Expected<Studio> open(const PictureArguments& arguments);
 
-  /// `first`: the first snapshot of the run, from which scales and camera follow. `scene` must live on.
+  /// `first`: the first snapshot of the run, which determines scales and camera. `scene` must outlive the studio.
   void set_scene(const Scene& scene, const ParticleSet& first);
 
-  /// The picture at `time` (s), with its legend. After set_scene().
+  /// The picture at `time` (s), with its legend. To be called after set_scene().
   Expected<Image> picture(const ParticleSet& particles, double time);
 
   const RenderFigures& figures() const { return figures_; }
