@@ -40,7 +40,7 @@ std::size_t CellGrid::neighbour_ranges(std::uint64_t key, KeyRange (&out)[kMostR
   const std::int64_t row = k / stride_y_;
   const std::int64_t at[3] = {k - row * stride_y_, row % rows_y, row / rows_y};
 
-  // Indices first to last of an axis as one stretch, or as two where they reach around a periodic axis.
+  // Indices first to last of an axis as one stretch, or as two where they wrap around a periodic axis.
   struct Stretch {
     std::int64_t first, last;
   };

@@ -18,40 +18,39 @@
 
 namespace hooke {
 
-/// A uniform grid over the box that the points fill, and the points' order by cell (the thesis's Algorithm 3). Cells
-/// are numbered along x first, so the cells x-1, x, x+1 of one row are one range of numbers and, after the sort, one
-/// range of points. There is no table of cells: a sparse cloud in a domain of a million cells an axis needs no more
+/// A uniform grid over the box around the points, and the order of the points by cell (the thesis's Algorithm 3). Cells
+/// are numbered along x first, so the cells x-1, x, x+1 of a row are one range of numbers and, after the sort, one
+/// range of points. There is no table of cells: a sparse cloud in a domain of a million cells per axis needs no more
 /// memory than a dense one.
 class CellGrid {
  public:
   /// One axis of the grid.
   struct Axis {
-    double origin = 0;      // m, lower edge of the first cell
-    double cell = 1;        // m, edge of a cell
-    double length = 1;      // m, of the box
-    std::int64_t count = 1; // cells
+    double origin = 0;  // m, lower edge of the first cell
+    double cell = 1;  // m, edge of a cell
+    double length = 1;  // m, of the box
+    std::int64_t count = 1;  // cells
     bool periodic = false;
   };
 
-  static constexpr std::int64_t kMaxCells = 1 << 20;            ///< an axis; beyond that cells grow
+  static constexpr std::int64_t kMaxCells = 1 << 20;  ///< per axis; beyond that cells grow
 
   /// Lays the grid over the box [min, max] (m, finite, min no greater than max) with cells no smaller than `reach` (m,
-  /// > 0): points nearer to each other than that are in the same or in adjacent cells. A periodic axis covers its whole
-  /// period min to max.
+  /// > 0): points closer than that are in the same or in adjacent cells. A periodic axis must cover its whole period,
+  /// min to max.
   void lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic)[3], double reach) {
     lay_out(min, max, periodic, Vec3d{reach, reach, reach});
   }
-  /// The same with a reach for each axis.
+  /// The same with one reach per axis.
   void lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic)[3], const Vec3d& reach);
 
-  /// Number of the cell of a finite point; points outside the box count to its edge cells.
+  /// Number of the cell of a finite point; a point outside the box counts to a cell at its edge.
   std::uint64_t key_of(const Vec3d& x) const {
     HOOKE_ASSERT(is_finite(x), x);
     return static_cast<std::uint64_t>(index_of(x.x, 0) + stride_y_ * index_of(x.y, 1) + stride_z_ * index_of(x.z, 2));
   }
 
-  /// key_of() of the points first to last - 1, in a grid of less than 2^32 cells. Plain loops, for compilers to
-  /// vectorise.
+  /// key_of() of the points first to last - 1, in a grid of less than 2^32 cells. Plain loops that compilers vectorise.
   template <class Real>
   void keys_of(const Columns<Real>& points, std::size_t first, std::size_t last, std::uint32_t* keys) const {
     HOOKE_ASSERT(first <= last, first, last);
@@ -71,9 +70,9 @@ class CellGrid {
     }
   }
 
-  /// The same, numbered along a path: rows along one axis, side by side in layers, every other row and every other
-  /// layer walked backwards, so that cells with consecutive numbers are adjacent. Layers lie across the longest axis:
-  /// they are the smallest, and adjacent ones are close to each other in memory.
+  /// The same, numbered along a path: rows along one axis, side by side in layers; every other row and every other
+  /// layer runs backwards, so that cells with consecutive numbers are adjacent. Layers are perpendicular to the longest
+  /// axis, so they are as small as possible, and adjacent layers are close in memory.
   std::uint64_t path_key_of(const Vec3d& x) const {
     HOOKE_ASSERT(is_finite(x), x);
     const auto index = [&](int axis) { return index_of(component(x, axis), axis); };
@@ -91,21 +90,21 @@ class CellGrid {
     return {axes[1], axes[2], axes[0]};
   }
 
-  /// One past the largest key: for points that take no part, sorted last.
+  /// One past the largest key: the key of points that take no part; they are sorted last.
   std::uint64_t key_end() const { return static_cast<std::uint64_t>(stride_z_ * (axes_[2].count + 2)); }
 
   /// Inclusive range of cell numbers.
   struct KeyRange {
     std::uint64_t first, last;
   };
-  /// The cells adjacent to `key` (< key_end()) and up to `more` (>= 0) cells after it in its row, themselves included,
-  /// as disjoint ranges of numbers; each cell in one of them, once. At most nine rows, each cut in two where x is
-  /// periodic.
+  /// The cells adjacent to `key` (< key_end()) and to up to `more` (>= 0) cells after it in its row, including these
+  /// cells themselves, as disjoint ranges of numbers; each cell appears once. At most nine rows, each cut in two where
+  /// x is periodic.
   static constexpr std::size_t kMostRanges = 18;
   std::size_t neighbour_ranges(std::uint64_t key, KeyRange (&out)[kMostRanges], int more = 0) const;
 
-  /// The cells that the box [min, max] meets, around periodic axes too, as disjoint ranges of numbers along the path:
-  /// body(range) for each, in no order; each cell in one of them, once.
+  /// Calls body(range) for disjoint ranges of numbers along the path, in no order; together they hold each cell that
+  /// the box [min, max] meets, also around periodic axes, exactly once.
   template <class Body>
   void for_path_ranges(const Vec3d& min, const Vec3d& max, const Body& body) const {
     Stretches along[3];
@@ -139,14 +138,14 @@ class CellGrid {
 
   std::int64_t index_of(double x, int i) const {
     const double cell = (x - axes_[i].origin) * inverse_cell_[i];
-    // Bounded before the conversion, which is undefined for what no int64 holds.
+    // Clamped before the conversion, which is undefined for values beyond int64.
     const double inside = cell > 0 ? cell : 0;
     return static_cast<std::int64_t>(inside < last_cell_[i] ? inside : last_cell_[i]) + 1;
   }
 
-  // A row of cells of the path.
+  // A row of cells on the path.
   struct Row {
-    std::int64_t start;  // the key before its first
+    std::int64_t start;  // the key before the row's first
     bool backwards;
   };
   Row row_at(std::int64_t row, std::int64_t layer) const {
@@ -154,12 +153,12 @@ class CellGrid {
     const std::int64_t on_path = mirrored(row, path_[1], (layer & 1) != 0);
     return {(layer * (rows + 2) + on_path) * stride, (((layer & rows) ^ on_path) & 1) != 0};
   }
-  // The index counted from the other end, if `yes`. Without a branch: which way points lie nobody can foretell.
+  // The index counted from the other end, if `yes`. Without a branch, which could not be predicted.
   std::int64_t mirrored(std::int64_t index, int axis, bool yes) const {
     return index + static_cast<std::int64_t>(yes) * (axes_[axis].count + 1 - 2 * index);
   }
 
-  // Indices first to last of an axis as one stretch, or as two where they reach around a periodic axis.
+  // Indices first to last of an axis as one stretch, or as two where they wrap around a periodic axis.
   struct Stretches {
     struct {
       std::int64_t first, last;
@@ -181,16 +180,16 @@ class CellGrid {
 
   Axis axes_[3];
   double inverse_cell_[3] = {1, 1, 1};
-  double last_cell_[3] = {0, 0, 0};  // their number less one
+  double last_cell_[3] = {0, 0, 0};  // number of cells less one
   std::array<int, 3> path_{0, 1, 2};  // axes
-  std::int64_t stride_y_ = 3, stride_z_ = 9;  // with one empty cell on both sides of every axis
+  std::int64_t stride_y_ = 3, stride_z_ = 9;  // with one empty cell at both ends of every axis
 };
 
-/// Finds the first point at or after a key. Cells are visited in ascending order, so the answer is most often a few
-/// points after the one before; each of a cell's ranges keeps its own place.
+/// Finds the first point at or after a key. Cells are visited in ascending order, so the answer is usually a few points
+/// after the last one. Each range around a cell has its own cursor.
 class KeyCursor {
  public:
-  /// Index into the ascending `keys`, the same in every call; keys.size() where all are less.
+  /// Index into the ascending `keys`, which must be the same in every call; keys.size() if all keys are less.
   std::size_t seek(std::span<const std::uint64_t> keys, std::uint64_t key) {
     HOOKE_ASSERT(at_ <= keys.size(), at_, keys.size());
     constexpr std::size_t kFew = 16;
@@ -198,7 +197,7 @@ class KeyCursor {
       at_ = static_cast<std::size_t>(std::lower_bound(keys.begin(), keys.begin() + at(), key) - keys.begin());
       return at_;
     }
-    // Counted, not searched: how far it is can't be predicted, and a wrong guess costs more than a dozen comparisons.
+    // Counted, not searched: the distance is unpredictable, and a wrong guess costs more than a dozen comparisons.
     for (int tries = 0; tries < 3 && at_ + kFew <= keys.size(); ++tries) {
       std::size_t less = 0;
       for (std::size_t k = 0; k < kFew; ++k) less += keys[at_ + k] < key ? 1 : 0;
@@ -215,9 +214,9 @@ class KeyCursor {
   std::size_t at_ = 0;
 };
 
-/// Sorts up to 2^32 points by key, stably: `keys` ascending afterwards, `order[k]` the index that the k-th had before.
-/// Parallel radix sort. Works in `scratch` where that is aligned to 8 bytes and holds 12 for each key; else in memory
-/// of its own.
+/// Sorts up to 2^32 points by key, stably: then `keys` ascend, and `order[k]` is the previous index of the k-th point.
+/// Parallel radix sort. Works in `scratch` where that is aligned to 8 bytes and holds 12 bytes per key; else in its own
+/// memory.
 void sort_by_key(std::vector<std::uint64_t>& keys, std::vector<std::uint32_t>& order,
                  std::span<std::byte> scratch = {});
 

@@ -23,7 +23,7 @@ void CellList::lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic
     levels_.back().grid.lay_out(min, max, periodic, reach);
     key_end_ += levels_.back().grid.key_end();
   }
-  // As much memory as two a point take where each entry stands for several cells, and the points' keys are kept.
+  // 4 entries per point take as much memory as 2 and the point's key, which is kept if entries stand for several cells.
   const std::uint64_t most_slots = std::max<std::uint64_t>(4096, 4 * most_points);
   slot_bits_ = 0;
   while (key_end_ >> slot_bits_ > most_slots) ++slot_bits_;
@@ -40,13 +40,13 @@ CellList::Room CellList::make_room(std::size_t count, std::span<std::byte> scrat
   return {{keys, count}, {reinterpret_cast<KeyedPoint*>(keys + count), count}};
 }
 
-// Points are first dealt to parts, each a range of keys, then sorted by counting within each part.
+// Distributes the points to parts, each a range of keys, then sorts each part by counting.
 void CellList::sort_keys(const Room& room, std::vector<std::uint32_t>& order) {
   constexpr std::size_t kMostParts = 1024;
   constexpr std::size_t kBlock = std::size_t{1} << 14U;  // points
   const std::size_t count = room.keys.size();
   const std::size_t slots = (key_end_ >> slot_bits_) + 1;
-  unsigned part_bits = 0;  // slots of a part
+  unsigned part_bits = 0;  // bits: slots per part
   while ((slots - 1) >> part_bits >= kMostParts) ++part_bits;
   const std::size_t parts = ((slots - 1) >> part_bits) + 1;
   const std::size_t part_slots = std::size_t{1} << part_bits;
@@ -100,7 +100,7 @@ void CellList::sort_keys(const Room& room, std::vector<std::uint32_t>& order) {
   });
 }
 
-// Sorts the points of some slots; `starts` gets where those of each slot begin.
+// Sorts the points of some slots; `starts` receives the first point of each slot.
 void CellList::sort_part(std::span<const KeyedPoint> points, std::size_t first_slot, std::uint32_t first_point,
                          std::span<std::uint32_t> starts, std::vector<KeyedPoint>& sorted) const {
   const auto slot_of = [&](const KeyedPoint& p) { return (p.key >> slot_bits_) - first_slot; };
@@ -109,7 +109,7 @@ void CellList::sort_part(std::span<const KeyedPoint> points, std::size_t first_s
   for (const KeyedPoint& p : points) ++starts[slot_of(p)];
   std::uint32_t next = 0;
   for (std::uint32_t& start : starts) next += std::exchange(start, next);
-  for (const KeyedPoint& p : points) sorted[starts[slot_of(p)]++] = p;  // which moves each start to the end
+  for (const KeyedPoint& p : points) sorted[starts[slot_of(p)]++] = p;  // moves each start to its slot's end
   std::uint32_t first = 0;
   for (std::uint32_t& start : starts) {
     const std::uint32_t end = std::exchange(start, first_point + first);
@@ -125,7 +125,7 @@ void CellList::sort_part(std::span<const KeyedPoint> points, std::size_t first_s
 std::uint32_t CellList::first_in_slot(std::uint64_t slot, std::uint64_t key) const {
   const auto begin = keys_.begin() + starts_[slot], end = keys_.begin() + starts_[slot + 1];
   constexpr std::ptrdiff_t kFew = 16;
-  // Counted, not searched, where they are few: a wrong guess costs more than a dozen comparisons.
+  // Counted, not searched, where keys are few: a wrong guess costs more than a dozen comparisons.
   if (end - begin <= kFew) {
     std::uint32_t less = 0;
     for (auto k = begin; k < end; ++k) less += *k < key ? 1 : 0;

@@ -16,23 +16,23 @@
 
 namespace hooke {
 
-/// Points in the order of their cells (the thesis's Algorithm 3), and which of them lie in a box. Each level of size
-/// has a grid of its own: points of one level are consecutive, and a large particle does not make the cells of small
-/// ones large.
+/// Points in the order of their cells (the thesis's Algorithm 3), and a search for the points in a box. Each level of
+/// size has its own grid: the points of a level are consecutive, and a large particle does not enlarge the cells of
+/// small particles.
 ///
-/// Where a cell's points start is looked up in a directory that has at most a few entries a point. In a domain of more
-/// cells than that, an entry stands for several cells, and the cell is searched for among their points: a sparse cloud
-/// needs no more memory than a dense one.
+/// A directory with at most a few entries per point holds the first point of each cell. In a domain of more cells than
+/// that, an entry stands for several cells, and the cell is searched for among their points: a sparse cloud needs no
+/// more memory than a dense one.
 class CellList {
  public:
   /// Particles of similar size.
   struct Level {
     double largest_radius = 0;  ///< m
-    double cell = 1;  ///< m, > 0: what cells are wide, or a little more; half of it along rows
+    double cell = 1;  ///< m, > 0: cells are at least this wide; half of it along rows
   };
 
-  /// Lays grids over the box [min, max] (m, finite, min no greater than max), for up to `most_points` points; those
-  /// outside count to the cells at its edge. A periodic axis covers its whole period.
+  /// Lays grids over the box [min, max] (m, finite, min no greater than max), for up to `most_points` points; points
+  /// outside count to the cells at its edge. A periodic axis must cover its whole period.
   void lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic)[3], std::span<const Level> levels,
                std::size_t most_points);
 
@@ -41,12 +41,12 @@ class CellList {
     HOOKE_ASSERT(level < level_count(), level, level_count());
     return levels_[level].first_key + levels_[level].grid.path_key_of(x);
   }
-  /// The key of points that take no part: they are sorted last.
+  /// The key of points that take no part; they are sorted last.
   std::uint64_t key_end() const { return key_end_; }
 
-  /// Sorts points 0 to count - 1, up to 2^32, by key_of_point(i), a key or key_end(), stably: afterwards order[k] is
-  /// the index that the k-th had before. Works in `scratch` where that is aligned to 8 bytes and holds 24 for each
-  /// point; else in memory of its own.
+  /// Sorts points 0 to count - 1, up to 2^32, by key_of_point(i), a key or key_end(), stably: then order[k] is the
+  /// previous index of the k-th point. Works in `scratch` where that is aligned to 8 bytes and holds 24 bytes per
+  /// point; else in its own memory.
   template <class KeyOfPoint>
   void sort(std::size_t count, const KeyOfPoint& key_of_point, std::vector<std::uint32_t>& order,
             std::span<std::byte> scratch = {}) {
@@ -62,22 +62,22 @@ class CellList {
   const CellGrid& grid(std::size_t level) const { return levels_[level].grid; }
   double largest_radius(std::size_t level) const { return levels_[level].largest_radius; }
 
-  /// Sorted points that take part.
+  /// Number of sorted points that take part.
   std::size_t point_count() const { return levels_.empty() ? 0 : level_end(levels_.size() - 1); }
   /// One past the last sorted point of a level.
   std::size_t level_end(std::size_t level) const {
     return first_at(level + 1 < levels_.size() ? levels_[level + 1].first_key : key_end_);
   }
 
-  /// Appends the points of a level in the cells that the box [min, max] meets, each once; around a periodic axis
-  /// too. Returns their number.
+  /// Appends the points of a level in the cells that the box [min, max] meets, each once; also around a periodic axis.
+  /// Returns their number.
   std::size_t find(std::size_t level, const Vec3d& min, const Vec3d& max, std::vector<SearchRange>& out) const;
 
-  /// body(k) for each sorted point k of any level whose surface may be nearer than `reach` (m) to `at`, and for some
-  /// others.
+  /// Calls body(k) for each sorted point k of any level whose surface may be nearer than `reach` (m) to `at`, and for
+  /// some other points.
   template <class Body>
   void for_points_near(const Vec3d& at, double reach, const Body& body) const {
-    // What the directory says is looked up for many ranges at once: waiting for one does not hold up the next.
+    // The directory is read for many ranges at once, so that waiting for one entry does not delay the next.
     std::array<SearchRange, 64> found;
     std::size_t count = 0;
     const auto visit = [&] {
@@ -118,7 +118,7 @@ class CellList {
   void sort_part(std::span<const KeyedPoint> points, std::size_t first_slot, std::uint32_t first_point,
                  std::span<std::uint32_t> starts, std::vector<KeyedPoint>& sorted) const;
 
-  // body(range) for points of a level in the cells that the box meets, where a range has any.
+  // Calls body(range) for the points of a level in the cells that the box meets; skips empty ranges.
   template <class Body>
   void for_ranges(std::size_t level, const Vec3d& min, const Vec3d& max, const Body& body) const {
     const LevelGrid& in = levels_[level];
@@ -128,7 +128,7 @@ class CellList {
     });
   }
 
-  // Index of the first sorted point whose key is `key` or more.
+  // Index of the first sorted point with a key of at least `key`.
   std::uint32_t first_at(std::uint64_t key) const {
     const std::uint64_t slot = key >> slot_bits_;
     return slot_bits_ == 0 ? starts_[slot] : first_in_slot(slot, key);
@@ -137,10 +137,10 @@ class CellList {
 
   std::vector<LevelGrid> levels_;
   std::uint64_t key_end_ = 0;
-  unsigned slot_bits_ = 0;  // an entry of the directory stands for 2 to this keys
-  std::vector<std::uint32_t> starts_;  // of the points of an entry, and one past the last
-  std::vector<std::uint64_t> keys_;  // of the sorted points; empty where an entry is a cell
-  std::vector<std::uint64_t> own_room_;  // where no scratch is given
+  unsigned slot_bits_ = 0;  // an entry of the directory stands for 2^slot_bits_ keys
+  std::vector<std::uint32_t> starts_;  // first point of each entry, and one past the last
+  std::vector<std::uint64_t> keys_;  // of the sorted points; empty where each entry is one cell
+  std::vector<std::uint64_t> own_room_;  // used where no scratch is given
 };
 
 }  // namespace hooke

@@ -6,14 +6,13 @@
 
 namespace hooke {
 
-// How particles that follow each other in cell order are taken together. Constants alone: this header is compiled with
-// the flags of every instruction set.
+// How consecutive particles in cell order are taken together. Only constants: this header is compiled with the flags of
+// every instruction set.
 
-/// A group: 16 particles that follow each other in memory, one a lane of the neighbour list's rows. Whole packs at
-/// every width.
+/// A group: 16 consecutive particles in memory, one per lane of the neighbour list's rows. Whole packs at every width.
 inline constexpr std::size_t kGroupLanes = 16;
 
-/// A window: 64 particles that follow each other in cell order. Within it they may lie in memory in any order.
+/// A window: 64 consecutive particles in cell order. Within the window, their order in memory may differ.
 inline constexpr std::size_t kWindow = 64;
 
 /// A tile: the 1024 particles that a thread takes at a time.

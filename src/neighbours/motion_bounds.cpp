@@ -19,9 +19,9 @@ void MotionBounds<Real>::lay_out(const Columns<Real>& position_at_build, std::si
   const std::size_t most_blocks = std::max<std::size_t>(4096, count / 4);
   skin_ = limits.skin;
   double width = 4 * limits.diameter;
-  double blur = 0;  // m: how far two points are from the middles of the blocks by which they count to this level
+  double blur = 0;  // m: distance of two points from the middles of the blocks that map them to this level
   for (Level& level : levels_) {
-    for (;; width *= 1.25) {  // a sparse cloud gets wider blocks: that errs on the safe side
+    for (;; width *= 1.25) {  // a sparse cloud gets wider blocks, which is safe
       level.grid.lay_out(limits.min, limits.max, limits.periodic, width);
       if (level.grid.key_end() < most_blocks) break;
     }
@@ -43,7 +43,7 @@ Vec3<Real> MotionBounds<Real>::middle(Real steps) const {
   return anywhere_.empty() ? Vec3<Real>{Real(0), Real(0), Real(0)} : Vec3<Real>{mean(0), mean(1), mean(2)};
 }
 
-// Which wider block a narrow one counts to: the one that its middle is in.
+// Maps each narrow block to the wider block that holds its middle.
 template <class Real>
 void MotionBounds<Real>::map_blocks(const Level& narrow, Level& wide) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -58,7 +58,7 @@ void MotionBounds<Real>::map_blocks(const Level& narrow, Level& wide) {
   }
 }
 
-// The narrowest blocks that the points of each group are in.
+// Finds the narrowest blocks that hold points of each group.
 template <class Real>
 void MotionBounds<Real>::find_blocks(const Columns<Real>& position_at_build, std::size_t count, std::size_t group) {
   const std::size_t groups = (count + group - 1) / group;
@@ -125,7 +125,7 @@ std::int64_t MotionBounds<Real>::follow_motions(std::span<Anchor> anchors) {
   return steps < 0 ? -1 : static_cast<std::int64_t>(std::min(steps, 1e6));
 }
 
-// Gives each group the mean motion of its surroundings, and each block the box around its groups' anchors.
+// Gives each group the mean motion around it, and each block the box around its groups' anchors.
 template <class Real>
 void MotionBounds<Real>::place(std::span<Anchor> anchors) {
   parallel_ranges(group_count(), kGrain, [&](std::size_t first, std::size_t last) {
@@ -155,7 +155,7 @@ void MotionBounds<Real>::bound_wider_blocks(const Level& narrow, Level& wide) {
   }
 }
 
-// What neighbouring anchors leave of the skin, half for each of a pair.
+// Each particle of a pair gets half of the part of the skin that neighbouring anchors leave.
 template <class Real>
 void MotionBounds<Real>::allow(std::span<Anchor> anchors) const {
   parallel_ranges(group_count(), kGrain, [&](std::size_t first, std::size_t last) {
@@ -171,7 +171,7 @@ void MotionBounds<Real>::allow(std::span<Anchor> anchors) const {
   });
 }
 
-// Adds to each block what its two neighbours along the axis hold.
+// Adds the contents of the two neighbours along the axis to each block.
 template <class Real>
 template <class T>
 void MotionBounds<Real>::spread(const Level& level, std::span<T> blocks, int axis) {
@@ -180,7 +180,7 @@ void MotionBounds<Real>::spread(const Level& level, std::span<T> blocks, int axi
   const std::size_t across_stride = stride_of(level, across), up_stride = stride_of(level, up);
   const bool periodic = level.grid.axis(axis).periodic;
   parallel_ranges(count_of(level, up), 1, [&](std::size_t first, std::size_t last) {
-    constexpr std::size_t kSideBySide = 8;  // lines: next to each other in memory where they run along y or z
+    constexpr std::size_t kSideBySide = 8;  // lines, adjacent in memory where they run along y or z
     for (std::size_t u = first + 1; u <= last; ++u) {
       for (std::size_t c = 1; c <= count_of(level, across); c += kSideBySide) {
         const std::size_t lines = std::min(kSideBySide, count_of(level, across) + 1 - c);

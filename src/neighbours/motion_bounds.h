@@ -20,48 +20,48 @@
 
 namespace hooke {
 
-/// How far particles may get from their anchors before a neighbour list can miss a contact. A pair that is not on the
-/// list was at least its contact distance and a skin apart; to touch now, the two must have moved by more than the skin
-/// *relative to each other*. A pool that sloshes as a whole, or a drop in free flight, does not.
+/// How far particles may move from their anchors before a neighbour list can miss a contact. An unlisted pair was at
+/// least its contact distance and a skin apart; to touch now, the two particles must have moved by more than the skin
+/// *relative to each other*. In a pool that sloshes as a whole, or a drop in free flight, they do not.
 ///
-/// Consecutive particles form groups, and each group gets an anchor, a point that moves at a steady pace along with the
-/// particles around: where neighbouring anchors stay close to each other, and every particle stays close to its group's
-/// anchor, no unlisted pair can touch. The first is bounded here, ahead of time, from the boxes around the anchors of
-/// blocks of space and their neighbours; the second is for the pass that moves particles to see, one comparison each. A
-/// particle that is further from its anchor than its group allows needs looking after by other means; the rest keep
-/// their list.
+/// Consecutive particles form groups. Each group gets an anchor, a point that moves steadily along with the particles
+/// around. If neighbouring anchors stay close to each other, and every particle stays close to its group's anchor, no
+/// unlisted pair can touch. This class bounds the first condition ahead of time, from the boxes around the anchors of
+/// blocks of space and their neighbours; the pass that moves particles checks the second, with one comparison per
+/// particle. A particle further from its anchor than its group allows needs separate treatment; the other particles
+/// keep their list.
 ///
-/// Particles in blocks that are not adjacent were at least a block apart; for them the same is asked of blocks some
-/// times as wide, with what they were apart in place of the skin, and so on.
+/// Particles in blocks that are not adjacent were at least a block apart. For them the same condition applies to blocks
+/// several times as wide, with their distance in place of the skin, and so on for wider blocks.
 template <class Real>
 class MotionBounds {
  public:
   struct Limits {
-    double diameter = 1;  ///< m, > 0, the largest
-    double skin = 0;  ///< m, >= 0, less what rounding may take
+    double diameter = 1;  ///< m, > 0, of the largest particle
+    double skin = 0;  ///< m, >= 0, less a margin for rounding
     bool periodic[3]{};
-    Vec3d min{}, max{};  ///< m, box around the points; of a periodic axis its whole period
+    Vec3d min{}, max{};  ///< m, box around the points; a periodic axis must cover its whole period
   };
 
   using Anchor = GroupAnchor<Real>;
 
-  /// An outlier that is off by less than so many skins touches only particles whose anchors are close to its own:
-  /// anchors_apart() bounds how far from it they are.
+  /// An outlier beyond its allowance by less than this many skins touches only particles whose anchors are close to its
+  /// own; anchors_apart() bounds their distance.
   static constexpr double kMild = 2;
 
-  /// The motion of the particles of one group, summed.
+  /// The summed motion of the particles of one group.
   struct GroupMotion {
     Vec3<Real> moved{Real(0), Real(0), Real(0)};  // m, since they were listed
-    Vec3<Real> step{Real(0), Real(0), Real(0)};  // m, in the next step as far as one can tell
+    Vec3<Real> step{Real(0), Real(0), Real(0)};  // m, expected in the next step
     Real count{};
   };
 
-  /// Takes the places of the points when the list was built, m, in cell order; `group` (> 0) consecutive ones are a
-  /// group.
+  /// Takes the positions of the points when the list was built, m, in cell order; `group` (> 0) consecutive points are
+  /// a group.
   void lay_out(const Columns<Real>& position_at_build, std::size_t count, std::size_t group, const Limits& limits);
 
-  /// Lets anchors follow the particles: motion(g) is the GroupMotion of group g. `anchors` has one for each group, or
-  /// more. Returns for how many steps from now they are good; negative where they are not even now.
+  /// Lets anchors follow the particles: motion(g) is the GroupMotion of group g. `anchors` has at least one per group.
+  /// Returns for how many steps from now the anchors are valid; negative where they are not valid even now.
   template <class Motion>
   std::int64_t follow(const Motion& motion, std::span<Anchor> anchors) {
     clear_motions();
@@ -76,12 +76,12 @@ class MotionBounds {
     return follow_motions(anchors);
   }
 
-  /// How far the anchors around a group may be from its own after so many steps, m.
+  /// How far the anchors around a group may be from its own anchor after `steps` steps, m.
   double anchors_apart(const Anchor& anchor, Real steps) const {
     return skin_ - 2 * static_cast<double>(anchor.allowance - steps * anchor.shrink);
   }
 
-  /// The middle between all anchors after so many steps, m, and how far from it any of them is at most.
+  /// The middle of all anchors after `steps` steps, m, and the largest distance of an anchor from it.
   Vec3<Real> middle(Real steps) const;
   double furthest_from_middle(double steps) const {
     return 0.5001 * (anywhere_.across(0) + steps * anywhere_.across(3));
@@ -91,8 +91,8 @@ class MotionBounds {
   static constexpr std::size_t kLevels = 4;
   static constexpr std::size_t kGrain = 64;  // groups
 
-  // Bounds of offsets (m, 0 to 2) and drifts (m a step, 3 to 5); empty at first. The lower ones, in front, are kept
-  // with the opposite sign, so that all grow.
+  // Bounds of offsets (m, 0 to 2) and drifts (m a step, 3 to 5); initially empty. The lower bounds, in front, are
+  // stored with the opposite sign, so that all bounds grow.
   struct Box {
     static constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
     std::array<Real, 12> edge = {-kInfinite, -kInfinite, -kInfinite, -kInfinite, -kInfinite, -kInfinite,
@@ -106,7 +106,7 @@ class MotionBounds {
       for (std::size_t e = 0; e < 12; ++e) edge[e] = edge[e] < box.edge[e] ? box.edge[e] : edge[e];
     }
     bool empty() const { return edge[0] == -kInfinite; }
-    // The most that two offsets (first = 0) or drifts (3) in the box can differ by; 0 where it is empty.
+    // The largest difference of two offsets (first = 0) or drifts (3) in the box; 0 for an empty box.
     double across(std::size_t first) const {
       double sum = 0;
       for (std::size_t axis = first; axis < first + 3; ++axis) {
@@ -123,7 +123,7 @@ class MotionBounds {
       }
       return most;
     }
-    // How many steps pass before two anchors in the box can be further than `apart` from each other; negative: none.
+    // Number of steps before two anchors in the box can be further apart than `apart`; negative if they are already.
     double steps_within(double apart) const {
       const double now = across(0), growth = across(3);
       if (!(now <= apart)) return -1;
@@ -131,7 +131,7 @@ class MotionBounds {
     }
   };
 
-  // Sums over the groups of a block.
+  // Sums over the groups in a block.
   struct Motions {
     std::array<Real, 7> sum{};
     void add(const Motions& other) {
@@ -141,9 +141,9 @@ class MotionBounds {
 
   struct Level {
     CellGrid grid;
-    double apart = 0;  // m: how far anchors of blocks that are not adjacent may move away from each other
+    double apart = 0;  // m: how far anchors of blocks that are not adjacent may separate
     std::vector<Box> boxes;
-    std::array<std::vector<std::size_t>, 3> block_of;  // by a narrower block's index along an axis: a term of a key
+    std::array<std::vector<std::size_t>, 3> block_of;  // by index of a narrower block along an axis: a term of a key
   };
 
   static std::size_t count_of(const Level& level, int axis) {
@@ -162,7 +162,7 @@ class MotionBounds {
     return std::span(blocks_).subspan(first_block_[g], first_block_[g + 1] - first_block_[g]);
   }
 
-  // What follow() comes to: motions of consecutive groups are added to their blocks', on any thread; anchors follow.
+  // The steps of follow(): add motions of consecutive groups to their blocks, on any thread; then move the anchors.
   void clear_motions();
   void add_motions(std::size_t first, std::span<const GroupMotion> motions);
   std::int64_t follow_motions(std::span<Anchor> anchors);
@@ -179,7 +179,7 @@ class MotionBounds {
   Box anywhere_;  // around all anchors
   std::vector<Motions> motions_;
   std::vector<std::uint32_t> blocks_, first_block_;  // of each group
-  std::mutex mutex_;  // around what is summed up in blocks
+  std::mutex mutex_;  // guards sums over blocks
 };
 
 extern template class MotionBounds<float>;

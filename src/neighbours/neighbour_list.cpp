@@ -12,11 +12,11 @@
 namespace hooke {
 namespace {
 
-// What one thread searches with.
+// The search of one thread.
 template <class Real>
 class WindowSearcher {
  public:
-  // Finds the neighbours that `rule` asks for, of points in the order of `cells`.
+  // Finds the neighbours given by `rule` of points in the order of `cells`.
   WindowSearcher(const CellList& cells, const NeighbourRule<Real>& rule, WindowSearchFunction<Real> search)
       : cells_(cells),
         rule_(rule),
@@ -29,7 +29,7 @@ class WindowSearcher {
     }
   }
 
-  // Writes the rows of a window, the points first to end - 1.
+  // Writes the rows of a window: the points first to end - 1.
   void write_rows(std::size_t first, std::size_t end, NeighbourList::Writer& writer) {
     HOOKE_ASSERT(first < end && end - first <= kWindow && end <= cells_.point_count(), first, end,
                  cells_.point_count());
@@ -64,12 +64,12 @@ class WindowSearcher {
  private:
   struct Level {
     std::size_t end;  // one past its last point
-    Vec3<Real> block;  // m: its blocks are no larger
-    std::vector<double> reach;  // m: its neighbours of each level are no further
+    Vec3<Real> block;  // m: largest size of its blocks
+    std::vector<double> reach;  // m: largest distance of its neighbours, by their level
   };
 
-  // Cuts off the points from `first` on, before `end`, that lie close together, and finds the ranges that they are
-  // compared with. Returns the number of points in those.
+  // Selects the points from `first` on, before `end`, that lie close together, and finds the ranges to compare them
+  // with. Returns the number of points in these ranges.
   std::size_t find_block(std::size_t first, std::size_t end, SearchBlock<Real>& block) {
     std::size_t l = 0;
     while (first >= levels_[l].end) ++l;
@@ -98,14 +98,14 @@ class WindowSearcher {
     return points;
   }
 
-  // How far neighbours of two levels may be from each other, m. A millionth more for rounding.
+  // The largest distance of neighbours from two levels, m; a millionth more for rounding.
   double reach(std::size_t a, std::size_t b) const {
     const double radii = rule_.radius == nullptr ? 0 : cells_.largest_radius(a) + cells_.largest_radius(b);
     return (static_cast<double>(rule_.reach) + radii) * (1 + 1e-6);
   }
 
-  // How large a block of a level may be, m: long enough that many points share a search; across a periodic axis so
-  // small that whoever is near has one image only that is.
+  // The largest size of a level's blocks, m: long enough that many points share a search; across a periodic axis small
+  // enough that only one image of a point can be near.
   Vec3<Real> largest_block(std::size_t level) const {
     constexpr double kLong = 3;  // cells
     const CellGrid& grid = cells_.grid(level);
@@ -121,7 +121,7 @@ class WindowSearcher {
 
   Vec3<Real> position(std::size_t i) const { return {rule_.at.x[i], rule_.at.y[i], rule_.at.z[i]}; }
 
-  // For a window whose blocks' ranges hold `most` points.
+  // Makes room for a window whose blocks' ranges hold `most` points.
   void make_room(std::size_t most) {
     if (most + 32 <= x_.size()) return;
     const std::size_t room = 2 * (most + 32);
@@ -156,7 +156,7 @@ void NeighbourList::clear(std::size_t tile_count) {
   begun_.clear();
 }
 
-// Memory for at least so many entries. Any thread may call.
+// Memory for at least `entries` entries. Any thread may call.
 std::span<std::uint32_t> NeighbourList::new_block(std::size_t entries) {
   constexpr std::size_t kBehind = kRowsAhead * kLanes;
   const std::lock_guard lock(mutex_);
@@ -166,7 +166,7 @@ std::span<std::uint32_t> NeighbourList::new_block(std::size_t entries) {
   return std::span(block).first(block.size() - kBehind);
 }
 
-// What an earlier writer left of a block; empty where none did.
+// The rest of an earlier writer's block; empty if there is none.
 std::span<std::uint32_t> NeighbourList::begun_block() {
   const std::lock_guard lock(mutex_);
   if (begun_.empty()) return {};

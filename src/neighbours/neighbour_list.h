@@ -17,11 +17,11 @@
 
 namespace hooke {
 
-/// A full neighbour list in lanes: 16 particles that follow each other in memory form a group, and row k of a group
-/// holds the k-th neighbour of each of them, one a lane (the sliced-ELLPACK layout: Kreutzer et al., "A unified sparse
-/// matrix data format", SIAM J. Sci. Comput. 2014). Each lane's neighbours are in ascending order of rank, so a force
-/// pass that adds row after row sums in canonical order. Short lanes end with fillers. An entry is a slot in
-/// memory times the rule's stride, e.g. an address offset.
+/// A full neighbour list in lanes: 16 consecutive particles in memory form a group, and row k of a group holds the k-th
+/// neighbour of each particle, one per lane (the sliced-ELLPACK layout: Kreutzer et al., "A unified sparse matrix data
+/// format", SIAM J. Sci. Comput. 2014). The neighbours in each lane are in ascending order of rank, so a force pass
+/// that adds row after row sums in canonical order. Short lanes end with fillers. An entry is a slot in memory times
+/// the rule's stride, e.g. an address offset.
 class NeighbourList {
  public:
   static constexpr std::size_t kLanes = kGroupLanes;
@@ -30,8 +30,8 @@ class NeighbourList {
 
   static constexpr std::array<std::uint32_t, kLanes> kNoRow{};
 
-  /// The rows of 1024 particles: what one thread builds and later walks over. Behind the last one kRowsAhead more can
-  /// be read, which mean nothing.
+  /// The rows of 1024 particles, which one thread builds and later walks over. kRowsAhead rows after the last one can
+  /// be read; they mean nothing.
   struct Tile {
     const std::uint32_t* entries = kNoRow.data();  // rows of kLanes
     std::array<std::uint32_t, kGroups + 1> first_row{};  // group g: rows first_row[g] to first_row[g + 1]
@@ -46,23 +46,23 @@ class NeighbourList {
     return {tile.entries + std::size_t{first} * kLanes, (tile.first_row[g + 1] - first) * kLanes};
   }
 
-  /// The same, to be changed in place.
+  /// The same rows, to be changed in place.
   std::span<std::uint32_t> rows_to_edit(std::size_t s, std::size_t g) {
     const std::span<const std::uint32_t> rows = this->rows(s, g);
     return {const_cast<std::uint32_t*>(rows.data()), rows.size()};  // NOLINT: the memory is this list's own
   }
 
-  /// Entries in use, padding included.
+  /// Number of entries in use, padding included.
   std::size_t entry_count() const;
 
-  /// Forgets all rows; their memory is kept for the next ones.
+  /// Removes all rows; their memory is kept for new rows.
   void clear(std::size_t tile_count);
 
   /// Adds tiles without rows until there are `tile_count`.
   void add_empty_tiles(std::size_t tile_count) { tiles.resize(std::max(tiles.size(), tile_count)); }
 
-  /// Takes the rows of one tile after the other, up to kGroups groups each, group by group, straight to where they
-  /// stay until clear(). One thread each.
+  /// Takes the rows of one tile after the other, up to kGroups groups each, group by group, and writes them to their
+  /// place, where they stay until clear(). One writer per thread.
   class Writer {
    public:
     explicit Writer(NeighbourList& list) : list_(list), to_(list.begun_block()) {}
@@ -70,15 +70,15 @@ class NeighbourList {
     Writer(const Writer&) = delete;
     Writer& operator=(const Writer&) = delete;
 
-    /// Where the so many rows of the tile's next group are to be written before the next call; those of groups
-    /// before may move then.
+    /// Room for the `rows` rows of the tile's next group, to be written before the next call, which may move the rows
+    /// of earlier groups.
     std::uint32_t* next_group(std::size_t rows);
-    /// The tile is at its end; groups that were not asked for have no rows.
+    /// Ends the tile; groups that were not asked for have no rows.
     Tile finish_tile();
 
    private:
     NeighbourList& list_;
-    std::span<std::uint32_t> to_;  // room that is left
+    std::span<std::uint32_t> to_;  // room left
     std::uint32_t* tile_ = to_.data();
     std::size_t group_ = 0;
     std::array<std::uint32_t, kGroups + 1> first_row_{};
@@ -97,7 +97,7 @@ class NeighbourList {
   std::vector<std::span<std::uint32_t>> begun_;
 };
 
-/// Builds `list` anew, over the sorted points, of which `rule` has columns.
+/// Rebuilds `list` for the sorted points, whose columns `rule` holds.
 template <class Real>
 void build_neighbour_list(const CellList& cells, const NeighbourRule<Real>& rule,
                           WindowSearchFunction<Real> search_window, NeighbourList& list);

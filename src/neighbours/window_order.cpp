@@ -30,7 +30,7 @@ void WindowOrder::sort_by_count(std::span<std::uint32_t> order, std::uint8_t* pl
     least = std::min(least, count[k]);
     most = std::max(most, count[k]);
   }
-  std::array<std::uint8_t, 257> first{};  // place of the first point that has so many fewer than the most
+  std::array<std::uint8_t, 257> first{};  // place of the first point with this many fewer neighbours than the most
   for (std::size_t k = 0; k < order.size(); ++k) ++first[most - count[k] + 1U];
   for (int fewer = 0; fewer < most - least; ++fewer) {
     first[static_cast<std::size_t>(fewer) + 1] =
