@@ -6,11 +6,11 @@
 
 namespace hooke {
 
-// 1 / sqrt(a) out of additions and multiplications alone, for a > 0 well inside the range of its type: the same bits
-// everywhere, and in packs four times as fast as a square root and a division. The bits of `a`, halved and taken from
-// a constant, are a line that is nowhere more than some percent off; Kadlec's constants (2010) make what the first step
-// leaves 6.5e-4, and each step after it cubes the error (Householder). In single precision one of those does, in double
-// two.
+// 1 / sqrt(a) from additions and multiplications alone, for a > 0 well inside the range of its type: the same bits
+// everywhere, and in packs four times as fast as a square root and a division. Halving the bits of `a` and subtracting
+// them from a constant gives an estimate that is nowhere more than some percent off. Kadlec's constants (2010) reduce
+// the error of the first step to 6.5e-4, and each further step cubes the error (Householder). Single precision needs
+// one further step, double precision two.
 
 HOOKE_HD float inverse_root_seed(float a) {
   return __builtin_bit_cast(float, 0x5F1FFFF9U - (__builtin_bit_cast(unsigned, a) >> 1U));
@@ -33,8 +33,8 @@ HOOKE_HD R inverse_root_next(const R& a, const R& y) {
 HOOKE_HD float inverse_root(float a) { return inverse_root_next(a, inverse_root_first(a)); }
 HOOKE_HD double inverse_root(double a) { return inverse_root_next(a, inverse_root_next(a, inverse_root_first(a))); }
 
-/// How the laws of this file compute: each operation rounded once. Packs know another, which is quicker and not the
-/// same everywhere.
+/// The arithmetic of the laws in this file: each operation is rounded once. Packs have another one, which is faster but
+/// whose bits are not the same everywhere.
 struct ExactMath {
   template <class R>
   HOOKE_HD static R multiply_add(const R& a, const R& b, const R& c) {
@@ -46,7 +46,7 @@ struct ExactMath {
   }
 };
 
-/// d^2 + eps^2 of the vector `towards` (m) from one centre to the other, in which attraction falls off. `softening2` is
+/// d^2 + eps^2 of the vector `towards` (m) from one centre to the other, on which attraction depends. `softening2` is
 /// eps^2, m^2, > 0 (core/attraction.h).
 template <class Math, class R>
 HOOKE_HD R softened_square(const Vec3<R>& towards, const R& softening2) {
@@ -55,25 +55,25 @@ HOOKE_HD R softened_square(const Vec3<R>& towards, const R& softening2) {
       Math::multiply_add(towards.y, towards.y, Math::multiply_add(towards.x, towards.x, softening2)));
 }
 
-/// THE LAW OF ATTRACTION (docs/theory.md eq. 11; the thesis's eq. 4.5, softened by Plummer's length eps): what a
-/// particle of mass `mass` (kg) pulls one with that is away from it by -`towards` (m):
+/// THE LAW OF ATTRACTION (docs/theory.md eq. 11; the thesis's eq. 4.5, softened by Plummer's length eps): the
+/// acceleration towards a particle of mass `mass` (kg) of a particle at -`towards` (m) from it:
 ///
 ///     a = G mass towards / (d^2 + eps^2)^(3/2)
 ///
-/// The factor of `towards` in it, without G. Two centres at the very same place don't pull.
+/// Returns the factor of `towards`, without G. Two centres at the very same place do not attract each other.
 template <class Math, class R>
 HOOKE_HD R attraction(const Vec3<R>& towards, const R& mass, const R& softening2) {
   const R inverse = Math::inverse_root_of(softened_square<Math>(towards, softening2));
   return (mass * inverse) * (inverse * inverse);
 }
 
-/// Potential of that particle there, without G: -mass / sqrt(d^2 + eps^2), kg/m.
+/// Potential of the same particle there, without G: -mass / sqrt(d^2 + eps^2), kg/m.
 template <class Math, class R>
 HOOKE_HD R attraction_potential(const Vec3<R>& towards, const R& mass, const R& softening2) {
   return -(mass * Math::inverse_root_of(softened_square<Math>(towards, softening2)));
 }
 
-/// Many particles seen from afar: their mass at its centre, and how it is spread around it.
+/// Many particles seen from afar: their mass at its centre, and its spread around the centre.
 template <class R>
 struct MassCloud {
   R mass;  ///< kg
@@ -81,7 +81,7 @@ struct MassCloud {
   R trace;  ///< 1.5 sum m r.r, kg m^2
 };
 
-/// What a cloud of mass pulls with, up to the quadrupole: eq. 12, the derivative of the expansion of eq. 11 in 1 / d.
+/// Acceleration by a cloud of mass, up to the quadrupole: eq. 12, the derivative of the expansion of eq. 11 in 1 / d.
 /// `towards` (m) leads to the centre of mass. Without G.
 template <class Math, class R>
 HOOKE_HD Vec3<R> cloud_attraction(const Vec3<R>& towards, const MassCloud<R>& cloud, const R& softening2) {

@@ -9,13 +9,13 @@
 
 namespace hooke {
 
-// Who is inside of a shape, however far from its surface.
+// Which points lie inside a shape, however far from its surface.
 
-/// In the directory of a distance field: a brick without samples, all of which is inside of a closed mesh.
+/// In the directory of a distance field: a brick without samples, wholly inside a closed mesh.
 inline constexpr std::int32_t kBrickInside = -2;
 
-/// Whether `at` (m, from the field's origin) is inside of the closed mesh of a field: where there are samples the
-/// distance between them is negative. Nothing is inside of an open mesh.
+/// Whether `at` (m, from the field's origin) is inside the closed mesh of a field: where there are samples, the
+/// interpolated distance is negative. No point is inside an open mesh.
 inline bool encloses(const DistanceFieldView& field, const Vec3d& at) {
   HOOKE_ASSERT(field.directory != nullptr && field.cell > 0, field.directory, field.cell);
   const Vec3d u = (1 / field.cell) * at;
@@ -31,7 +31,7 @@ inline bool encloses(const DistanceFieldView& field, const Vec3d& at) {
   return brick < 0 ? brick == kBrickInside : field_value(field, u) < 0;
 }
 
-/// Whether x (m) is inside of the solid: of a plane, behind it.
+/// Whether x (m) is inside the solid; for a plane, behind it.
 inline bool encloses(const ShapeGeometry<double>& shape, const Vec3d& x) {
   if (shape.kind == ShapeKind::mesh) return encloses(shape.field, x - shape.center);
   return shape_distance(shape, x).distance < 0;

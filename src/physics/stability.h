@@ -16,7 +16,7 @@ inline double effective_mass(double mass_i, double mass_p) {
   return mass_i * mass_p / (mass_i + mass_p);
 }
 
-/// c / (2 sqrt(k m_eff)), with m_eff > 0: 1 is critical damping; 0 where there is no spring.
+/// c / (2 sqrt(k m_eff)), with m_eff > 0: 1 is critical damping; 0 without a spring.
 inline double damping_ratio(double damping, double stiffness, double m_eff) {
   HOOKE_ASSERT(m_eff > 0, m_eff);
   return stiffness > 0 ? damping / (2 * std::sqrt(stiffness * m_eff)) : 0;
