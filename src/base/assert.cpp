@@ -24,7 +24,7 @@ std::atomic<AssertHandler>& current_handler() {
   return handler;
 }
 
-// Takes the next name off `names`, which are apart by commas that stand in no brackets and no quotes.
+// Takes the next name off `names`, which are separated by commas outside brackets and quotes.
 std::string_view take_name(std::string_view& names) {
   std::size_t end = 0;
   int depth = 0;
@@ -57,7 +57,7 @@ std::string_view take_name(std::string_view& names) {
 
 namespace detail {
 
-/// Text in memory of its own: an assertion may fail where there is no other. What is too long is cut off.
+/// Text in its own memory, because an assertion may fail when there is no other. Text that is too long is cut off.
 struct AssertText {
   void add(std::string_view text) {
     for (const char c : text) {

@@ -9,35 +9,35 @@
 
 #include "hooke/base/real.h"
 
-/// 1 where assertions are checked, else 0. CMake's option of the same name gives it to Hooke's libraries and, as part
-/// of their usage requirements, to every program that links them: inline functions of Hooke's headers hold assertions,
-/// and a program in which some files check them and others don't has two definitions of one function, of which the
-/// linker keeps either. Whoever builds by other means defines it alike for all files.
+/// 1 where assertions are checked, else 0. CMake's option of the same name sets it for Hooke's libraries and, as a
+/// usage requirement, for every program that links them. Inline functions of Hooke's headers hold assertions, so a
+/// program in which only some files check them would have two definitions of one function, of which the linker keeps
+/// either. A build by other means must define it alike for all files.
 #if !defined(HOOKE_ASSERTIONS)
 #define HOOKE_ASSERTIONS 0
 #endif
 
-// Of the host alone, and in no file's object code by itself.
+// For the host only; never emitted out of line in an object file.
 #define HOOKE_INLINED inline __attribute__((always_inline))
 
 namespace hooke {
 
-/// An assertion that does not hold. Texts live as long as the call of the handler.
+/// An assertion that does not hold. Its texts are valid only during the call of the handler.
 struct AssertionFailure {
-  const char* expression;   ///< as it is written: "index < count"
+  const char* expression;   ///< as written: "index < count"
   const char* file;         ///< as the compiler calls it
   int line;
-  const char* function;     ///< without its class
+  const char* function;     ///< without the class name
   std::string_view values;  ///< "index = 7, count = 5"; empty where the assertion names none
 };
 
-/// What happens when an assertion does not hold. Any thread may call it, several at once. It may end the program or, as
-/// tests do, throw; where it returns, the program is aborted, because what follows an assertion relies on it. What it
-/// throws may pass through functions that leave no exception out: std::terminate is called there.
+/// Called when an assertion does not hold, by any thread, or by several at once. It may end the program or, as tests
+/// do, throw; if it returns, the program is aborted, because the following code relies on the assertion. If its
+/// exception reaches a function that lets none out, std::terminate is called.
 using AssertHandler = void (*)(const AssertionFailure& failure);
 
-/// Sets the handler of this program, the default one where it is null, and returns the one before. The default handler
-/// writes one line to stderr and aborts. A program and a shared library that each link Hooke have a handler each.
+/// Sets this program's handler, or the default handler if null, and returns the previous one. The default handler
+/// writes one line to stderr and aborts. A program and a shared library that each link Hooke have separate handlers.
 AssertHandler set_assert_handler(AssertHandler handler);
 
 namespace detail {
@@ -45,8 +45,8 @@ namespace detail {
 template <class T>
 inline constexpr bool kNeverTrue = false;
 
-/// A value that an assertion shows: a number, a bool, an enumerator (its number), a vector, a string or a pointer. All
-/// inlined, so that files of different instruction sets share no function.
+/// A value that an assertion shows: a number, a bool, an enumerator (its number), a vector, a string or a pointer.
+/// Entirely inlined, so that files of different instruction sets share no function.
 class AssertValue {
  public:
   enum class Kind : unsigned char { boolean, integer, natural, single, number, single_vector, vector, text, pointer };
@@ -118,10 +118,10 @@ class AssertValue {
   };
 };
 
-/// Where an assertion stands.
+/// The place of an assertion in the source.
 struct AssertSite {
   const char* expression;
-  const char* names;  ///< of the values, as they are written
+  const char* names;  ///< of the values, as written
   const char* file;
   int line;
   const char* function;
@@ -130,18 +130,18 @@ struct AssertSite {
 /// Calls the handler. Compiled once, for any processor.
 [[noreturn, gnu::cold]] void assertion_failed(const AssertSite& site, std::initializer_list<AssertValue> values);
 
-/// Never called: lets the compiler look at the values of an assertion that is off.
+/// Never called: lets the compiler check the values of a disabled assertion.
 HOOKE_INLINED bool are_values(std::initializer_list<AssertValue>) { return true; }
 
 }  // namespace detail
 }  // namespace hooke
 
-/// HOOKE_ASSERT(expression, values...): the expression holds, or the program has a mistake. Up to about a dozen values
-/// are shown beside it: HOOKE_ASSERT(index < count, index, count). Without HOOKE_ASSERTIONS, and in files that nvcc
-/// compiles, neither is evaluated, but the expression must compile.
+/// HOOKE_ASSERT(expression, values...): if the expression does not hold, the program has a mistake. The message shows
+/// up to about a dozen values: HOOKE_ASSERT(index < count, index, count). Without HOOKE_ASSERTIONS, and in files that
+/// nvcc compiles, neither is evaluated, but the expression must compile.
 ///
-/// For mistakes of programmers alone: what a user can get wrong is an Error (expected.h). A program that has its own
-/// way may define the macro before it includes anything of Hooke's, the same for all its files.
+/// Only for mistakes of programmers: a mistake that a user can make is an Error (expected.h). A program with its own
+/// macro may define it before it includes any header of Hooke, the same for all its files.
 #if !defined(HOOKE_ASSERT)
 #if defined(__CUDACC__)
 #define HOOKE_ASSERT(expression, ...) static_cast<void>(sizeof(static_cast<bool>(expression)))

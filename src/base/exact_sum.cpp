@@ -39,7 +39,7 @@ double ExactSum::value() const {
   return negative ? -sum : sum;
 }
 
-// Brings every limb but the last into [0, 2^32).
+// Brings every limb except the last into [0, 2^32).
 void ExactSum::carry() {
   std::int64_t over = 0;
   for (std::size_t i = 0; i + 1 < kLimbs; ++i) {

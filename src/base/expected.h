@@ -11,7 +11,7 @@
 
 namespace hooke {
 
-/// One thing that is wrong, and where.
+/// One fault, and its place.
 struct Finding {
   std::string where;    ///< JSON path ("materials.water.radius"), "file.csv:12", or a file's name; may be empty
   std::string message;  ///< what is wrong, the value, and what is allowed
@@ -19,18 +19,18 @@ struct Finding {
   friend bool operator==(const Finding&, const Finding&) = default;
 };
 
-/// Why an operation failed. Errors are values: nothing in Hooke's libraries prints, exits or lets an
-/// exception leave a public function.
+/// Why an operation failed. Errors are values: Hooke's libraries never print or exit, and no exception leaves a public
+/// function.
 struct Error {
   enum class Kind {
-    bad_input,   ///< the caller gave something that can't be used (exit status 2)
+    bad_input,   ///< the caller's input can't be used (exit status 2)
     run_failed,  ///< a simulation went bad (exit status 3)
     io,          ///< a file could not be read or written (3 while running, 2 before)
   };
   Kind kind = Kind::bad_input;
-  std::vector<Finding> findings;  ///< every finding at once, at least one
+  std::vector<Finding> findings;  ///< all findings at once, at least one
 
-  /// All findings, one a line, "where: message".
+  /// All findings, one per line, "where: message".
   std::string text() const {
     std::string all;
     for (const Finding& f : findings) {

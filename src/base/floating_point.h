@@ -8,8 +8,8 @@
 
 namespace hooke {
 
-/// Within its life this thread rounds to nearest and keeps denormal numbers, whatever the program around Hooke has set:
-/// with flush-to-zero the same scene would give other bits (docs/determinism.md).
+/// While it exists, this thread rounds to nearest and keeps denormal numbers, whatever the program around Hooke has
+/// set: with flush-to-zero the same scene would give other bits (docs/determinism.md).
 class FloatingPointGuard {
  public:
 #if defined(__SSE2__)

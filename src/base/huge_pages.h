@@ -13,8 +13,8 @@
 
 namespace hooke {
 
-/// Memory for large arrays that are read in no straight order: on pages of 2 MiB where the system grants them, so that
-/// a step of half a million particles does not spend its time looking up addresses. Smaller arrays are as ever.
+/// Memory for large arrays that are not read in order: on pages of 2 MiB where the system grants them, so that a step
+/// of half a million particles does not spend its time looking up addresses. Smaller arrays use ordinary memory.
 template <class T>
 struct HugePageAllocator {
   using value_type = T;
@@ -31,7 +31,7 @@ struct HugePageAllocator {
     void* memory = std::aligned_alloc(kPage, whole_pages);
     if (memory == nullptr) throw std::bad_alloc();
 #if defined(__linux__)
-    // A hint: where it fails, ordinary pages do, and so they do for the rest that would not fill one.
+    // A hint: if it fails, ordinary pages are used, as they are for the remainder that would not fill a huge page.
     madvise(memory, bytes / kPage * kPage, MADV_HUGEPAGE);
 #endif
     return static_cast<T*>(memory);

@@ -27,7 +27,7 @@ void run_ranges(std::size_t count, std::size_t grain, const void* body, RangeFun
     call(body, first * grain, last * grain < count ? last * grain : count);
   };
 #if defined(HOOKE_SANITIZE_THREAD)
-  // The thread sanitizer can't see how an uninstrumented oneTBB hands work over, and takes all of it for races.
+  // The thread sanitizer can't see how an uninstrumented oneTBB hands work over, and reports it all as races.
   std::atomic<std::size_t> next{0};
   std::vector<std::thread> threads(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
   for (std::thread& thread : threads) {

@@ -23,8 +23,8 @@ constexpr std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> c
   return counter;
 }
 
-/// Random numbers for one particle (or one site): `seed` picks the stream, `index` the particle,
-/// `draw` the how-manieth four numbers. Each is uniform in [0, 1) with 32 bits.
+/// Random numbers for one particle (or one site): `seed` selects the stream, `index` the particle, `draw` the group of
+/// four numbers. Each is uniform in [0, 1) with 32 bits.
 constexpr std::array<double, 4> uniform4(std::uint64_t seed, std::uint64_t index, std::uint32_t draw,
                                          std::uint32_t purpose = 0) {
   const auto words =

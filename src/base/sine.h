@@ -12,17 +12,16 @@ struct SineCosine {
   double sine = 0, cosine = 1;
 };
 
-/// Sine and cosine of an angle in turns (1 is 360 degrees), the same bits on every machine: those of mathematical
-/// libraries differ between machines, and what follows from them would too. Plain arithmetic; off by at most 2e-16 for
-/// any angle that the number itself tells apart (up to 2^52 turns), and exact at quarters of a turn. The angle must be
-/// finite.
+/// Sine and cosine of an angle in turns (1 is 360 degrees), with the same bits on every machine; mathematical libraries
+/// differ between machines, and so would their results. Plain arithmetic; off by at most 2e-16 for any angle that a
+/// double can tell apart (up to 2^52 turns), and exact at quarters of a turn. The angle must be finite.
 inline SineCosine sine_cosine_of_turns(double turns) {
   HOOKE_ASSERT(std::isfinite(turns), turns);
-  // Quarter turns come off without rounding; an eighth of a turn either way is left.
+  // Quarter turns are subtracted without rounding, which leaves at most an eighth of a turn either way.
   const double quarters = std::floor(4 * turns + 0.5);
   constexpr double kTwoPi = 6.283185307179586477;
   const double a = kTwoPi * (turns - 0.25 * quarters);
-  // Taylor's series: their first missing terms are below 1e-19 for |a| <= pi/4.
+  // Taylor series; the first omitted terms are below 1e-19 for |a| <= pi/4.
   const double a2 = a * a;
   double sine = -1 / 121645100408832000.0;  // 19!
   double cosine = -1 / 6402373705728000.0;  // 18!

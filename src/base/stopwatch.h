@@ -6,7 +6,7 @@
 
 namespace hooke {
 
-/// Adds the wall time from its making to stop(), or to the end of its scope, to a sum.
+/// Adds the wall time from its construction to stop(), or to the end of its scope, to a sum.
 class Stopwatch {
  public:
   explicit Stopwatch(double& seconds) : seconds_(&seconds), start_(Clock::now()) {}
