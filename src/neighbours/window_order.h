@@ -24,7 +24,7 @@ class WindowOrder {
   std::size_t slot_of(std::size_t p) const { return p / kWindow * kWindow + places_[p]; }
   /// The slot within its window of each point in cell order; 16 more can be read.
   const std::uint8_t* places() const { return places_.data(); }
-  /// By slot, written by a search: a point's number of neighbours, up to 255.
+  /// By slot, written by a search: a point's number of neighbours with itself, up to 255.
   std::uint8_t* neighbour_counts() { return neighbour_counts_.data(); }
 
  private:

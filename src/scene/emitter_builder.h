@@ -14,7 +14,7 @@ namespace hooke {
 /// each emitter in the scene.
 std::vector<std::size_t> build_emitters(Json& emitters, const ShapeFiles& files, Scene& scene, Findings& findings);
 
-/// Fills `scene.sinks` from the entries of "sinks" likewise.
+/// Fills `scene.sinks` from the entries of "sinks" in the same way; sinks have no names.
 std::vector<std::size_t> build_sinks(const Json& sinks, const ShapeFiles& files, Scene& scene, Findings& findings);
 
 }  // namespace hooke

@@ -24,7 +24,7 @@ std::uint64_t sites_on(double length, double distance) {
 
 double length(const CentreBox& box, int axis) { return component(box.max, axis) - component(box.min, axis); }
 
-// Saturates like the counts whose product it is.
+// A product of counts, saturated at 2^63 as the counts are.
 std::uint64_t saturated(double count) {
   return count >= kMostSites ? static_cast<std::uint64_t>(kMostSites) : static_cast<std::uint64_t>(count);
 }

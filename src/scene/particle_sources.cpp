@@ -284,7 +284,7 @@ class Loader {
     }
   }
 
-  // Findings about a block name the scene's text, those about a file name the file's text.
+  // Findings about a block refer to the scene's text, findings about a file to the file's text.
   void complain(const Span& span, const std::string& where, std::string message) {
     if (span.places.empty()) {
       findings_.add(where, std::move(message));

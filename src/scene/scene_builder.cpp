@@ -95,7 +95,7 @@ void find_size(const Json& entry, const std::string& where, const Json& collider
   }
 }
 
-// Reads friction, tension and cohesion of a material or of a pair; values left out or refused are those of `fallback`.
+// Reads friction, tension and cohesion of a material or of a pair; `fallback` replaces values left out or refused.
 SurfaceCoefficients<double> read_surface(const Json& entry, const std::string& where,
                                          const SurfaceCoefficients<double>& fallback, const Findings& findings) {
   SurfaceCoefficients<double> surface = fallback;
