@@ -46,7 +46,7 @@ void CellList::sort_keys(const Room& room, std::vector<std::uint32_t>& order) {
   constexpr std::size_t kBlock = std::size_t{1} << 14U;  // points
   const std::size_t count = room.keys.size();
   const std::size_t slots = (key_end_ >> slot_bits_) + 1;
-  unsigned part_bits = 0;  // bits: slots per part
+  unsigned part_bits = 0;  // a part has 2^part_bits slots
   while ((slots - 1) >> part_bits >= kMostParts) ++part_bits;
   const std::size_t parts = ((slots - 1) >> part_bits) + 1;
   const std::size_t part_slots = std::size_t{1} << part_bits;
