@@ -16,10 +16,10 @@ namespace hooke {
 namespace {
 
 constexpr double kCell = 2.5;       // edge, in radii
-constexpr double kMostCells = 4e6;  // larger cells where there would be more
+constexpr double kMostCells = 4e6;  // cells grow until there are no more than this
 constexpr double kPacked = 0.6;     // share of the space that particles of a pool fill
 
-// Cells over the space that the particles take up inside the domain.
+// Cells over the box of the particles' centres.
 struct Cells {
   Vec3d origin{0, 0, 0};
   double edge = 1;
@@ -67,7 +67,7 @@ void add_neighbours(std::vector<std::uint32_t>& values, std::size_t count, std::
   });
 }
 
-// The part of three cells around `cell` that lies inside the domain, where nothing is beyond a wall, m.
+// Length inside the domain of `cell` and its two neighbours along `axis`, m: beyond a wall is no space to fill.
 double room(const Cells& cells, const Domain& domain, int axis, std::size_t cell) {
   const double low = component(cells.origin, axis) + (static_cast<double>(cell) - 1) * cells.edge;
   return std::min(low + 3 * cells.edge, component(domain.max, axis)) - std::max(low, component(domain.min, axis));
@@ -103,7 +103,7 @@ std::vector<float> aeration(const Scene& scene, const ParticleSet& particles, do
       const double space =
           rooms[0][cells.along(x.x, 0)] * rooms[1][cells.along(x.y, 1)] * rooms[2][cells.along(x.z, 2)];
       const double filled = counts[cells.of(x)] * particle / space;
-      // A smooth surface leaves half of the space empty, its corners some more.
+      // At a smooth surface half of the space is empty, at the surface's corners some more.
       air[i] = static_cast<float>(std::clamp((0.42 - filled) / 0.32, 0.0, 1.0));
     }
   });

@@ -10,8 +10,8 @@
 namespace hooke {
 
 /// How much air is mixed with the particles around each one, in the set's order: 0 in a pool and at its smooth
-/// surface, up to 1 in spray. From how much of the space within a few radii (and within the domain) particles fill.
-/// `radius`: of a typical particle, m, > 0. The same for any number of threads.
+/// surface, up to 1 in spray. Follows from the share of the space within a few radii, and inside the domain, that
+/// particles fill. `radius`: of a typical particle, m, > 0. The same for any number of threads.
 std::vector<float> aeration(const Scene& scene, const ParticleSet& particles, double radius);
 
 }  // namespace hooke

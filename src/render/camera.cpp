@@ -17,7 +17,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 double norm(const Vec3d& v) { return std::sqrt(dot(v, v)); }
 Vec3d normalized(const Vec3d& v) { return (1 / norm(v)) * v; }
-// But for what rounding makes of it.
+// Up to rounding.
 bool is_unit(const Vec3d& v) { return std::abs(dot(v, v) - 1) < 1e-6; }
 // `v` turned about the unit vector `axis` (Rodrigues' formula).
 Vec3d rotated(const Vec3d& v, const Vec3d& axis, double angle) {
@@ -109,9 +109,9 @@ Camera default_camera(const Box& box, const Vec3d& up, double field_of_view, dou
   const double tangent_y = kFilled * std::tan(0.5 * field_of_view * kDegree);
   const double tangent_x = tangent_y * aspect;
 
-  // In the camera's own axes, what lies on a line through a corner that leaves the corner at the picture's rim: the
-  // eye must be above all lines of the one rim and below those of the other; where two such wedges meet is the nearest
-  // eye that sees everything.
+  // In the camera's own axes, draw through each corner the two lines from which the corner is seen at the one and at
+  // the other rim of the picture. The eye must lie above all lines of the one rim and below all lines of the other.
+  // The nearest eye that sees everything is where both wedges (x, y) allow it.
   struct Wedge {
     double high = -1e300, low = 1e300;  // bounds of  shift + distance * tangent  and  shift - distance * tangent
   };
@@ -140,7 +140,7 @@ Camera camera_at(const Scene& scene, const Box& action, double aspect, double ti
   }
   if (wanted.eye) camera.eye = *wanted.eye;
   camera.eye = camera.target + rotated(camera.eye - camera.target, camera.up, wanted.orbit * kDegree * time);
-  // Straight up or down, anything level will do for the top of the picture.
+  // For a view straight up or down, any level direction will do as the top of the picture.
   const Vec3d view = normalized(camera.eye - camera.target);
   if (std::abs(dot(view, camera.up)) > 0.9999) camera.up = -level_axes(action, camera.up).front;
   return camera;

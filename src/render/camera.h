@@ -33,15 +33,14 @@ CameraAxes axes(const Camera& camera);
 /// Against gravity; y where there is none.
 Vec3d up_of(const Scene& scene);
 
-/// How far `box` reaches along the unit vector `direction`, m.
+/// The length of `box` along the unit vector `direction`, m.
 double extent_along(const Box& box, const Vec3d& direction);
 
-/// Where a scene's action takes place: the domain, but only as high as the particles reach at the start, `first`, and a
-/// bit.
+/// Where a scene's action takes place: the domain, cut a little above the highest particle at the start, `first`.
 Box action_box(const Scene& scene, const ParticleSet& first);
 
-/// Level unit vectors of `box`, at right angles, where the unit vector `up` points up: along its longer level side,
-/// which pictures show from left to right, and from it to the viewer.
+/// Two level unit vectors at right angles; the unit vector `up` points up. `across` is along the longer level side of
+/// `box`, which pictures show from left to right; `front` points to the viewer.
 struct LevelAxes {
   Vec3d across, front;
 };
@@ -54,8 +53,8 @@ Vec3d direction_to_sun(const Box& box, const Vec3d& up);
 /// `field_of_view` in degrees, in (0, 180); `aspect`: width of the picture over its height, > 0.
 Camera default_camera(const Box& box, const Vec3d& up, double field_of_view, double aspect);
 
-/// The camera of a picture at `time` (s): the scene's, or the default one for what it leaves out, carried around the
-/// target by the scene's orbit.
+/// The camera of a picture at `time` (s): the scene's camera, with the default camera's values where the scene gives
+/// none, carried around the target by the scene's orbit.
 Camera camera_at(const Scene& scene, const Box& action, double aspect, double time);
 
 }  // namespace hooke

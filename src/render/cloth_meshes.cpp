@@ -16,7 +16,7 @@ Vec3d cross(const Vec3d& a, const Vec3d& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// Whether an edge lies across a periodic domain: its ends are neighbours there, not on a picture.
+// Whether an edge crosses a periodic face: its ends are neighbours in the domain, but far apart in a picture.
 bool spans_domain(const Scene& scene, const Vec3d& edge) {
   for (int axis = 0; axis < 3; ++axis) {
     const bool periodic = scene.domain.boundary[static_cast<std::size_t>(axis)] == Boundary::periodic;

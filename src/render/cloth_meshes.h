@@ -11,9 +11,9 @@
 
 namespace hooke {
 
-/// The surfaces of the structure that a scene has, where its particles are, each in the colour of its first particle;
-/// without the triangles that miss one or have a torn edge. `color_of` an index of a particle. Marks in `covered` (a
-/// flag a particle) who is drawn.
+/// The surfaces of the scene's structure, at the positions of its particles, each in the colour of its first particle;
+/// without triangles that miss a particle or have a torn edge. `color_of` takes the index of a particle. Sets in
+/// `covered` (a flag a particle) the flag of every particle that is a corner of a drawn triangle.
 std::vector<ShadedMesh> cloth_meshes(const Scene& scene, const ParticleSet& particles, const Vec3d& origin,
                                      const std::function<Color(std::size_t)>& color_of, std::vector<char>& covered);
 

@@ -13,7 +13,7 @@ namespace hooke {
 
 namespace {
 
-constexpr int kPieces = 96;  // of a whole turn
+constexpr int kPieces = 96;  // in a whole turn
 constexpr const char* kSteel = "#a9b2bb";
 
 using Polygon = std::vector<Vec3d>;
@@ -41,8 +41,8 @@ TriangleMesh box_surface(const Vec3d& min, const Vec3d& max) {
   return mesh;
 }
 
-// A line in the half plane beside the shape's axis, turned around it: distances from the axis and heights above the
-// middle, from the top down.
+// The surface that `line` sweeps when it turns around the shape's axis. Points of `line`: distance from the axis and
+// height above the middle, from the top down.
 TriangleMesh turned_surface(const ShapeGeometry<double>& g, const std::vector<std::array<double, 2>>& line) {
   const Vec3d third = cross(g.axis, g.across);
   TriangleMesh mesh;
@@ -63,7 +63,7 @@ TriangleMesh turned_surface(const ShapeGeometry<double>& g, const std::vector<st
   return mesh;
 }
 
-// From `half_length` above the middle to as much below, with half circles at the ends.
+// A sphere or capsule: a straight side from `half_length` above the middle to as much below, and round ends.
 TriangleMesh round_surface(ShapeGeometry<double> g) {
   if (g.kind == ShapeKind::sphere) {
     g.axis = {0, 1, 0};
@@ -81,7 +81,7 @@ TriangleMesh round_surface(ShapeGeometry<double> g) {
   return turned_surface(g, line);
 }
 
-// What lies behind the plane through `point` is cut off.
+// `polygon` without what lies behind the plane through `point`.
 Polygon clipped(const Polygon& polygon, const Vec3d& point, const Vec3d& normal) {
   Polygon kept;
   for (std::size_t k = 0; k < polygon.size(); ++k) {

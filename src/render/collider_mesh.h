@@ -9,11 +9,11 @@
 
 namespace hooke {
 
-/// The surface of a shape as triangles; of a plane what of it lies in `domain`.
+/// The surface of a shape as triangles; of a plane the part inside `domain`.
 TriangleMesh shape_surface(const Shape& shape, const Domain& domain);
 
-/// The colliders of a scene as they are drawn at `time` (s), relative to `origin` (m). Of hollow ones that enclose a
-/// space only the far side is drawn.
+/// The colliders of a scene as they are drawn at `time` (s), relative to `origin` (m). Of a hollow collider that
+/// encloses a space or is an open mesh, only the far side is drawn.
 std::vector<ShadedMesh> collider_meshes(const Scene& scene, double time, const Vec3d& origin);
 
 }  // namespace hooke

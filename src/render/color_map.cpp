@@ -49,7 +49,7 @@ Oklab of_hue(double lightness, double chroma, double degrees) {
   return {lightness, chroma * std::cos(angle), chroma * std::sin(angle)};
 }
 
-// The corners of the map's path, inside what screens can show; colours lie on it at equal distances.
+// Colours at equal distances along a path. The path's corners are colours that screens can show.
 std::array<Color, kColors> make_map() {
   const std::array corners{of_hue(0.25, 0.11, 300),  of_hue(0.42, 0.13, 272), of_hue(0.58, 0.10, 225),
                            of_hue(0.72, 0.125, 165), of_hue(0.84, 0.17, 125), of_hue(0.94, 0.16, 105)};

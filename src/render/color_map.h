@@ -14,7 +14,7 @@ struct Color {
   friend bool operator==(const Color&, const Color&) = default;
 };
 
-/// "#rrggbb" as a colour; grey where it is none.
+/// "#rrggbb" as a colour; grey where `text` is no colour.
 Color parse_color(const char* text);
 
 /// Lightness, green to red and blue to yellow, in the space Oklab (B. Ottosson, "A perceptual color space for image

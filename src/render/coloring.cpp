@@ -25,7 +25,7 @@ double fastest(const ParticleSet& particles) {
   return most;
 }
 
-// Twice what the weight of all particles, spread over the floor, would press with; Pa.
+// Twice the pressure of the weight of all particles, spread over the floor, Pa.
 double weight_pressure(const Scene& scene, const ParticleSet& first, const Box& action) {
   double mass = 0;
   for (const std::uint16_t material : first.material) mass += scene.materials[material].mass;

@@ -18,11 +18,11 @@ enum class ColorBy {
   speed,     ///< |v|, m/s
   height,    ///< above the floor of the scene's action, against gravity, m
   pressure,  ///< of its contacts, Pa (core/contacts.h)
-  contacts,  ///< how many it has
-  id,        ///< what came from where
+  contacts,  ///< their number
+  id,        ///< shows where each particle came from
 };
 
-/// All of them, by the names that the command line knows.
+/// Every ColorBy with its name on the command line.
 struct ColorByName {
   const char* name;
   ColorBy by;
@@ -39,15 +39,16 @@ struct ColorScale {
   double high = 1;  ///< > low
 };
 
-/// What the legend says: "speed", "m/s"; both empty for materials, no unit for what is counted.
+/// What the legend says: "speed", "m/s"; both empty for materials, no unit for counts.
 struct ColorTitle {
   const char* quantity;
   const char* unit;
 };
 ColorTitle title(ColorBy by);
 
-/// A scale that suits a whole run, from its scene and its `first` snapshot: speeds up to that of a fall through the
-/// scene's action, the pressure below all particles spread over the floor twice, 12 contacts, every id.
+/// A scale that suits a whole run, from its scene and its `first` snapshot, from 0 up to: the speed of a fall through
+/// the scene's action (or the fastest in `first`), twice the pressure of all particles' weight spread over the floor,
+/// 12 contacts, the highest id.
 ColorScale default_scale(const Scene& scene, const ParticleSet& first, ColorBy by);
 
 /// The quantity of every particle, in the set's order. Empty for materials.

@@ -30,7 +30,7 @@ struct Encoder {
   std::vector<std::string> options;
 };
 
-// Films grow in pieces that play by themselves, so that one that is interrupted plays to where it got.
+// Films grow in pieces that play by themselves, so that an interrupted film plays as far as it was written.
 const std::vector<Encoder>& encoders() {
   static const std::vector<std::string> h264{"-c:v", "libx264", "-preset",  "veryfast",
                                              "-crf", "17",      "-pix_fmt", "yuv420p"};
@@ -80,7 +80,7 @@ class Ffmpeg {
   int start(const std::vector<std::string>& arguments) {
     messages_ = std::tmpfile();
     int ends[2];
-    // Not a pipe: to a socket one can write without a signal where nobody reads any more.
+    // A socket, not a pipe: writing to a socket without a reader can be done without a signal.
     if (messages_ == nullptr || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return errno;
     input_ = ends[0];
     posix_spawn_file_actions_t files;
@@ -88,7 +88,7 @@ class Ffmpeg {
     posix_spawn_file_actions_adddup2(&files, ends[1], STDIN_FILENO);
     posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&files, fileno(messages_), STDERR_FILENO);
-    // In a process group of its own, so that Ctrl-C reaches this program alone, which then ends the film.
+    // In a process group of its own, so that Ctrl-C reaches only this program, and this program then ends the film.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
@@ -114,20 +114,20 @@ class Ffmpeg {
     return true;
   }
 
-  /// Ends the input and waits for the end of the program; whether it was content.
+  /// Ends the input and waits for the end of ffmpeg. True where it ended with 0 and without a message.
   bool wait() {
     if (input_ >= 0) close(std::exchange(input_, -1));
     if (process_ > 0) {
       int status = 0;
       while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {}
       process_ = -1;
-      // Where the last bytes can't be written it complains, but ends with 0.
+      // Where ffmpeg can't write the last bytes, it prints a message but ends with 0.
       good_ = WIFEXITED(status) && WEXITSTATUS(status) == 0 && messages().empty();
     }
     return good_;
   }
 
-  /// What it said last, on one line.
+  /// ffmpeg's messages, on one line.
   std::string message() const {
     const std::string text = messages();
     return text.empty() ? "it said nothing" : text;
@@ -209,7 +209,7 @@ Expected<void> check_film(const std::filesystem::path& file, const FilmSettings&
 
 Expected<FilmWriter> FilmWriter::create(const std::filesystem::path& file, const FilmSettings& settings) {
   if (auto possible = check_film(file, settings); !possible) return fail(std::move(possible).error());
-  // An unwritable file is better said by the system than by ffmpeg.
+  // For an unwritable file the system has a better message than ffmpeg.
   std::FILE* const empty = std::fopen(file.c_str(), "wb");
   if (empty == nullptr) {
     return fail(Error::Kind::bad_input, file.string(), std::string("can't be written: ") + std::strerror(errno));
@@ -250,7 +250,7 @@ Expected<void> FilmWriter::finish() {
   if (!impl_->ffmpeg.wait()) return impl_->stopped();
   const std::string extension = extension_of(impl_->file);
   if (extension != ".mp4" && extension != ".mov") return {};
-  // Now that its end is known: one piece, with its index in front, which every player can seek in.
+  // Now that the film's end is known, rewrite it as one piece with its index in front: every player can seek in that.
   std::filesystem::path whole = impl_->file;
   whole.replace_filename("." + impl_->file.stem().string() + ".whole" + impl_->file.extension().string());
   Ffmpeg remux;

@@ -32,15 +32,15 @@ class FilmWriter {
   /// bad_input where check_film() says so or the file can't be written.
   static Expected<FilmWriter> create(const std::filesystem::path& file, const FilmSettings& settings);
 
-  /// Without finish() before, closes the film after the images added so far. Without any there is no file.
+  /// Without finish() before, closes the film after the images added so far. Without any image, removes the file.
   ~FilmWriter();
   FilmWriter(FilmWriter&&) noexcept;
   FilmWriter& operator=(FilmWriter&&) noexcept;
 
-  /// The next frame, of the film's size. io with ffmpeg's words where it stopped (a full disk). Whatever happens
-  /// later, a kill of this program included, the file plays up to about the frames added so far.
+  /// Adds the next frame, of the film's size. io with ffmpeg's words where ffmpeg has stopped (a full disk). Whatever
+  /// happens later, even if this program is killed, the file plays up to about the frames added so far.
   Expected<void> add(const Image& image);
-  /// Ends the file. Nothing may be added after it. bad_input where nothing was added before.
+  /// Ends the file; no frame may be added after this call. bad_input where no frame was added.
   Expected<void> finish();
 
   std::int64_t frames() const;  ///< added so far

@@ -15,7 +15,7 @@ namespace hooke {
 
 namespace {
 
-// Materials without a colour of their own, one after the other.
+// Colours of materials without one of their own, by the material's index.
 constexpr const char* kPalette[] = {"#2f7fd6", "#e4933a", "#4cb35a", "#c9485b",
                                     "#8e5bc0", "#5bb8c4", "#d6c12f", "#7d8794"};
 
@@ -28,20 +28,20 @@ std::vector<Color> material_colors(const Scene& scene) {
   return colors;
 }
 
-// Drawn at their own size, the spheres at a surface leave gaps through which those below would show.
+// At their own size, spheres at the water's surface would leave gaps that show the spheres below.
 constexpr float kWaterRadius = 1.25f;
 
 constexpr float kNight = 0.12f;  // of the day's light
 
-// Water is white where it is fast: from nine tenths of the speed of a fall from the top, and clear up to a third of it;
-// and where it is mixed with air.
+// Water turns white where it is fast: clear up to 0.35 of foam_speed, the speed of a fall from the top, white from 0.9
+// of it. It also turns white where it is mixed with air.
 std::uint8_t foam_of(const Vec3d& velocity, double foam_speed, float air) {
   const double share = std::clamp((std::sqrt(dot(velocity, velocity)) / foam_speed - 0.35) / 0.55, 0.0, 1.0);
   const double white = 1 - (1 - share * share) * (1 - 0.8 * static_cast<double>(air));
   return static_cast<std::uint8_t>(1 + std::lround(254 * white));
 }
 
-// Empty where nothing looks like water.
+// Empty where no material looks like water.
 std::vector<float> water_aeration(const Scene& scene, const ParticleSet& particles) {
   const auto water = std::find_if(scene.materials.begin(), scene.materials.end(),
                                   [](const Material& m) { return m.look == MaterialLook::water; });

@@ -22,7 +22,7 @@ struct Sphere {
   float radius;         ///< m
   Color color;
   std::uint8_t foam;    ///< 0: an opaque ball; else water, 1 clear to 255 white
-  bool glows = false;   ///< a ball that shines by itself, and throws no shadow
+  bool glows = false;   ///< whether the ball shines by itself and throws no shadow
 };
 
 /// The tank: the domain, and which of its faces are walls.
@@ -33,20 +33,20 @@ struct Tank {
 
 /// All that a picture shows: no solver, no file, no device.
 struct Frame {
-  Vec3d origin{0, 0, 0};  ///< what is drawn is relative to this, so that single precision does in any domain, m
+  Vec3d origin{0, 0, 0};  ///< all positions are relative to it, so that single precision suffices in any domain, m
   std::vector<Sphere> spheres;
   std::vector<ShadedMesh> meshes;
   Tank tank;
   Camera camera;  ///< eye and target relative to the origin
   Box action;     ///< relative to the origin
   Vec3d up{0, 1, 0};
-  Vec3d across{1, 0, 0};  ///< level unit vectors, of which `across` is along the longer side of the action
+  Vec3d across{1, 0, 0};  ///< level unit vectors; `across` is along the longer side of the action
   Vec3d along{0, 0, 1};
   Vec3d to_sun{0, 1, 0};  ///< unit vector
   std::optional<double> ground;     ///< height of the ground along `up`, relative to the origin, m
-  bool night = false;  ///< a black sky: that of stars, where particles attract each other above no ground
-  float daylight = 1;               ///< of sun and sky, less at night
-  std::optional<ColorScale> scale;  ///< of the legend, where there is one
+  bool night = false;  ///< a black sky, as among stars: where particles attract each other and there is no ground
+  float daylight = 1;               ///< brightness of sun and sky, less at night
+  std::optional<ColorScale> scale;  ///< of the legend; empty: no legend
 };
 
 /// What stays the same for all pictures of a run.
@@ -56,8 +56,8 @@ struct Look {
   double foam_speed = 1;  ///< speed at which water is white, m/s
 };
 
-/// The look of a run, from its scene and its `first` snapshot; `range`, of ascending values, in place of the default
-/// scale's ends.
+/// The look of a run, from its scene and its `first` snapshot. `range`, two ascending values, replaces the ends of the
+/// default scale.
 Look make_look(const Scene& scene, const ParticleSet& first, ColorBy by,
                const std::optional<std::array<double, 2>>& range = {});
 

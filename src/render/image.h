@@ -39,7 +39,7 @@ struct Image {
 
 /// The bytes of a PNG file, 8 bits a channel, without alpha.
 Expected<std::string> encode_png(const Image& image);
-/// The picture in a PNG file's bytes, whatever its kind; bad_input where they are none.
+/// The picture in the bytes of a PNG file of any kind; bad_input where the bytes are no PNG file.
 Expected<Image> decode_png(const std::string& bytes);
 
 }  // namespace hooke

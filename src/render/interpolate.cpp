@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kGrain = 16384;
 
-// For every particle of `before` its index in `after`, or after.size().
+// For every particle of `before`, its index in `after`, or after.size() where `after` lacks it.
 std::vector<std::size_t> partners(const ParticleSet& before, const ParticleSet& after) {
   std::vector<std::size_t> partner(before.size(), after.size());
   for (std::size_t i = 0, j = 0; i < before.size(); ++i) {
@@ -53,7 +53,7 @@ ParticleSet interpolate(const Scene& scene, const Moment& before, const Moment& 
   const double span = after.time - before.time;
   if (!(span > 0) || time <= before.time) return now;
   const double s = (time - before.time) / span;
-  // The cubic Hermite polynomials of the displacement and of both velocities.
+  // The cubic Hermite polynomials: factors of the displacement and of both velocities.
   const double moved = s * s * (3 - 2 * s);
   const double leaving = span * s * (1 - s) * (1 - s), arriving = span * s * s * (s - 1);
   const std::vector<std::size_t> partner = partners(before.particles, after.particles);

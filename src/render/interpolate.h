@@ -13,13 +13,13 @@ struct Moment {
   const ParticleSet& particles;
 };
 
-/// The particles of `before` as they are at `time`, for films that show more instants than a run has written: each on
-/// the cubic path that leaves and arrives with its velocities in both moments, the short way across periodic faces,
-/// straight on where it is not in `after` any more. before.time <= time <= after.time. For pictures: no law of the
-/// scene is asked.
+/// The particles of `before` at `time`, for films that show more instants than a run has written. Each particle moves
+/// on the cubic path with its positions and velocities in both moments, the short way across periodic faces; a
+/// particle that is not in `after` any more moves straight on. before.time <= time <= after.time. For pictures only:
+/// the laws of the scene play no part.
 ParticleSet interpolate(const Scene& scene, const Moment& before, const Moment& after, double time);
 
-/// The particles as they were `seconds` >= 0 ago, for an instant between two steps: x - v dt, inside of periodic faces.
+/// The particles `seconds` >= 0 ago, for an instant between two steps: x - v seconds, wrapped at periodic faces.
 ParticleSet drawn_back(const Scene& scene, const ParticleSet& particles, double seconds);
 
 }  // namespace hooke

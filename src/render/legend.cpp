@@ -16,7 +16,7 @@ namespace hooke {
 
 namespace {
 
-// Draws on an image; Cairo wants its pixels as blue, green, red, so they are turned around and back.
+// Draws on an image. Cairo wants pixels as blue, green, red, so red and blue are swapped now and back at the end.
 class Canvas {
  public:
   explicit Canvas(Image& image)
@@ -48,7 +48,7 @@ class Canvas {
   }
 
   enum class Align { left, center };
-  /// White, with a dark rim to be read before anything; `x`, `y`: on the base line.
+  /// White text with a dark rim, legible on any background; `x`, `y`: on the base line.
   void text(const std::string& words, double x, double y, Align align) const {
     const double shift = align == Align::left ? 0 : 0.5 * width(words);
     cairo_move_to(context_, x - shift, y);
@@ -73,7 +73,7 @@ class Canvas {
   cairo_t* context_;
 };
 
-// A round step that makes four to eight of the range.
+// A round step that divides the range into four to ten.
 double round_step(double range) {
   const double power = std::pow(10, std::floor(std::log10(range / 4)));
   for (const double step : {5.0, 2.0}) {
@@ -82,7 +82,7 @@ double round_step(double range) {
   return power;
 }
 
-// The power of a thousand that makes numbers up to `most` short; 0 where they are as they are.
+// The exponent of ten, a multiple of 3, by which to divide numbers up to `most` to make them short; 0: none.
 int thousands(double most) {
   if (!(most >= 1e4 || (most > 0 && most < 1e-2))) return 0;
   return 3 * static_cast<int>(std::floor(std::log10(most) / 3));
@@ -130,7 +130,7 @@ void draw_legend(Image& image, const ColorScale& scale) {
   const auto number = [&](double k) {
     return fmt::format("{:.4g}", k * step == 0 ? 0 : k * step * std::pow(10.0, -power));
   };
-  // Where numbers would run into each other, every second tick has one, or every third.
+  // Where numbers would run into each other, only every second or third tick, and so on, has one.
   double widest = 0;
   for (int tick = 0; tick < kMostTicks; ++tick) widest = std::max(widest, canvas.width(number(first + tick)));
   const double apart = width * step / (scale.high - scale.low);

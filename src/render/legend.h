@@ -9,8 +9,8 @@
 
 namespace hooke {
 
-/// Draws what the colours of a picture mean into its lower right corner: the colour map, the quantity with its unit,
-/// and numbers at even steps.
+/// Draws the legend of a picture's colours into its lower right corner: the colour map, the quantity with its unit, and
+/// numbers at even steps.
 void draw_legend(Image& image, const ColorScale& scale);
 
 /// Writes a line of text into the lower left corner, e.g. the time.

@@ -18,7 +18,7 @@ png_image describe(const Image& image) {
   return png;
 }
 
-// libpng's simplified interface knows pixels of three bytes or of four with alpha, not of four without.
+// libpng's simplified interface knows pixels of three bytes, or of four with alpha, but not of four without alpha.
 std::vector<std::uint8_t> without_fourth_byte(const std::vector<std::uint8_t>& pixels) {
   std::vector<std::uint8_t> rgb;
   rgb.reserve(pixels.size() / Image::kChannels * 3);
@@ -33,7 +33,7 @@ Expected<std::string> encode_png(const Image& image) {
                image.pixels.size());
   png_image png = describe(image);
   const std::vector<std::uint8_t> rgb = without_fourth_byte(image.pixels);
-  // Asked for the size alone first, libpng would compress twice; its own upper bound is cheaper.
+  // Asking libpng for the size first would compress twice; libpng's upper bound is cheaper.
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   std::string bytes(size, '\0');
   if (png_image_write_to_memory(&png, bytes.data(), &size, 0, rgb.data(), 0, nullptr) == 0) {

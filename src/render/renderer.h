@@ -13,13 +13,13 @@ namespace hooke {
 struct RenderSettings {
   int width = 1280;  ///< pixels, 1 to 16,384
   int height = 720;
-  /// Each pixel is the mean of this squared, 1 to 4.
+  /// Along each side of a pixel: a pixel is the mean of samples squared; 1 to 4.
   int samples = 2;
 };
 
-/// What drawing the last frame took.
+/// Figures of the last frame drawn.
 struct RenderFigures {
-  std::size_t spheres_drawn = 0;  ///< of all, after those that can't be seen were left out
+  std::size_t spheres_drawn = 0;  ///< without those that culling left out because they can't be seen
   double cull_seconds = 0;
   double total_seconds = 0;
 };

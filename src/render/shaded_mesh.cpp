@@ -19,7 +19,7 @@ Vec3d unit(const Vec3d& a) {
 
 std::vector<ShadedMesh::Corner> shaded_corners(const TriangleMesh& mesh) {
   const std::size_t n = mesh.triangles.size();
-  std::vector<Vec3d> area(n), direction(n);  // twice the triangle's, along its normal; and that normal
+  std::vector<Vec3d> area(n), direction(n);  // normal of twice the triangle's area as length; unit normal
   std::vector<std::vector<std::uint32_t>> around(mesh.vertices.size());
   for (std::size_t t = 0; t < n; ++t) {
     const auto& [a, b, c] = mesh.triangles[t];

@@ -15,14 +15,14 @@ namespace hooke {
 struct ShadedMesh {
   struct Corner {
     Vec3f position;  ///< relative to Frame::origin, m
-    Vec3f normal;    ///< unit vector; away from the viewer it is turned around
+    Vec3f normal;    ///< unit vector; turned around where it points away from the viewer
   };
   enum class Sides {
     both,
-    inner,  ///< only what faces away from the viewer: cut open, so that what is inside can be seen
+    inner,  ///< only triangles that face away from the viewer: cut open, to show what is inside
   };
 
-  std::vector<Corner> corners;  ///< three a triangle, against the clock as seen from outside
+  std::vector<Corner> corners;  ///< three a triangle, counterclockwise as seen from outside
   Color color;
   Sides sides = Sides::both;
 };

@@ -16,31 +16,31 @@ namespace hooke {
 namespace {
 
 constexpr std::size_t kGrain = 8192;
-constexpr std::size_t kBuckets = 16384;  // of distance
-constexpr std::size_t kBands = 4;        // of the picture, each by one thread
+constexpr std::size_t kBuckets = 16384;  // for sorting by distance
+constexpr std::size_t kBands = 4;        // of rows of the picture, one thread each
 
-// A sphere hides what is behind the middle of its disc, out to this share of its radius, beyond the distance at which
-// its surface lies there: sqrt(1 - 0.9^2) = 0.436 of the radius before its centre, and a little for perspective.
+// A sphere hides what is behind the middle of its disc, out to kHidingShare of its radius. Its surface there lies at
+// least sqrt(1 - 0.9^2) = 0.436 of the radius before its centre; kHidingDepth is less, to allow for perspective.
 constexpr float kHidingShare = 0.9f;
 constexpr float kHidingDepth = 0.4f;
 
 // A sphere on the picture.
 struct Disc {
   float x, y;       // pixels
-  float inner;      // pixels, of a circle inside of the outline
-  float outer;      // pixels, of a circle around it
-  float distance;   // from the eye to the centre, along the ray where there is perspective, m
+  float inner;      // radius of a circle inside the outline, pixels
+  float outer;      // radius of a circle around the outline, pixels
+  float distance;   // from the eye to the centre, m; where parallel, the depth
   float radius;     // m
   std::uint32_t sphere;
 };
 
-// Whether a sphere is beyond the left and right, or the lower and upper, side of the picture, whose rays rise by
-// `tangent` a metre of depth.
+// Whether a sphere is beyond one of two opposite sides of the picture (left and right, or lower and upper). Rays
+// through these sides are `tangent` metres off the middle a metre of depth.
 bool beyond_side(float across, float depth, float radius, float tangent) {
   return std::abs(across) - depth * tangent > radius * std::sqrt(1 + tangent * tangent);
 }
 
-// Where the sphere is outside of the picture or behind the eye, outer < 0.
+// outer < 0 where the sphere is outside the picture or behind the eye.
 Disc project(const Sphere& sphere, std::uint32_t index, const Projection& view) {
   constexpr float kRounding = 0.01f;  // pixels
   const Vec3f to{sphere.x - view.eye.x, sphere.y - view.eye.y, sphere.z - view.eye.z};
@@ -51,12 +51,12 @@ Disc project(const Sphere& sphere, std::uint32_t index, const Projection& view) 
   float scale = view.scale, stretch = 1;
   if (!view.parallel) {
     disc.distance = std::sqrt(dot(to, to));
-    // The outline is an ellipse, which reaches farthest away from the picture's middle, to where the angles of the
-    // centre and of the sphere add up.
+    // The outline is an ellipse. It extends farthest from the sphere's centre on the side away from the picture's
+    // middle, where the angle of the centre and the angle of the sphere's radius add up.
     const float sine = radius / disc.distance;
     const float tangent = std::sqrt(right * right + up * up) / depth;
     const float cosine = std::sqrt(std::max(0.0f, 1 - sine * sine)) - tangent * sine;  // of the sum, over the centre's
-    if (!(depth > view.nearest && cosine > 0.05f)) {  // it reaches beside the eye, or around it
+    if (!(depth > view.nearest && cosine > 0.05f)) {  // the sphere extends beside the eye, or around it
       const bool outside = beyond_side(right, depth, radius, 0.5f * view.width / view.scale) ||
                            beyond_side(up, depth, radius, 0.5f * view.height / view.scale);
       if (!outside) disc.outer = view.width + view.height;
@@ -72,12 +72,12 @@ Disc project(const Sphere& sphere, std::uint32_t index, const Projection& view) 
       disc.x + outer < 0 || disc.y + outer < 0 || disc.x - outer > view.width || disc.y - outer > view.height;
   if (outside) return disc;
   disc.outer = outer;
-  // What is cut off before the nearest depth hides nothing.
+  // A sphere cut by the nearest depth hides nothing.
   if (depth - radius >= view.nearest) disc.inner = scale * radius;
   return disc;
 }
 
-// Which pixels of a band of rows are covered: a word for each tile of 8 x 8 of them, a byte a row.
+// Which pixels of a band of rows are covered: a word for each tile of 8 x 8 pixels, a byte for each row of a tile.
 class Coverage {
  public:
   static constexpr int kTile = 8;  // pixels
@@ -88,7 +88,7 @@ class Coverage {
         first_tile_(first_row / kTile),
         last_tile_((last_row + kTile - 1) / kTile),
         bits_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(last_tile_ - first_tile_)) {
-    // What lies outside of the picture needs no cover.
+    // Pixels outside the picture count as covered.
     for (int y = first_tile_; y < last_tile_; ++y) {
       for (int row = 0; row < kTile; ++row) {
         const std::uint64_t byte =
@@ -116,8 +116,8 @@ class Coverage {
   }
 
  private:
-  // body(tile, its first column, its first row) for the tiles that the disc may reach, as long as it returns true;
-  // whether it always did.
+  // Calls body(tile, its first column, its first row) for the tiles that the disc may reach, until it returns false.
+  // Returns whether it always returned true.
   template <class Body>
   bool each_tile(float x, float y, float radius, const Body& body) const {
     const auto tile_of = [](float pixel) { return static_cast<int>(std::floor(pixel / kTile)); };
@@ -131,7 +131,7 @@ class Coverage {
     return true;
   }
 
-  // The pixels of a tile with their centres in a disc; x, y from the tile's corner.
+  // The pixels of a tile whose centres are in a disc; x, y are relative to the tile's corner.
   static std::uint64_t disc_in_tile(float x, float y, float radius) {
     std::uint64_t bits = 0;
     for (int row = 0; row < kTile; ++row) {
@@ -155,13 +155,13 @@ class Coverage {
   std::vector<std::uint64_t> bits_;
 };
 
-// Discs in buckets of the distance of their nearest point.
+// Discs sorted into buckets by the distance of their nearest point.
 struct Buckets {
   std::vector<Disc> discs;  // by bucket
-  std::vector<std::size_t> first;  // of each bucket, and the end
+  std::vector<std::size_t> first;  // first disc of each bucket, and the end
   float nearest = 0, per_meter = 0;
 
-  // The first bucket all of which lies behind `distance`.
+  // The first bucket that lies wholly behind `distance`.
   std::size_t behind(float distance) const { return of(distance) + 1; }
   std::size_t of(float distance) const {
     return static_cast<std::size_t>(std::clamp((distance - nearest) * per_meter, 0.0f, kBuckets - 1.0f));
@@ -193,11 +193,11 @@ Buckets sort_by_front(const std::vector<Disc>& discs) {
   return buckets;
 }
 
-// Marks what is seen in the rows of one band, from the nearest to the farthest: a sphere is seen where a pixel of its
-// disc is not yet covered, and then covers, for all that begin behind its surface.
+// Marks the spheres seen in the rows of one band, from the nearest to the farthest. A sphere is seen if a pixel of its
+// disc is not yet covered. It then covers its pixels for all spheres that begin behind its surface.
 void mark_seen(const Buckets& buckets, Coverage& coverage, float low, float high, std::vector<std::uint8_t>& seen) {
   constexpr std::uint32_t kNone = static_cast<std::uint32_t>(-1);
-  std::vector<std::uint32_t> waiting(kBuckets, kNone);  // the last disc that will cover from this bucket on
+  std::vector<std::uint32_t> waiting(kBuckets, kNone);  // the last link of the discs that cover from this bucket on
   struct Link {
     std::uint32_t disc, previous;
   };
@@ -248,7 +248,7 @@ std::vector<std::uint32_t> visible_spheres(std::span<const Sphere> spheres, cons
   });
   const Buckets buckets = sort_by_front(discs);
 
-  // Bands share no pixel, so each has its own marks.
+  // Bands share no pixel, so each band has its own coverage and marks.
   const int width = static_cast<int>(view.width), height = static_cast<int>(view.height);
   const int tiles = (height + Coverage::kTile - 1) / Coverage::kTile;
   const int rows = Coverage::kTile * ((tiles + static_cast<int>(kBands) - 1) / static_cast<int>(kBands));

@@ -15,9 +15,9 @@ namespace hooke {
 
 namespace {
 
-constexpr float kPacking = 1.25f;  // 0.64 of their own volume: those of Frame are larger by a quarter
-// Sums of whole numbers do not depend on their order.
-constexpr float kUnits = 1 << 14;  // a typical radius
+constexpr float kPacking = 1.25f;  // 0.64 * 1.25^3: water's spheres in a Frame have 1.25 times the particles' radius
+// Sums of whole numbers do not depend on their order, so thickness is summed in whole units.
+constexpr float kUnits = 1 << 14;  // in a typical radius
 
 // Each cell becomes combine(the one before, itself, the one after), along the rows and then along the columns.
 template <class Combine>
@@ -75,7 +75,7 @@ WaterThickness water_thickness(std::span<const Sphere> spheres, const Projection
     }
   });
   for (std::size_t c = 0; c < cells; ++c) thickness.meters[c] = unit * static_cast<float>(sums[c]);
-  // Cells at the rim are filled in part only: they take after their neighbours. Then no cell may show.
+  // Cells at the water's rim are only partly filled, so each takes the maximum around it. Then blur, to hide the cells.
   filter(thickness, [](float before, float own, float after) { return std::max({before, own, after}); });
   filter(thickness, [](float before, float own, float after) { return 0.25f * (before + after) + 0.5f * own; });
   filter(thickness, [](float before, float own, float after) { return 0.25f * (before + after) + 0.5f * own; });

@@ -9,16 +9,16 @@
 
 namespace hooke {
 
-/// How much water lies behind each other in a picture, m: coarse, for what is deep looks dark and what is thin bright.
+/// Thickness of the water along the view, m, coarse: deep water looks dark and thin water bright.
 struct WaterThickness {
-  static constexpr int kCell = 8;  ///< pixels of the projection's picture a cell, along each side
+  static constexpr int kCell = 8;  ///< side of a cell, in pixels of the projection's picture
 
   int columns = 0, rows = 0;
   std::vector<float> meters;  ///< columns * rows, the lowest row first
 };
 
-/// Of the spheres that are water, whose volume counts as if packed at random (0.64). The same for any number of
-/// threads.
+/// The thickness of the spheres that are water; they count as packed at random (0.64 of the volume). The same for any
+/// number of threads.
 WaterThickness water_thickness(std::span<const Sphere> spheres, const Projection& projection);
 
 }  // namespace hooke

@@ -19,7 +19,7 @@ struct EglContext::Impl {
     if (display == EGL_NO_DISPLAY) return;
     if (eglGetCurrentContext() == context) eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
-    // The display stays: another context of this process may use it, and EGL hands out one a platform.
+    // The display stays open: EGL has one display a platform, and another context of this process may use it.
   }
 };
 
@@ -32,12 +32,12 @@ tl::unexpected<Error> no_gl(const std::string& why) {
                   "graphics card)");
 }
 
-// libepoxy ends the program where a library is missing, so look first.
+// libepoxy ends the program where a library is missing, so check first.
 const char* missing_library() {
   for (const char* name : {"libEGL.so.1", "libGL.so.1"}) {
     void* library = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
     if (library == nullptr) return name;
-    // Left open: it is about to be used.
+    // Left open, because it is used next.
   }
   return nullptr;
 }

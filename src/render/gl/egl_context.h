@@ -20,7 +20,7 @@ class EglContext {
   EglContext(EglContext&&) noexcept;
   EglContext& operator=(EglContext&&) noexcept;
 
-  /// What follows on this thread is of this context, which a thread may have several of. create() does it too.
+  /// OpenGL calls of this thread go to this context from now on; a thread may have several. create() does it too.
   void make_current() const;
   const std::string& device() const;  ///< GL_RENDERER
 

@@ -88,7 +88,7 @@ class MeshBuffer {
                  GL_STREAM_DRAW);
   }
 
-  /// The k-th of those uploaded.
+  /// Draws the k-th mesh uploaded.
   void draw(std::size_t k, ShadedMesh::Sides sides) const {
     glBindVertexArray(array_.get());
     if (sides == ShadedMesh::Sides::inner) {

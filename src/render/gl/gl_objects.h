@@ -52,28 +52,28 @@ struct Texture : Object<delete_texture> {
   GLenum format = GL_NONE;
 };
 
-/// Of a size > 0, without a first content; `filter` is GL_NEAREST or GL_LINEAR.
+/// A texture of a size > 0, with undefined contents; `filter` is GL_NEAREST or GL_LINEAR.
 Texture make_texture(int width, int height, GLenum format, GLenum filter);
 /// Draws into `colors`, in this order, and `depth` (null: none), with its stencil where it has one.
 Framebuffer make_framebuffer(std::initializer_list<const Texture*> colors, const Texture* depth);
 Buffer make_buffer();
 VertexArray make_vertex_array();
 
-/// A vertex and a fragment shader, and their uniforms by name; one that the shaders don't use is passed over. Shaders
-/// are the project's own files: one that does not compile throws std::runtime_error with the driver's words.
+/// A vertex and a fragment shader, and their uniforms by name; setting a uniform that the shaders don't use does
+/// nothing. A shader that does not compile throws std::runtime_error with the driver's words.
 class Program {
  public:
   Program() = default;
   Program(const char* vertex, const char* fragment);
 
   void use() const { glUseProgram(program_.get()); }
-  // Of the program in use.
+  // Set a uniform of the program in use.
   void set(const char* name, int value) const { glUniform1i(at(name), value); }
   void set(const char* name, int x, int y) const { glUniform2i(at(name), x, y); }
   void set(const char* name, float value) const { glUniform1f(at(name), value); }
   void set(const char* name, float x, float y) const { glUniform2f(at(name), x, y); }
   void set(const char* name, const Vec3f& v) const { glUniform3f(at(name), v.x, v.y, v.z); }
-  /// The 3 x 3 matrix whose rows are these.
+  /// Sets a 3 x 3 matrix with rows x, y, z.
   void set_rows(const char* name, const Vec3f& x, const Vec3f& y, const Vec3f& z) const;
   /// Lets the sampler `name` read `texture` through texture unit `unit`.
   void read(const char* name, int unit, const Texture& texture) const;

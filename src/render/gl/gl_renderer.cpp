@@ -35,7 +35,7 @@ using gl::Program;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-// Between the lines of the ground: the power of ten of which the action is 3 to 30 long, m.
+// Distance between the ground's lines, m: a power of ten, such that the action's diagonal is 3 to 30 steps long.
 float ground_step(const Frame& frame) { return std::pow(10.0f, std::floor(std::log10(action_size(frame) / 3))); }
 
 class GlRenderer final : public Renderer {
@@ -47,7 +47,7 @@ class GlRenderer final : public Renderer {
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
   }
 
-  // What this owns is then deleted from its own context.
+  // The members' OpenGL objects are then deleted in their own context.
   ~GlRenderer() override { context_.make_current(); }
 
   Expected<Image> render(const Frame& frame) override {
@@ -135,13 +135,13 @@ class GlRenderer final : public Renderer {
     water_.draw();
     use_for_sun_map(programs_.mesh_sun, sun);
     for (std::size_t k = 0; k < meshes.size(); ++k) {
-      // What is cut open for the eye is open for the light.
+      // A mesh that is cut open for the eye lets the light in too.
       if (meshes[k].sides == ShadedMesh::Sides::both) meshes_.draw(k, meshes[k].sides);
     }
     glDisable(GL_DEPTH_TEST);
   }
 
-  // What samples show is told apart by the stencil, so that each kind is shaded by itself.
+  // The stencil tells what each sample shows, so that each kind is shaded by itself.
   enum Stencil { kNothing, kBall, kWater, kSpark };
 
   static void use_for_surfaces(const Program& program, const Projection& view) {
@@ -155,7 +155,7 @@ class GlRenderer final : public Renderer {
   void draw_surfaces(const Projection& view, std::span<const ShadedMesh> meshes) {
     targets_.begin_samples(targets_.to_spheres);
     glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_GREATER);  // what is stored falls with the distance
+    glDepthFunc(GL_GREATER);  // stored depth decreases with distance
     glClearDepth(0);
     glClearStencil(kNothing);
     glClearColor(0, 0, 0, 0);
@@ -181,7 +181,7 @@ class GlRenderer final : public Renderer {
     glDisable(GL_DEPTH_TEST);
   }
 
-  // What light.glsl asks for.
+  // Sets the uniforms of light.glsl.
   void set_light(const Program& program, const Frame& frame, const Projection& view, const Sun& sun,
                  float sphere_size) const {
     program.use();
@@ -297,8 +297,8 @@ class GlRenderer final : public Renderer {
     return flipped;
   }
 
-  std::thread::id thread_ = std::this_thread::get_id();  // whose it is
-  EglContext context_;  // outlives all that is in it
+  std::thread::id thread_ = std::this_thread::get_id();  // the thread that made the renderer
+  EglContext context_;  // declared first, so it outlives the OpenGL objects
   RenderSettings settings_;
   RenderFigures figures_;
   RenderTargets targets_;

@@ -7,7 +7,7 @@
 
 namespace hooke {
 
-/// The shaders of all passes. Made where an OpenGL context is current; throws as gl::Program does.
+/// The shaders of all passes. The constructor needs a current OpenGL context; throws as gl::Program does.
 struct RenderPrograms {
   RenderPrograms();
 
@@ -15,9 +15,9 @@ struct RenderPrograms {
       resolve, edge;
 };
 
-// Uniforms of the program in use that several have.
+// Set uniforms of the program in use that several programs have in common.
 void set_view(const gl::Program& program, const Projection& view);
-/// What view.glsl asks for.
+/// The uniforms of view.glsl.
 void set_picture(const gl::Program& program, const Projection& view);
 
 }  // namespace hooke

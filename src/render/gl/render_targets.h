@@ -14,19 +14,19 @@ struct RenderTargets {
   explicit RenderTargets(const RenderSettings& settings);
 
   int width, height;                ///< of the picture, pixels
-  int samples_across, samples_down;  ///< of what is drawn with several samples a pixel
+  int samples_across, samples_down;  ///< size of the textures with several samples a pixel
 
   // Several samples a pixel.
   gl::Texture color, normal, depth, depth_stencil, shaded;
-  // One a pixel, but for the sun's map and the water's thickness.
+  // One sample a pixel, except the sun's map and the water's thickness.
   gl::Texture sun_map, water_normal, thickness, backdrop, result;
   std::array<gl::Texture, 2> surface;
-  std::array<gl::Texture, 2> ambient;  ///< of every second pixel along each side
+  std::array<gl::Texture, 2> ambient;  ///< for every second pixel along each side
 
   gl::Framebuffer to_sun_map, to_spheres, to_water_normal, to_ambient, to_blurred, to_backdrop, to_shaded, to_result;
   std::array<gl::Framebuffer, 2> to_surface;
 
-  // What is drawn from now on goes there.
+  // Direct later drawing into `target`.
   void begin_samples(const gl::Framebuffer& target) const { begin(target, samples_across, samples_down); }
   void begin_pixels(const gl::Framebuffer& target) const { begin(target, width, height); }
   void begin_ambient(const gl::Framebuffer& target) const { begin(target, half(width), half(height)); }

@@ -7,15 +7,15 @@
 
 namespace hooke {
 
-inline constexpr int kSunMap = 1280;  ///< pixels along each side of the map of what the sun lights
+inline constexpr int kSunMap = 1280;  ///< pixels along each side of the shadow map
 
-/// A parallel projection along the sun's rays that holds the whole action and, as far as it may splash, what is above.
+/// A parallel projection along the sun's rays that holds the whole action, and room around it for splashes.
 struct Sun {
   Projection projection;
-  float range = 1;  ///< m, from its eye to the farthest that it lights
+  float range = 1;  ///< m, from the projection's eye to the farthest lit point
   Vec3f to;         ///< unit vector
 
-  /// From metres to the map, [-1, 1].
+  /// From metres to coordinates of the map in [-1, 1].
   float scale() const { return 2 * projection.scale / kSunMap; }
 };
 

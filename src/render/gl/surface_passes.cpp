@@ -10,7 +10,7 @@ namespace hooke {
 namespace {
 
 void restrict_to(const PixelRectangle& box) {
-  constexpr int kAround = 4;  // pixels, that blur.frag looks around
+  constexpr int kAround = 4;  // pixels; blur.frag reads that far around
   glScissor(box.x - kAround, box.y - kAround, box.width + 2 * kAround, box.height + 2 * kAround);
 }
 
@@ -60,7 +60,7 @@ void SurfacePasses::smooth_water(const Projection& pixels, float sphere_size) co
   program.use();
   program.set("range", 4.0f * sphere_size);
   program.set("scale", pixels.scale);
-  // Wide with few samples first, then what lies between them.
+  // First a wide filter with few samples, then a narrow one that fills in between the samples.
   const float reaches[] = {4.0f, 1.5f};
   const int taps[] = {10, 6};
   for (std::size_t pass = 0; pass < 2; ++pass) {

@@ -10,9 +10,9 @@
 
 namespace hooke {
 
-/// What is found of the surfaces once a pixel, from what was drawn with several samples: the nearest surface, water's
-/// smoothed, its normals, and how much ambient light comes in. Runs only where there are surfaces: in `box`, and as far
-/// as the passes look around.
+/// Computes once a pixel, from surfaces drawn with several samples a pixel: the nearest surface, smoothed where it is
+/// water, the water's normals, and how much ambient light arrives. Runs only where there are surfaces: in `box`, and
+/// as far around it as the passes read.
 class SurfacePasses {
  public:
   SurfacePasses(const RenderTargets& targets, const RenderPrograms& programs, int samples)

@@ -7,7 +7,7 @@
 
 namespace hooke {
 
-/// Edges of the domain that belong to a wall, on the device, one instance of a strip each.
+/// The domain's edges that belong to a wall, on the device, each an instance of one triangle strip.
 class TankEdges {
  public:
   TankEdges();

@@ -1,10 +1,10 @@
-// How much of the sky reaches a surface past what is around it (M. McGuire et al., "The Alchemy screen-space ambient
-// obscurance algorithm", 2011), at two reaches: between neighbours, and in the hollows of the whole. For every second
-// pixel along each side.
+// The share of the sky's light that reaches a surface past its surroundings (M. McGuire et al., "The Alchemy
+// screen-space ambient obscurance algorithm", 2011), at two reaches: between neighbours, and in large hollows. For
+// every second pixel along each side.
 uniform sampler2D surface;   // depth (negative: water, smoothed) and foam
 uniform sampler2D normals;   // of the spheres
 uniform sampler2D water_normals;
-uniform int samples;         // of `normals` a pixel, along each side
+uniform int samples;         // of `normals`, along each side of a pixel
 uniform float reach;         // of the small shades, m
 uniform float far_reach;     // of the large ones, m
 

@@ -1,11 +1,11 @@
-// The ground and the sky, where nothing is before them.
+// The ground and the sky behind everything.
 uniform vec3 across;             // level unit vectors, along the ground's lines
 uniform vec3 along;
 uniform float line_step;         // m
 
 out vec4 shaded;
 
-// How much of a pixel the ground's lines take, of which one lies at every whole number.
+// The share of a pixel that the ground's lines take; a line lies at every whole number.
 float lines(float place) {
   float width = max(fwidth(place), 1e-6);
   float from_line = abs(fract(place - 0.5) - 0.5) / width;

@@ -1,5 +1,5 @@
 #version 330 core
-// The mean over 4 x 4 pixels, in which the noise of the ambient light evens out.
+// The mean over 4 x 4 pixels, which evens out the noise of the ambient light.
 uniform sampler2D ambient;
 
 out vec4 blurred;

@@ -1,5 +1,5 @@
 #version 330 core
-// A ribbon along an edge of the tank, of a width in pixels.
+// A ribbon along an edge of the tank; its width is in pixels.
 uniform vec3 eye;
 uniform mat3 to_view;
 uniform vec2 scale;
@@ -17,7 +17,7 @@ vec4 clip(vec3 p) { return vec4(p.xy * scale, 0.0, -p.z); }
 
 void main() {
   vec3 a = to_view * (from - eye), b = to_view * (to - eye);
-  // Cut off what is behind the eye.
+  // Cut off the part behind the eye.
   float limit = -2.0 * nearest;
   if (a.z > limit) a = mix(b, a, clamp((limit - b.z) / (a.z - b.z), 0.0, 1.0));
   if (b.z > limit) b = mix(a, b, clamp((limit - a.z) / (b.z - a.z), 0.0, 1.0));

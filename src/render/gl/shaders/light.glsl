@@ -10,7 +10,7 @@ uniform float sun_blur;          // of shadows, m
 uniform vec3 up;
 uniform bool has_ground;
 uniform float ground;            // its height, m
-uniform float sky_light;         // how bright the sky is behind all
+uniform float sky_light;         // brightness of the sky in the background
 uniform vec3 action_center;
 uniform float action_size;       // m
 uniform float sphere_size;       // radius of a typical sphere, m
@@ -19,12 +19,12 @@ uniform float daylight;          // 1 by day
 const vec3 kSun = vec3(1.60, 1.51, 1.38);
 const vec3 kHorizon = vec3(0.12, 0.16, 0.21), kZenith = vec3(0.03, 0.05, 0.09);
 
-// What is behind all: dark, so that foam stands out.
+// The sky in the background: dark, so that foam stands out.
 vec3 sky(vec3 direction) {
   return sky_light * mix(kHorizon, kZenith, smoothstep(-0.05, 0.7, dot(direction, up)));
 }
 
-// What surfaces mirror: a bright sky, and a wide soft light around the sun.
+// The sky that surfaces mirror: bright, with a wide soft light around the sun.
 vec3 mirrored_sky(vec3 direction) {
   vec3 color = mix(vec3(0.62, 0.70, 0.78), vec3(0.24, 0.36, 0.52), smoothstep(-0.05, 0.7, dot(direction, up)));
   float toward = max(0.0, dot(direction, to_light));
@@ -32,7 +32,7 @@ vec3 mirrored_sky(vec3 direction) {
   return color + vec3(1.0, 0.95, 0.85) * (0.35 * wide * wide + 0.8 * smoothstep(0.93, 1.0, toward));
 }
 
-// The share of the sun's light that arrives: the mean of so many samples of the map, in a ring around the point.
+// The share of the sun's light that arrives: the mean of `count` samples of the map, in a ring around the point.
 float sunlight(vec3 point, float turn, int count) {
   vec3 at = (to_sun * (point - sun_eye)) * vec3(sun_scale.xy, -sun_scale.z);
   float light = 0.0;
@@ -45,7 +45,8 @@ float sunlight(vec3 point, float turn, int count) {
   return any(greaterThan(abs(at.xy), vec2(0.999))) || at.z > 1.0 ? 1.0 : light / float(count);
 }
 
-// How far off its surface a ball asks for the sun, so as not to lie in its own shadow, m: some pixels of the map.
+// Distance from a ball's surface at which its sunlight is looked up, so that it does not shadow itself, m: some pixels
+// of the map.
 float off_surface() { return 0.15 * sphere_size + 4.0 / (float(textureSize(sun_map, 0).x) * sun_scale.x); }
 
 vec3 ground_color(vec3 point, float sun) {
@@ -63,7 +64,7 @@ bool sees_ground(vec3 from, vec3 direction) {
   return has_ground && dot(direction, up) < -1e-3 && dot(from, up) > ground;
 }
 
-// Reflection of a surface seen straight on, and at grazing angles (C. Schlick, 1994).
+// Reflectance, from that of a surface seen straight on up to 1 at grazing angles (C. Schlick, 1994).
 float mirror(float straight, float cosine) {
   float missing = 1.0 - cosine, square = missing * missing;
   return straight + (1.0 - straight) * square * square * missing;
@@ -84,7 +85,7 @@ vec3 matte_light(vec3 normal, float sun, float sky_share) {
   return around + kSun * (max(0.0, dot(normal, to_light)) * sun);
 }
 
-// Bright light saturates gently; what is stored is the root, for evener steps.
+// Bright light saturates gently; the root of the colour is stored, for more even steps.
 vec4 stored(vec3 color) {
   color *= daylight;
   color = color * (1.0 + color / 5.0) / (1.0 + color);

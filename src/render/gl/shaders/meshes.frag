@@ -1,12 +1,12 @@
 #version 330 core
-// What spheres.frag says of spheres.
+// Writes the same as spheres.frag, for triangles.
 uniform float nearest;     // m
 uniform vec3 tint;
 
 in vec3 view_position;
 in vec3 view_normal;
 
-layout(location = 0) out vec4 color;   // its alpha: no foam
+layout(location = 0) out vec4 color;   // alpha 0: no foam
 layout(location = 1) out vec4 normal;  // in view space, towards the eye, from [-1, 1] to [0, 1]
 layout(location = 2) out vec4 depth;   // m
 

@@ -1,6 +1,6 @@
-// The mean of each pixel's samples, as screens take it (sRGB), with a noise of one step against bands.
+// The mean of each pixel's samples, as sRGB, with noise of one step against banding.
 uniform sampler2D shaded;     // alpha 0 where a sample shows nothing
-uniform sampler2D backdrop;   // what is seen there
+uniform sampler2D backdrop;   // shown where a sample shows nothing
 uniform int samples;
 
 out vec4 image;

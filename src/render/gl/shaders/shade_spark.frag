@@ -1,4 +1,4 @@
-// A spark: shines by itself, white-hot in the middle, and of its own colour towards the rim.
+// A spark: shines by itself, white-hot in the middle, in its own colour towards the rim.
 uniform sampler2D colors;
 uniform sampler2D normals;
 

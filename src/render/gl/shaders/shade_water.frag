@@ -7,7 +7,7 @@ uniform sampler2D surface;       // smoothed: depth and foam, by pixel
 uniform sampler2D water_normals; // by pixel
 uniform sampler2D ambient;       // by pixel
 uniform sampler2D thickness;     // of the water along the view, m
-uniform int samples;             // a pixel, along each side
+uniform int samples;             // along each side of a pixel
 uniform float water_scale;       // depth at which water takes its full colour, m
 
 out vec4 shaded;
@@ -21,7 +21,7 @@ void main() {
   vec4 color_and_foam = texelFetch(colors, sample_at, 0);
   vec2 smoothed = texelFetch(surface, pixel, 0).xy;
   vec3 rough = normalize(texelFetch(normals, sample_at, 0).xyz * 2.0 - 1.0);
-  // A drop before or behind the smooth surface of its pixel is drawn as it is.
+  // A drop before or behind the smooth surface of its pixel is drawn as a sphere.
   bool smooth_here = abs(smoothed.x + own) < 3.0 * sphere_size;
   float depth = smooth_here ? -smoothed.x : own;
   float foam = smooth_here ? smoothed.y : color_and_foam.a;

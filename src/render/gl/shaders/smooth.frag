@@ -1,10 +1,10 @@
 #version 330 core
-// Smooths the surface of water: a mean of the depths around, weighted by a bell, that leaves out what lies before or
-// behind by more than a few radii (S. Green, "Screen space fluid rendering with point sprites", 2010; the narrow range
-// after N. Truong and C. Yuksel, 2018). What is no water stays as it is.
+// Smooths the surface of water: a bell-weighted mean of the depths around a pixel, without depths that differ by more
+// than a few radii (S. Green, "Screen space fluid rendering with point sprites", 2010; the narrow range after N. Truong
+// and C. Yuksel, 2018). Other surfaces stay as they are.
 uniform sampler2D surface;   // depth and foam
 uniform float reach;         // how far bumps are smoothed, m
-uniform float range;         // how far before or behind still counts, m
+uniform float range;         // greatest difference in depth that still counts, m
 uniform int taps;
 uniform float scale;         // pixels a metre at depth 1
 

@@ -1,6 +1,6 @@
 #version 330 core
-// Where the ray of a sample meets a sphere. All relative to the sphere's centre: seen from far away, a ball is smaller
-// than the rounding of its distance.
+// Where the ray of a sample meets a sphere. Computed relative to the sphere's centre: far from the eye, a ball may be
+// smaller than the rounding error of its distance.
 uniform float nearest;     // m
 
 flat in vec3 view_center;

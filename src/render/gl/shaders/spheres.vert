@@ -1,6 +1,6 @@
 #version 330 core
-// A triangle for every sphere, between the eye and the sphere, that just covers its outline: one is cheaper to set up
-// than the two of a square. Lengths in metres.
+// A triangle for every sphere, between the eye and the sphere, that just covers its outline: one triangle is cheaper
+// to set up than the two of a square. Lengths in metres.
 uniform vec3 eye;
 uniform mat3 to_view;      // right, up, back
 uniform vec2 scale;        // from metres (at depth 1 where not parallel) to half a picture
@@ -32,6 +32,6 @@ void main() {
   vec3 v = cross(ahead, u);
   offset = -radius * ahead + half_side * (corner.x * u + corner.y * v);
   vec3 point = view_center + offset;
-  // From inside of a sphere nothing of it is seen.
+  // An eye inside a sphere does not see that sphere.
   gl_Position = d > radius ? vec4(point.xy * scale, 0.0, -point.z) : vec4(2.0, 2.0, 2.0, 1.0);
 }

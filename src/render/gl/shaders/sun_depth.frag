@@ -1,5 +1,5 @@
 #version 330 core
-// How far the sun's light gets.
+// How far the sun's light gets before it meets a sphere.
 uniform float range;       // depth of the map, m
 
 flat in vec3 view_center;

@@ -1,13 +1,13 @@
 // The normal of the smoothed water.
 uniform sampler2D surface;   // depth (negative: water, smoothed) and foam
-uniform float range;         // up to which a step in depth belongs to the same surface, m
+uniform float range;         // a step in depth up to this belongs to the same surface, m
 
 out vec4 water_normal;       // in view space, from [-1, 1] to [0, 1]
 
 float depth_at(ivec2 pixel) { return abs(texelFetch(surface, pixel, 0).x); }
 
-// How the surface goes on towards `side`: the mean of the steps from behind and to ahead where both lie on it, else the
-// one that does.
+// Direction of the surface towards `side`: the sum of the steps from behind and to ahead where both neighbours lie on
+// the surface, else the shorter step in depth.
 vec3 surface_step(ivec2 side, vec3 here) {
   vec2 at = gl_FragCoord.xy;
   ivec2 pixel = ivec2(at);
