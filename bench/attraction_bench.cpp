@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Attraction by itself: every pair, counted at 20 flops, against what the machine can do at most with fused operations;
-// and the tree, at the accuracy it is asked for. A result that is wrong has no speed.
+// Attraction by itself: the sum over every pair, counted at 20 flops a pair, against the machine's peak with fused
+// operations; and the tree at the requested accuracy. A wrong result has no speed.
 
 #include <benchmark/benchmark.h>
 #include <immintrin.h>
@@ -25,12 +25,12 @@ namespace hooke::bench {
 namespace {
 
 constexpr double kSoftening2 = 1e-8;
-constexpr double kFlops = 20;  // an interaction, as is usual
-constexpr std::size_t kChecked = 10'000;  // particles whose error is looked at
+constexpr double kFlops = 20;  // an interaction, the usual count
+constexpr std::size_t kChecked = 10'000;  // particles in the check of the error
 
 int cores() { return static_cast<int>(std::thread::hardware_concurrency()); }
 
-// Fused multiply-adds of floats, twelve chains, two flops a lane; what a chain comes to.
+// Fused multiply-adds of floats in twelve chains, two flops a lane; returns the result of a chain.
 constexpr std::int64_t kRounds = 4'000'000;
 constexpr std::size_t kChains = 12;
 
@@ -57,7 +57,7 @@ __attribute__((target("avx2,fma"))) float fused_avx2(float one) {
   return sum;
 }
 
-// flop/s of one thread at this moment, which a shared machine makes another one at the next.
+// flop/s of one thread at this moment; on a shared machine the figure changes from moment to moment.
 double measured_peak() {
   const bool wide = __builtin_cpu_supports("avx512f") != 0;
   if (!wide && __builtin_cpu_supports("fma") == 0) return 0;
@@ -93,7 +93,7 @@ IdTable ids_for(std::size_t count) {
   return IdTable(ids);
 }
 
-// What pulls some of the particles, pair by pair, in double precision.
+// Accelerations of every `stride`-th particle, summed pair by pair in double precision.
 std::vector<Vec3d> pulls_on(const std::vector<Vec3d>& positions, std::size_t stride) {
   const auto points = points_at<float>(positions);
   std::vector<AttractionSource<double>> sources;

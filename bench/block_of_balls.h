@@ -10,14 +10,14 @@
 
 namespace hooke::bench {
 
-// Balls to measure with what surrounds them: a block that rests in a box with walls, each touching its six neighbours.
+// Balls for measuring their surroundings: a block at rest in a box with walls; each ball touches its six neighbours.
 
 inline constexpr std::size_t kBallsInBlock = 512'000;
 inline constexpr double kBallRadius = 0.1;  // m
 inline constexpr double kBallMass = 1;      // kg
-inline constexpr double kBlockEdge = 16;    // m, of the block's floor, from 0
+inline constexpr double kBlockEdge = 16;    // edge of the block's floor, from 0, m
 
-/// Rules without particles, colliders and fields.
+/// A scene without particles, colliders and fields.
 inline Scene block_of_balls_scene(Precision precision) {
   Scene scene;
   scene.time_step = 1e-3;
@@ -32,7 +32,7 @@ inline Scene block_of_balls_scene(Precision precision) {
   return scene;
 }
 
-/// kBallsInBlock balls at rest, layer upon layer from the floor up, but for places where there is no_room(x).
+/// kBallsInBlock balls at rest, in layers from the floor up, at all lattice points x except where no_room(x).
 template <class NoRoom>
 ParticleSet block_of_balls(const NoRoom& no_room) {
   constexpr std::size_t kRow = 80;

@@ -19,18 +19,18 @@
 
 namespace hooke::bench {
 
-/// What Hooke is measured against: the plain way to step spheres, done properly. Each step sorts the particles into
-/// cells of one diameter by counting, so that neighbours lie close in memory; each particle then meets everybody in
-/// the 27 cells around its own. The same law, walls, gravity and integrator (symplectic Euler) as Hooke's, from the
-/// same headers, for scenes of one material in a box of spring walls. Sums are in no order that means anything, so its
-/// bits are not Hooke's. Threads are those of the task arena that it is called in.
+/// The plain way to step spheres, done properly, for Hooke to be measured against. Each step sorts the particles into
+/// cells of one diameter by counting, so that neighbours lie close in memory; then each particle is tested against
+/// every particle in the 27 cells around it. The law, walls, gravity and integrator (symplectic Euler) are Hooke's,
+/// from the same headers, for scenes of one material in a box of spring walls. Sums have no defined order, so the bits
+/// are not Hooke's. Runs on the threads of the task arena that it is called in.
 template <class Real>
 class CellLoop {
  public:
   struct Particle {
     Vec3<Real> x;  ///< m
     Vec3<Real> v;  ///< m/s
-    std::uint32_t index;  ///< into the set that it came from
+    std::uint32_t index;  ///< in the set that the particle came from
   };
 
   CellLoop(const Scene& scene, const ParticleSet& particles) : dt_(static_cast<Real>(scene.time_step)) {
@@ -72,7 +72,7 @@ class CellLoop {
   const std::vector<Particle>& particles() const { return now_; }
 
  private:
-  // Where x is; what is outside the box counts to its edge cells.
+  // The cell of x along `axis`; a point outside the box belongs to the cell at the box's edge.
   int cell_along(Real x, int axis) const {
     const int cell = static_cast<int>((x - component(min_, axis)) * per_metre_[axis]);
     return std::clamp(cell, 0, cells_[axis] - 1);
@@ -134,10 +134,10 @@ class CellLoop {
   ContactCoefficients<Real> law_;
   Vec3<Real> gravity_{}, min_{}, max_{};
   int cells_[3]{};
-  Real per_metre_[3]{};  // cells, along each axis
+  Real per_metre_[3]{};  // cells a metre, along each axis
   std::vector<Particle> now_, sorted_;
-  std::vector<std::uint32_t> cell_;   // of each of now_
-  std::vector<std::uint32_t> first_;  // of sorted_, by cell; one more than there are cells
+  std::vector<std::uint32_t> cell_;   // cell of each particle of now_
+  std::vector<std::uint32_t> first_;  // first particle of each cell in sorted_, and the end
 };
 
 }  // namespace hooke::bench

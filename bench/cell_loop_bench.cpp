@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Speed of the plain loop over 27 cells, cell_loop.h, for a scene of one material; prints the fields of
-// `hooke bench --json` that it knows. Where its particles are not where Hooke's are, it has no speed.
+// Speed of the plain loop over 27 cells, cell_loop.h, for a scene of one material. Prints the fields of
+// `hooke bench --json` that it knows. Prints no speed where its positions differ from Hooke's.
 //   hooke_cell_loop SCENE STEPS THREADS
 
 #include <tbb/global_control.h>

@@ -13,7 +13,7 @@
 
 namespace hooke::bench {
 
-// Particles of attraction to measure with: the same in every run.
+// Particles for measuring attraction: the same in every run.
 
 inline Vec3d random_direction(double u, double v) {
   const double z = 2 * u - 1, phi = 2 * std::numbers::pi * v, rho = std::sqrt(1 - z * z);
@@ -43,7 +43,7 @@ inline std::vector<Vec3d> cube(std::size_t count, double side, std::uint64_t see
   return positions;
 }
 
-/// A thin disc of a radius whose surface density falls off from the middle.
+/// A thin disc of a radius; its surface density falls off from the middle.
 inline std::vector<Vec3d> disc(std::size_t count, double radius, std::uint64_t seed) {
   std::vector<Vec3d> positions(count);
   for (std::size_t i = 0; i < count; ++i) {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 // What colliders cost in whole steps: a block of 512,000 balls in a box, with nothing in its middle, or with one shape
-// there. A wrong result has no speed: the shape must be touched, none may have got into it, and the momentum that it
-// gave must be accounted for.
+// there. A wrong result has no speed: balls must touch the shape, no ball may have got into it, and the momentum that
+// the shape gave must be accounted for.
 
 #include <benchmark/benchmark.h>
 
@@ -27,10 +27,10 @@ constexpr Vec3d kMiddle{kBlockEdge / 2, kBlockEdge / 2, kBlockEdge / 2};
 struct Surroundings {
   const char* name;
   std::vector<Collider> colliders;
-  std::vector<Shape> shapes;  // theirs, solid all through
+  std::vector<Shape> shapes;  // the colliders' shapes, solid all through
 };
 
-// The boulder of the gallery's avalanche; distances are known to `reach` (m) outside and three times that inside.
+// The boulder of the gallery's avalanche; distances are known up to `reach` (m) outside and three times that inside.
 Expected<Shape> boulder(double reach) {
   auto mesh = read_mesh(HOOKE_SOURCE_DIR "/scenes/meshes/rock.obj");
   if (!mesh) return fail(mesh.error());

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Speed of the engine's parts and of whole steps, each with a check of what it computed: a wrong result has no speed.
+// Speed of the engine's parts and of whole steps. Every benchmark checks its result: a wrong result has no speed.
 
 #include <benchmark/benchmark.h>
 
@@ -38,7 +38,7 @@ Scene pool_scene(std::size_t wide) {
   return scene;
 }
 
-// A pool of `wide` x `wide` x 20 balls that has come to rest for the most part; made once.
+// A pool of `wide` x `wide` x 20 balls that is nearly at rest; made once.
 Expected<ParticleSet> settled_pool(std::size_t wide) {
   static std::map<std::size_t, ParticleSet> pools;
   if (const auto known = pools.find(wide); known != pools.end()) return known->second;
@@ -62,8 +62,8 @@ Expected<ParticleSet> settled_pool(std::size_t wide) {
   return pools[wide] = simulation->particles();
 }
 
-// Arguments of what is measured on a pool: balls along a side, double precision or not, threads, which instruction set
-// of those there are.
+// Arguments of benchmarks on a pool: balls along a side, 1 for double precision, threads, index of the instruction set
+// among those available.
 void pool_arguments(benchmark::internal::Benchmark* benchmark) {
   benchmark->ArgNames({"wide", "double", "threads", "isa"})->Unit(benchmark::kMillisecond);
   for (const std::int64_t wide : {20, 57, 160}) benchmark->Args({wide, 0, 2, 0});
@@ -119,7 +119,7 @@ void whole_step(benchmark::State& state) {
 }
 BENCHMARK(whole_step)->Apply(pool_arguments)->UseRealTime();
 
-// One stage of steps that build their neighbour list anew, each of them.
+// One stage of steps; every step builds the neighbour list anew.
 void stage(benchmark::State& state, double StageTimes::* part, Integrator integrator) {
   auto pool = open_pool(state);
   if (!pool) return state.SkipWithError(pool.error().text().c_str());
@@ -161,10 +161,10 @@ void stage_arguments(benchmark::internal::Benchmark* benchmark) {
 BENCHMARK_CAPTURE(stage, sort, &StageTimes::sort, Integrator::symplectic_euler)->Apply(stage_arguments);
 BENCHMARK_CAPTURE(stage, list, &StageTimes::list, Integrator::symplectic_euler)->Apply(stage_arguments);
 BENCHMARK_CAPTURE(stage, force, &StageTimes::force, Integrator::symplectic_euler)->Apply(stage_arguments);
-// The part of integration that is a stage of its own.
+// The stage of integration that is separate from the force stage.
 BENCHMARK_CAPTURE(stage, integrate, &StageTimes::drift, Integrator::velocity_verlet)->Apply(stage_arguments);
 
-// What a hand that leads one ball costs a step beside the step itself: finding it, moving it, and looking after it.
+// What a hand that leads one ball adds to the cost of a step: finding the ball, moving it, and watching it.
 void hand(benchmark::State& state) {
   auto pool = open_pool(state);
   if (!pool) return state.SkipWithError(pool.error().text().c_str());

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 // What fields cost in whole steps: a block of 512,000 balls in a box, by itself and with each kind of field. A wrong
-// result has no speed: what a uniform push gives is known, others must push the way they point, and momentum must be
-// accounted for.
+// result has no speed: a uniform push must give the known momentum, other fields must push the way they point, and
+// momentum must be accounted for.
 
 #include <benchmark/benchmark.h>
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// What the machine can do at most, to compare Hooke with: bytes from and to memory, and additions and multiplications
-// of floats by instruction set. Without fused operations, as Hooke's laws are computed.
+// The machine's limits, to compare Hooke with: bytes from and to memory, and additions and multiplications of floats by
+// instruction set. Without fused operations, because Hooke's laws use none.
 
 #include <benchmark/benchmark.h>
 
@@ -21,7 +21,7 @@ void with_threads(benchmark::internal::Benchmark* benchmark) {
   if (cores > 1) benchmark->Threads(cores);
 }
 
-// Reads and writes much more than caches hold, each thread its own part; bytes are those read and those written.
+// Reads and writes much more than caches hold, each thread its own part; bytes read and bytes written both count.
 void memory(benchmark::State& state) {
   constexpr std::size_t kNumbers = std::size_t{1} << 24U;  // 128 MiB
   std::vector<double> numbers(kNumbers, 1.0);
@@ -35,14 +35,14 @@ void memory(benchmark::State& state) {
 }
 BENCHMARK(memory)->Apply(with_threads)->Unit(benchmark::kMillisecond);
 
-constexpr std::size_t kChains = 6;  // of each kind: enough to hide the latency, and they fit into 16 registers
+constexpr std::size_t kChains = 6;  // of each kind: enough to hide the latency, few enough for 16 registers
 constexpr std::int64_t kRounds = 1'000'000;
 
 typedef float Float4 __attribute__((vector_size(16)));
 typedef float Float8 __attribute__((vector_size(32)));
 typedef float Float16 __attribute__((vector_size(64)));
 
-// As many additions as multiplications, none waiting for another; what one chain of additions comes to.
+// As many additions as multiplications, in independent chains; returns the result of one chain of additions.
 template <class Vector>
 inline __attribute__((always_inline)) float run_chains(float one) {
   Vector sums[kChains], products[kChains];

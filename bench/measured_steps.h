@@ -12,21 +12,20 @@
 
 namespace hooke::bench {
 
-// What benchmarks of whole steps have in common. Their arguments are: what is measured, 1 for double precision,
-// threads.
+// Shared by benchmarks of whole steps. Their arguments are: the case measured, 1 for double precision, threads.
 
 inline Precision precision_of(const benchmark::State& state) {
   return state.range(1) != 0 ? Precision::double_precision : Precision::single_precision;
 }
 
-/// A simulation in the scene's precision, on so many threads.
+/// A simulation in the scene's precision, on the threads of `state`.
 inline Expected<Simulation> simulate(const benchmark::State& state, Scene scene, ParticleSet particles) {
   auto backend = make_cpu_backend({scene.precision, static_cast<int>(state.range(2)), ""});
   if (!backend) return fail(backend.error());
   return Simulation::create(std::move(scene), std::move(particles), std::move(*backend));
 }
 
-/// Takes `warmup` steps, then those that are timed. Returns how things are then; an error where the momentum is not
+/// Takes `warmup` steps, then the timed steps. Returns the measurements after them; an error where the momentum is not
 /// accounted for.
 inline Expected<Measurements> run_steps(benchmark::State& state, Simulation& simulation, std::int64_t warmup) {
   if (auto stepped = simulation.step(warmup); !stepped) return fail(stepped.error());

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Speed of pictures of half a million particles: each is checked before it has a speed.
+// Speed of pictures of half a million particles. Each picture is checked: a wrong one has no speed.
 
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
@@ -29,7 +29,7 @@ struct Pool {
   ParticleSet particles;
 };
 
-// As at rest: hexagonally close-packed layers over the floor of a tank, a little jittered.
+// A pool as if at rest: hexagonally close-packed layers over the floor of a tank, slightly jittered.
 Pool make_pool(MaterialLook look) {
   constexpr std::size_t kColumns = 160, kRows = 80;
   const double row_step = std::sqrt(3.0) * kRadius, layer_step = 2 * std::sqrt(2.0 / 3) * kRadius;
@@ -59,7 +59,7 @@ Frame make_picture(MaterialLook look) {
                     static_cast<double>(kWidth) / kHeight);
 }
 
-// The share of the picture's pixels that are blue, as the pool is and nothing else.
+// The share of the picture's pixels that are blue; only the pool is blue.
 double blue_share(const Image& image) {
   std::size_t blue = 0;
   for (std::size_t i = 0; i < image.pixels.size(); i += Image::kChannels) {
@@ -68,7 +68,7 @@ double blue_share(const Image& image) {
   return static_cast<double>(blue) * Image::kChannels / static_cast<double>(image.pixels.size());
 }
 
-// MB that this process held at most.
+// Peak memory of this process, MB.
 double peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -99,7 +99,7 @@ BENCHMARK(draw_picture)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
 
-// What it takes to make a frame of a run's particles.
+// Making a frame of a run's particles.
 void prepare_frame(benchmark::State& state) {
   const Pool pool = make_pool(MaterialLook::water);
   const Look look = make_look(pool.scene, pool.particles, ColorBy::material);
@@ -114,7 +114,7 @@ void find_visible_spheres(benchmark::State& state) {
   const Projection view = project(frame.camera, 2 * kWidth, 2 * kHeight);
   std::vector<std::uint32_t> visible;
   for (auto iteration : state) visible = visible_spheres(frame.spheres, view);
-  // Two sides and the top of the pool are seen, and into the gaps between balls.
+  // The picture shows two sides and the top of the pool, and some balls below through the gaps.
   if (visible.size() < 160 * 80 || visible.size() > kCount / 5) return state.SkipWithError("not a pool's surface");
   state.counters["visible"] = static_cast<double>(visible.size());
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(kCount));

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 // Speed of particles that touch no others, in whole steps: sparks that rise, fall, bounce off a ball and a floor, die
-// and are born again. A wrong result has no speed: nobody may be lost or lit twice, and momentum must be accounted for.
+// and are born again. A wrong result has no speed: no spark may be lost or lit twice, and momentum must be accounted
+// for.
 
 #include <benchmark/benchmark.h>
 
@@ -50,7 +51,7 @@ void spark_steps(benchmark::State& state) {
   const auto count = static_cast<std::uint64_t>(state.range(0));
   auto simulation = simulate(state, sparks(state), {});
   if (!simulation) return state.SkipWithError(simulation.error().text().c_str());
-  // Until lives of every length have ended: as many die each step from then on.
+  // Warm up until lives of every length have ended: from then on as many sparks die in each step.
   const auto now = run_steps(state, *simulation, 700);
   if (!now) return state.SkipWithError(now.error().text().c_str());
   const Ledger& ledger = simulation->ledger();

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Speed of springs in whole steps: a cloth that swings, with springs along sides, diagonals and over the next but one,
-// six a particle. A wrong result has no speed: momentum must be kept, and energy go from one form to the other.
+// Speed of springs in whole steps: a swinging cloth with springs along sides and diagonals and to the next particle but
+// one, six a particle. A wrong result has no speed: momentum and total energy must be kept.
 
 #include <benchmark/benchmark.h>
 
@@ -75,7 +75,7 @@ void spring_steps(benchmark::State& state) {
   const auto now = run_steps(state, *simulation, 0);
   if (!now) return state.SkipWithError(now.error().text().c_str());
   const double energy = now->kinetic_energy + now->spring_energy + now->elastic_energy;
-  // Symplectic Euler's energy swings by omega dt/2 of what goes to and fro, here a few per cent.
+  // Symplectic Euler's energy swings by omega dt/2 of the energy exchanged, here a few per cent.
   if (now->springs != springs || !(std::abs(energy / simulation->initial_energy() - 1) < 0.05)) {
     return state.SkipWithError("energy is not kept");
   }
