@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// A steady step allocates nothing: what it needs is there from the steps before. This program counts each call of
-// malloc and of operator new, whoever makes it, but for those from within oneTBB's library, which keeps tasks of its
-// own.
+// A steady step allocates nothing: it uses the memory of the steps before. This program counts every call of malloc and
+// of operator new, except calls from inside oneTBB's library, which keeps tasks of its own.
 
 #include <dlfcn.h>
 #include <gtest/gtest.h>
@@ -25,7 +24,7 @@ namespace {
 std::atomic<bool> counting{false};
 std::atomic<std::uint64_t> allocations{0};
 
-// `caller`: where the allocating function returns to.
+// `caller`: the address to which the allocating function returns.
 void count_allocation(const void* caller) {
   if (!counting) return;
   Dl_info found;
@@ -85,7 +84,7 @@ void operator delete(void* room, std::size_t, std::align_val_t) noexcept { __lib
 namespace hooke::test {
 namespace {
 
-// Counts what this lives through.
+// Counts the allocations during its lifetime.
 class AllocationCount {
  public:
   AllocationCount() {
@@ -112,13 +111,13 @@ TEST(AllocationCount, SeesWhatAVectorTakes) {
 
 class SteadySteps : public testing::TestWithParam<BusyKind> {};
 
-// A pool of three materials in its walls, come to rest for the most part: lists still grow old, no grain is a fast one.
+// A pool of three materials between walls, nearly at rest: lists still grow old, but no grain is fast.
 TEST_P(SteadySteps, AllocateNothing) {
   const Scene scene = busy_scene(GetParam());
   Simulation simulation = simulate(scene, busy_particles(scene), {"cpu", GetParam().precision, 2, ""});
   ASSERT_TRUE(advance(simulation, 300));
   std::uint64_t allocated = 0;
-  int kept = 0;  // steps that keep their list
+  int kept = 0;  // steps without a rebuild of the list
   const std::uint64_t rebuilds_before = simulation.neighbour_statistics().rebuilds;
   for (int step = 0; step < 200; ++step) {
     const std::uint64_t rebuilds = simulation.neighbour_statistics().rebuilds;

@@ -28,7 +28,7 @@ AttractionLoops<Real> loops_of(const Isa& isa) {
   }
 }
 
-// Ids with gaps, some of them of whole blocks.
+// Ids with gaps; some gaps are as long as whole blocks.
 std::vector<std::uint64_t> ids_for(std::size_t count) {
   std::vector<std::uint64_t> ids(count);
   for (std::size_t i = 0; i < count; ++i) ids[i] = 100 + 3 * i + (i > count / 2 ? 5000 : 0);
@@ -147,7 +147,7 @@ TYPED_TEST(AttractionBits, AreTheSameForThreadsAndInstructionSets) {
   }
 }
 
-// Where the particles lie in memory changes with every restart.
+// The order of particles in memory changes with every restart.
 TYPED_TEST(AttractionBits, OfTheTreeDoNotDependOnTheOrderOfPoints) {
   auto positions = bench::two_clusters(2000, 1, 4);
   for (std::size_t i = 0; i < 100; ++i) positions[10 * i] = {0.5, 0.5, 0.5};  // ties
@@ -159,7 +159,7 @@ TYPED_TEST(AttractionBits, OfTheTreeDoNotDependOnTheOrderOfPoints) {
   EXPECT_TRUE(same_bits(pulls(points, run), right));
 }
 
-// Fast sums have other bits, and are as good to a few units of the last place of single precision each.
+// Fast sums have other bits, and are as accurate up to a few units in the last place of single precision.
 TYPED_TEST(AttractionBits, AreGivenUpForSpeedOnRequest) {
   const auto points = points_at<TypeParam>(bench::plummer_sphere(2000, 1, 10, 5));
   const auto reference = pulls(points_at<double>(bench::plummer_sphere(2000, 1, 10, 5)), kDirect);
@@ -186,8 +186,8 @@ struct Shape {
 
 class TreeAccuracy : public testing::TestWithParam<Shape> {};
 
-// The accuracy that is asked for is kept, on 10,000 particles, in both precisions; and the tree is no better than it
-// needs to be, or its speed would be wasted.
+// The tree keeps the requested accuracy, on 10,000 particles, in both precisions. It is not much better than requested:
+// that would waste speed.
 TEST_P(TreeAccuracy, IsKept) {
   const auto positions = GetParam().positions(10'000);
   const auto in_double = points_at<double>(positions);
@@ -198,7 +198,7 @@ TEST_P(TreeAccuracy, IsKept) {
     EXPECT_LT(error, accuracy);
     EXPECT_GT(error, accuracy / 100);
     if (accuracy < 1e-4)
-      continue;  // positions in single precision are off by a part of 1e-7 themselves, close pairs more
+      continue;  // positions in single precision have errors of 1e-7 themselves, close pairs larger ones
     EXPECT_LT(rms_error(pulls(points_at<float>(positions), run), right), accuracy);
   }
 }
@@ -227,7 +227,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(AttractionTree, TakesAnyNumberOfParticlesAnywhere) {
   for (const std::size_t count : {0U, 1U, 2U, 16U, 17U, 65U, 200U}) {
     const std::vector<std::vector<Vec3d>> all{
-        std::vector<Vec3d>(count, Vec3d{1, 2, 3}),  // on one spot: nobody pulls
+        std::vector<Vec3d>(count, Vec3d{1, 2, 3}),  // all on one spot: no pull
         bench::cube(count, 1e-3, 2),
     };
     for (const auto& positions : all) {
@@ -242,8 +242,8 @@ TEST(AttractionTree, TakesAnyNumberOfParticlesAnywhere) {
   }
 }
 
-// Each particle ten times as far out as the one before, in one direction: halving boxes alone would take a level for
-// each.
+// Particles on a line, each at a tenth of the distance of the one before: halving boxes alone would take a level for
+// each particle.
 TEST(AttractionTree, StaysShallow) {
   std::vector<Vec3d> positions;
   for (int i = 0; i < 250; ++i) positions.push_back({std::pow(10.0, -i), 0, 0});

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Attraction among everything else that acts on particles: the reference's bits on the CPU, the same for all threads,
-// instruction sets and restarts.
+// Attraction together with everything else that acts on particles: the CPU has the reference's bits, for any threads,
+// instruction set and restart.
 
 #include <gtest/gtest.h>
 
@@ -19,8 +19,8 @@ namespace {
 
 using Kind = std::tuple<Integrator, Precision, Attraction::Method>;
 
-// Balls of three materials in a box with walls on two axes, open to the sides, that attract each other, touch, and are
-// tied to each other in part; some leave.
+// Balls of three materials in a box with walls on two axes and open faces on the third. The balls attract and touch
+// each other, springs tie some of them, and some leave.
 class AttractingBalls : public testing::TestWithParam<Kind> {
  protected:
   Scene scene_ = open_scene();
@@ -41,7 +41,7 @@ class AttractingBalls : public testing::TestWithParam<Kind> {
     scene_.attraction->method = method;
     scene_.time_step = 0.002;
     particles_ = cloud(scene_, 400, {-3.9, -2.4, -2.4}, {3.9, 2.4, 2.4}, 3, 17);
-    for (std::uint64_t& id : particles_.id) id += 1000 + (id > 300 ? 2000 : 0);  // several blocks of ids
+    for (std::uint64_t& id : particles_.id) id += 1000 + (id > 300 ? 2000 : 0);  // ids span several blocks
     const auto structure = std::make_shared<Structure>();
     for (std::size_t i = 0; i + 40 < particles_.size(); i += 40) {
       structure->springs.push_back({particles_.id[i], particles_.id[i + 7], 1, 50, 0.5});
@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ByReference,
                                           testing::Values(Precision::double_precision),
                                           testing::Values(Attraction::Method::direct)));
 
-// By numbers that single precision has no room for without units: suns, their distances and Newton's constant.
+// Suns, their distances and Newton's constant: numbers for which single precision has no room without scaled units.
 TEST(AstronomicalScales, FitIntoSinglePrecision) {
   Scene scene = open_scene();
   scene.precision = Precision::single_precision;

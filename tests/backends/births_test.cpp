@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Particles that touch none, births, lives and sinks: the CPU back end against the reference, and the same bits
-// whatever it runs on.
+// Particles that touch no others, births, lives and sinks: the CPU back end against the reference, and the same bits on
+// any threads and instruction set.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ Emitter spring_of(std::size_t material, const Vec3d& at, double rate) {
   return e;
 }
 
-// A busy scene with sparks among its particles, emitters of both kinds, one of which moves, lives that end and begin
+// A busy scene with sparks among its particles, emitters of both kinds (one emitter moves), lives that end and begin
 // anew, and two sinks.
 class Births : public testing::TestWithParam<BusyKind> {
  protected:
@@ -119,29 +119,29 @@ TEST_P(Births, GoOnAfterARestart) {
   }
 }
 
-// Kinetic, potential and elastic energy change by what the ledger says: the rest is the integrator's error, which is
-// that of a run without births.
+// Kinetic, potential and elastic energy change as the ledger says, up to the integrator's error, which is as large as
+// in a run without births.
 TEST_P(Births, AreBooked) {
   Simulation sim = simulate(scene_, particles_, engine(2));
   const std::uint64_t start = sim.particle_count();
   ASSERT_TRUE(advance(sim, 100));
   const Ledger& l = sim.ledger();
   EXPECT_EQ(sim.particle_count() + l.removed + l.population.expired + l.population.sunk, start + l.population.born);
-  // Under velocity Verlet the half kick to come of those who have just left is booked with the next step.
+  // Under velocity Verlet the second half kick of particles that have just left is booked with the next step.
   const bool verlet = GetParam().integrator == Integrator::velocity_verlet;
   const double rounding = verlet ? 5e-6 : GetParam().precision == Precision::single_precision ? 1e-6 : 1e-13;
   EXPECT_LT(momentum_drift(measured(sim), l, sim.initial_momentum()), rounding);
 }
 
-// Touching and sprung particles die, sink and leave, and the kinetic energy is still what all causes, births and
-// departures make it: a contact that vanishes takes along elastic energy, and none that anything moves with. Without
-// gravity, whose potential is booked together with it; under velocity Verlet those who have just left take along work
-// that is booked with the next step.
+// Particles in contacts and on springs die, sink and leave, and the kinetic energy is still the sum of all causes,
+// births and departures: a contact that vanishes takes elastic energy along, but no kinetic energy. Without gravity,
+// because its potential is booked together with the kinetic energy. Under velocity Verlet particles that have just left
+// take work along that is booked with the next step.
 TEST_P(Births, KineticEnergyBalances) {
   if (GetParam().precision == Precision::single_precision) GTEST_SKIP() << "rounds by more than that";
   if (GetParam().integrator == Integrator::velocity_verlet) GTEST_SKIP() << "books a part ahead";
   scene_.gravity = {0, 0, 0};
-  scene_.time_step = 0.0005;  // for what gets stuck between colliders
+  scene_.time_step = 0.0005;  // small, for particles that get stuck between colliders
   auto structure = std::make_shared<Structure>();
   for (std::size_t i = 1; i < particles_.size(); i += 2) {
     structure->springs.push_back({particles_.id[i - 1], particles_.id[i], 0.45, 500, 0.5});
@@ -167,8 +167,8 @@ TEST_P(Births, KineticEnergyBalances) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Births, all_busy_kinds(), [](const auto& instance) { return instance.param.name(); });
 
-// Of a gas that touches nothing, is slowed by drag and has died out again, nothing is left unaccounted: what births
-// brought, deaths took and drag did.
+// A gas touches nothing, is slowed by drag and dies out. Its energy is fully accounted for by births, deaths and the
+// work of drag.
 TEST(BirthLedger, KineticEnergyBalances) {
   for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
     Scene scene = open_scene();
@@ -186,7 +186,7 @@ TEST(BirthLedger, KineticEnergyBalances) {
       const Ledger& l = sim.ledger();
       EXPECT_EQ(l.population.expired, 1000U);
       EXPECT_LT(l.work[Cause::drag], -0.001 * l.population.born_energy);
-      // Each of 100 steps rounds sums of this size: 1e-16 of it.
+      // Each of 100 steps rounds sums of this size, by 1e-16 of them.
       EXPECT_NEAR(l.removed_energy - l.population.born_energy, l.work[Cause::drag], 1e-13 * l.population.born_energy);
     }
   }
@@ -207,7 +207,7 @@ TEST(Emitters, KeepTheirRate) {
   }
 }
 
-// 0.1 a step is one every ten steps, not one in eleven now and then.
+// 0.1 births a step are one birth every ten steps, never one in eleven.
 TEST(Emitters, CarryTheRemainder) {
   Scene scene = open_scene();
   scene.materials.push_back(sparks());
@@ -217,8 +217,8 @@ TEST(Emitters, CarryTheRemainder) {
   EXPECT_EQ(sim.particle_count(), 100U);
 }
 
-// In a space that is soon full, births wait; nobody is ever born into an overlap, with walls and colliders as with
-// particles, across periodic faces too.
+// In a space that is soon full, births wait. No particle is ever born into an overlap with a wall, a collider or a
+// particle, across periodic faces too.
 TEST(Emitters, NeverBearIntoAnOverlap) {
   for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
     Scene scene = open_scene();
@@ -240,8 +240,8 @@ TEST(Emitters, NeverBearIntoAnOverlap) {
     EXPECT_EQ(now.wall_contacts, 0U);
     EXPECT_EQ(now.collider_elastic_energy, 0);
     EXPECT_EQ(now.kinetic_energy, 0);
-    // Spheres put anywhere at random, one after the other, jam at 0.38 of the volume in the end; 60 steps take them a
-    // good part of the way.
+    // Spheres added one after the other at random positions jam at 0.38 of the volume; 60 steps get a good part of the
+    // way there.
     const double volume = 6 * 4 * 5 - 4.0 / 3 * M_PI * 0.8 * 0.8 * 0.8;
     const double r = scene.materials[0].radius;
     EXPECT_GT(static_cast<double>(now.particles) * 4 / 3 * M_PI * r * r * r, 0.15 * volume);
@@ -249,14 +249,14 @@ TEST(Emitters, NeverBearIntoAnOverlap) {
   }
 }
 
-// The rate is kept on average: what could not be born for a while is born when there is room.
+// The rate is kept on average: births that had to wait take place when there is room.
 TEST(Emitters, CatchUp) {
   Scene scene = open_scene();
   Emitter e = spring_of(0, {0, 0, 0}, 1000);
   e.shape = SphereShape{{0, 0, 0}, 0.01};
   e.speed = {100, 100};
   scene.emitters = {e};
-  // One a step is due; the last one is out of the way after ten steps of 0.1 m.
+  // One birth a step is due; a particle is out of the way after ten steps of 0.1 m.
   Simulation sim = simulate(scene, {}, kCpuDouble);
   ASSERT_TRUE(advance(sim, 105));
   EXPECT_NEAR(static_cast<double>(sim.particle_count()), 10.5, 1);
@@ -293,7 +293,7 @@ TEST(Emitters, BearAgainUnderNewIds) {
   }
 }
 
-// Many more are born than there ever are at a time: the store of slots and ids stays as large as it needs to be, and
+// Many more particles are born than exist at any one time: the store of slots and ids does not grow beyond need, and
 // nothing else changes.
 TEST(Emitters, GoOnForLong) {
   Scene scene = open_scene();
@@ -319,8 +319,8 @@ TEST(Sinks, TakeWhoIsInsideAndNobodyElse) {
   scene.gravity = {0, 0, 0};
   scene.sinks = {{BoxShape{{0, 0, 0}, {2, 2, 2}}}, {CapsuleShape{{10, 0, 0}, {12, 0, 0}, 1}}};
   ParticleSet p;
-  add(p, {-0.01, 1, 1}, {1, 0, 0});  // into the box in 10 steps of 0.001
-  add(p, {-0.1, 0.2, 1.9}, {1, 0, 0});  // in 100
+  add(p, {-0.01, 1, 1}, {1, 0, 0});  // is in the box after 10 steps of 0.001
+  add(p, {-0.1, 0.2, 1.9}, {1, 0, 0});  // after 100
   add(p, {12.9, 0, 0}, {0, 0, 0});  // in the capsule's cap
   add(p, {12.9, 1.1, 0}, {0, 0, 0});  // beside it
   for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
@@ -335,8 +335,8 @@ TEST(Sinks, TakeWhoIsInsideAndNobodyElse) {
   }
 }
 
-// Springs tie sparks to each other and to others, some are held, all attract each other; springs of those that die or
-// sink go with them, and whoever takes their place in memory is not tied.
+// Springs tie sparks to each other and to other particles, some are held, all attract each other. When a particle dies
+// or sinks, its springs go with it, and the particle that takes its place in memory is not tied.
 TEST(Sparks, FeelSpringsAndAttraction) {
   for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
     Scene scene = busy_scene({Boundary::spring, integrator, Precision::double_precision});
@@ -374,7 +374,7 @@ TEST(Sparks, FeelSpringsAndAttraction) {
   }
 }
 
-// A spark falls through a pile, and bounces off the floor as a particle of its own does.
+// A spark falls through a pile, and bounces off the floor as a particle without neighbours does.
 TEST(Sparks, TouchWallsAndCollidersOnly) {
   for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
     Scene scene = open_scene();
@@ -391,7 +391,7 @@ TEST(Sparks, TouchWallsAndCollidersOnly) {
     add(p, {0, 0.6, 0}, {0, 0, 0}, 0);
     add(p, {0, 3, 0}, {0, 0, 0}, 1);
     add(p, {0.2, 3, 0}, {0, 0, 0}, 1);  // overlaps the other spark all the way
-    add(p, {50, 3, 0}, {0, 0, 0}, 0);  // the same fall, with nobody there
+    add(p, {50, 3, 0}, {0, 0, 0}, 0);  // the same fall, with no particle in the way
     Simulation sim = simulate(scene, p, engine);
     for (int k = 0; k < 20; ++k) {
       ASSERT_TRUE(advance(sim, 50));

@@ -10,7 +10,7 @@
 
 namespace hooke::test {
 
-/// Which walls a busy scene has, and how it moves.
+/// The walls of a busy scene, its integrator and so on.
 struct BusyKind {
   Boundary boundary;
   Integrator integrator;
@@ -28,8 +28,8 @@ struct BusyKind {
 
 inline void PrintTo(const BusyKind& kind, std::ostream* os) { *os << kind.name(); }
 
-/// A block of three materials, several tiles of the neighbour list large, that falls apart: rebuilds, departures,
-/// wrapping and drag all take place within a hundred steps; with colliders of every kind in the way where asked for.
+/// A block of three materials that falls apart and is as large as several tiles of the neighbour list: rebuilds,
+/// departures, wrapping and drag all happen within a hundred steps. On request colliders of every kind are in the way.
 inline Scene busy_scene(const BusyKind& kind) {
   Scene scene = open_scene();
   mix_materials(scene, 0.25);
@@ -77,7 +77,7 @@ inline auto all_busy_kinds() {
   return testing::ValuesIn(kinds);
 }
 
-/// That two simulations hold the same bits: particles, ledger and figures.
+/// Expects that two simulations hold the same bits: particles, ledger and figures.
 inline void expect_same_bits(const Simulation& a, const Simulation& b) {
   EXPECT_EQ(a.state_hash(), b.state_hash());
   EXPECT_EQ(a.particles().position, b.particles().position);

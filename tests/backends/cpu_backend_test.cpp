@@ -49,7 +49,8 @@ TEST(CpuBackend, KeepsItsListWhileNothingMoves) {
   EXPECT_GE(simulation.neighbour_statistics().slots_per_particle, 5);
 }
 
-// Balls 1.2 diameters apart are within the first skin of each other. Once that has lasted for long, a thinner one does.
+// Balls 1.2 diameters apart are within the first skin of each other. Once a list has lasted long, a thinner skin is
+// used.
 TEST(CpuBackend, ThinsOutAListThatLasts) {
   Scene scene = open_scene();
   const ParticleSet particles = lattice(scene, {10, 10, 10}, {0, 0, 0}, 1.2, 0, 1);
@@ -82,7 +83,7 @@ TEST(CpuBackend, ForgetsDepartedParticles) {
   }
 }
 
-// Pair tables are looked up by material; the last of many must find its own row.
+// Pair tables are looked up by material; the last of many materials must find its own row.
 TEST(CpuBackend, TellsManyMaterialsApart) {
   Scene scene = open_scene();
   scene.materials.clear();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// The same scene gives the same bits, whatever it runs on and among.
+// The same scene gives the same bits on any threads and instruction set, and whatever the caller does between steps.
 
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ TEST_P(BusyScenes, HaveTheSameBitsHoweverStepsAreAskedFor) {
   Simulation one_by_one = simulate(scene_, particles_, engine(2));
   for (int i = 0; i < 60; ++i) {
     ASSERT_TRUE(advance(one_by_one, 1));
-    (void)one_by_one.positions();  // looking changes nothing
+    (void)one_by_one.positions();  // reading positions changes nothing
     (void)one_by_one.state_hash();
     if (i % 7 == 0) (void)measured(one_by_one);  // may rebuild the list
   }
@@ -71,7 +71,7 @@ class ControlRegister {
   unsigned saved_ = _mm_getcsr();
 };
 
-// Games set flush-to-zero; some libraries leave another rounding behind. Hooke's bits are its own.
+// Games set flush-to-zero; some libraries leave another rounding mode behind. Neither changes Hooke's bits.
 TEST_P(BusyScenes, HaveTheSameBitsUnderTheCallersFloatingPointModes) {
   Simulation usual = simulate(scene_, particles_, engine(2));
   ASSERT_TRUE(advance(usual, kSteps));
@@ -87,7 +87,7 @@ TEST_P(BusyScenes, HaveTheSameBitsUnderTheCallersFloatingPointModes) {
   }
 }
 
-// Speeds so small that flush-to-zero would make zeros of them.
+// Speeds so small that flush-to-zero would turn them into zeros.
 TEST(FlushToZero, LeavesDenormalsAlone) {
   Scene scene = open_scene();
   scene.materials[0].drag = 100;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Edits by hand change the slots concerned: the rest of the state, the neighbour list among it, goes on.
+// Edits by hand change the slots concerned; the rest of the state, such as the neighbour list, goes on.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 class EditedScenes : public BusyScenes {
  protected:
   EditedScenes() {
-    // Held still where it is put, by whomever.
+    // Does not move from where an edit puts it.
     Material post = scene_.materials[0];
     post.name = "post";
     post.fixed = true;
@@ -64,7 +64,7 @@ TEST_P(EditedScenes, GoOnAsIfAllWereLaidOutAnew) {
       ASSERT_NO_FATAL_FAILURE(edit(*s, burst));
     }
     ASSERT_TRUE(laid_out.restore(laid_out.state()));
-    (void)measured(edited);  // evaluates the accelerations of those added, as a snapshot does
+    (void)measured(edited);  // evaluates the accelerations of added particles, as a snapshot does
     expect_same_bits(edited, laid_out);
   }
   ASSERT_TRUE(advance(edited, 10));
@@ -95,7 +95,7 @@ TEST_P(EditedScenes, HaveTheBitsOfTheReference) {
 INSTANTIATE_TEST_SUITE_P(Kinds, EditedScenes, all_busy_kinds(),
                          [](const auto& instance) { return instance.param.name(); });
 
-// What was fixed in a place is gone with its particle.
+// A fixed particle's place is no longer fixed once the particle is removed.
 TEST(Edits, FreeThePlacesOfFixedParticles) {
   Scene scene = open_scene();
   scene.gravity = {0, -9.8, 0};
@@ -122,7 +122,7 @@ TEST(Edits, FreeThePlacesOfFixedParticles) {
   }
 }
 
-// Thousands between two steps are looked after together.
+// Thousands of edits between two steps are handled together.
 TEST(Edits, ByTheThousandHaveTheBitsOfAStateLaidOutAnew) {
   const Scene scene = open_scene();
   Simulation edited = simulate(scene, lattice(scene, {16, 16, 16}, {0, 0, 0}, 1.01, 0, 5), kCpuSingle);
@@ -140,7 +140,7 @@ TEST(Edits, ByTheThousandHaveTheBitsOfAStateLaidOutAnew) {
   EXPECT_EQ(edited.state_hash(), laid_out.state_hash());
 }
 
-// A hand that holds a ball builds no list.
+// A hand that holds a ball causes no rebuild of the list.
 TEST(Edits, OfAPoolAtRestKeepItsList) {
   Scene scene = open_scene();
   const ParticleSet particles = lattice(scene, {12, 12, 12}, {0, 0, 0}, 1.01, 0, 5);  // apart, at rest

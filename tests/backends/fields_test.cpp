@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Fields: the CPU back end against the reference, and the same bits whatever it runs on.
+// Fields: the CPU back end against the reference, and the same bits on any threads and instruction set.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 constexpr int kEdge = 10;
 constexpr std::int64_t kSteps = 60;
 
-// A sheet through the block, some of whose corners leave or wrap, under every field there is.
+// A sheet through the block, under every kind of field; some of the sheet's corners leave or wrap.
 class BusyFields : public testing::TestWithParam<BusyKind> {
  protected:
   BusyFields() : scene_(busy_scene(GetParam())) {
@@ -103,7 +103,7 @@ TEST_P(BusyFields, GoOnOverARestart) {
   Simulation first = simulate(scene_, particles_, engine(3));
   ASSERT_TRUE(advance(first, kSteps / 2));
   Scene rules = scene_;
-  rules.structure = nullptr;  // as a scene that is read without its particles; the state brings it
+  rules.structure = nullptr;  // as in a scene read without its particles; the state brings the structure
   Simulation second = resume(rules, first.state(), engine(1));
   ASSERT_TRUE(advance(second, kSteps / 2));
   expect_same_bits(whole, second);
@@ -115,7 +115,7 @@ TEST_P(BusyFields, AccountForTheirWorkAndMomentum) {
   ASSERT_TRUE(advance(s, kSteps));
   const bool single = GetParam().precision == Precision::single_precision;
   EXPECT_LT(momentum_drift(measured(s), s.ledger(), s.initial_momentum()), single ? 1e-6 : 1e-13);
-  if (s.ledger().removed > 0) return;  // whoever left took energy along
+  if (s.ledger().removed > 0) return;  // particles that left took energy along
   double sum = 0, scale = before;
   for (const double work : s.ledger().work.of) {
     sum += work;

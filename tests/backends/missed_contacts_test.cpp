@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// The neighbour list is kept for many steps. Whatever moves how, no contact is missed while it is.
+// The neighbour list is kept for many steps. However particles move, it misses no contact meanwhile.
 
 #include <gtest/gtest.h>
 
@@ -53,10 +53,10 @@ std::uint64_t true_contacts(const Simulation& simulation) {
 
 struct Motion {
   const char* name;
-  double spacing;  // of the lattice that it starts from, m
+  double spacing;  // of the lattice at the start, m
   std::function<void(Scene&)> rules;
   std::function<Vec3d(const Vec3d& x, std::uint64_t i)> velocity;
-  std::function<void(Simulation&)> halfway;  // what happens then, if anything
+  std::function<void(Simulation&)> halfway;  // what is done halfway, if anything
 };
 
 void PrintTo(const Motion& motion, std::ostream* os) { *os << motion.name; }
@@ -73,7 +73,7 @@ void push_apart(Simulation& s) {
 
 const Motion kMotions[] = {
     {"thermal", 0.48, [](Scene&) {}, [](const Vec3d&, std::uint64_t i) { return noise(i, 3); }, nullptr},
-    // One in twenty moves ten times as far as the rest.
+    // One particle in twenty moves ten times as far as the rest.
     {"fast_free", 0.8, [](Scene&) {}, [](const Vec3d&, std::uint64_t i) { return noise(i, i % 20 == 0 ? 10.0 : 1.0); },
      nullptr},
     {"translation", 0.48, [](Scene&) {}, [](const Vec3d&, std::uint64_t) { return Vec3d{8, 0, -6}; }, nullptr},
@@ -81,7 +81,7 @@ const Motion kMotions[] = {
      [](const Vec3d& x, std::uint64_t) { return Vec3d{6 * x.z, 0, -6 * x.x}; }, nullptr},
     {"sudden_gravity", 0.52, [](Scene& s) { s.gravity = {0, -2000, 0}; },
      [](const Vec3d&, std::uint64_t) { return Vec3d{0, 0, 0}; }, nullptr},
-    // Two halves meet at ten radii a hundredth of a second.
+    // Two halves approach by ten radii in a hundredth of a second.
     {"shock", 0.48, [](Scene&) {}, [](const Vec3d& x, std::uint64_t) { return Vec3d{x.x < 0 ? 12.0 : -12.0, 0, 0}; },
      nullptr},
     {"explosion", 0.48, [](Scene&) {}, [](const Vec3d&, std::uint64_t) { return Vec3d{0, 0, 0}; }, push_apart},
@@ -114,7 +114,7 @@ TEST_P(Motions, MissNoContact) {
     if (step == steps / 2 && motion.halfway) motion.halfway(simulation);
     const auto taken = simulation.step();
     ASSERT_EQ(simulation.neighbour_statistics().missed_contacts, 0U) << "in step " << step;
-    if (!taken) break;  // approaches too fast to be resolved are another test's affair
+    if (!taken) break;  // approaches too fast to be resolved: see failure_test.cpp
     // Figures come from the rows that the force pass reads.
     ASSERT_EQ(measured(simulation).contacts, true_contacts(simulation)) << "after step " << step;
   }
@@ -133,9 +133,9 @@ INSTANTIATE_TEST_SUITE_P(All, Motions,
                                   (std::get<2>(instance.param) == Precision::single_precision ? "_single" : "_double");
                          });
 
-// Some grains shoot through a calm block, each straight at its neighbour. They alone are looked after in each step: the
-// list is kept, and nothing is missed. The gaps are wider than the list's skin, so that a fast grain meets somebody who
-// is on no list.
+// Some grains shoot through a calm block, each straight at its neighbour. Only these grains are checked in each step:
+// the list is kept, and no contact is missed. The gaps are wider than the list's skin, so that a fast grain meets a
+// grain that its list does not hold.
 class Spray : public testing::TestWithParam<std::tuple<Integrator, Precision, Boundary, std::string>> {};
 
 TEST_P(Spray, MissesNoContactAndKeepsTheList) {
@@ -182,8 +182,8 @@ INSTANTIATE_TEST_SUITE_P(All, Spray,
                                           testing::Values("portable", "avx2", "avx512")),
                          spray_name);
 
-// A stream passes some grains that are held. They stay where they are while what is around them moves on: it is they
-// that are outliers.
+// A stream passes some grains that are held. Held grains stay where they are while their surroundings move on: the held
+// grains are the outliers.
 class Stream : public testing::TestWithParam<std::tuple<Integrator, Precision, Boundary>> {};
 
 TEST_P(Stream, MissesNoContactWithGrainsThatAreHeld) {
@@ -225,7 +225,7 @@ INSTANTIATE_TEST_SUITE_P(All, Stream,
                                           testing::Values(Boundary::spring, Boundary::periodic)),
                          stream_name);
 
-// Large balls shot through a cloud of small ones, the radii one to ten: each size has a grid of its own.
+// Large balls shot through a cloud of small balls; the radii are as ten to one, so each size has a grid of its own.
 class Mixture : public testing::TestWithParam<std::tuple<Precision, Boundary, std::string>> {};
 
 TEST_P(Mixture, MissesNoContact) {
@@ -236,7 +236,7 @@ TEST_P(Mixture, MissesNoContact) {
   }
   Scene scene = open_scene();
   mix_materials(scene, 0.0625);
-  scene.materials[1].radius = 0.625;  // sums of radii that single precision holds exactly
+  scene.materials[1].radius = 0.625;  // single precision holds sums of radii exactly
   scene.materials[1].mass = 400;
   scene.materials[2].radius = 0.125;
   scene.domain.min = {-3, -3, -3};

@@ -21,8 +21,8 @@ struct Setting {
   std::size_t count;
   Vec3d min, max;
   bool periodic[3];
-  Vec3d spread;  // part of the box that points lie in, an axis
-  double radius, ratio;  // radii from radius to ratio times that
+  Vec3d spread;  // part of the box that points lie in, along each axis
+  double radius, ratio;  // radii from radius to ratio * radius
 };
 
 void PrintTo(const Setting& setting, std::ostream* os) { *os << setting.name; }
@@ -68,7 +68,7 @@ class Lists {
       x.push_back(vec_cast<Real>(setting.min + Vec3d{setting.spread.x * u[0] * size.x, setting.spread.y * u[1] * size.y,
                                                      setting.spread.z * u[2] * size.z}));
     }
-    // Many small ones and few large ones, a level for each doubling of the radius.
+    // Many small points and few large ones, a level for each doubling of the radius.
     const auto radius_of = [&](std::size_t i) {
       return setting.radius * std::pow(setting.ratio, std::pow(uniform4(12, i, 0)[0], 3));
     };
@@ -114,7 +114,7 @@ class Lists {
     build_neighbour_list<Real>(cells_, rule_, search_of(isa, Real{}), list);
   }
 
-  // Every pair looked at: the points nearer to i than the reach, i among them, by rank.
+  // By a search through all points: those nearer to i than the reach, i included, by rank.
   std::vector<std::uint32_t> expected(std::size_t i) const {
     std::vector<std::uint32_t> near;
     for (std::size_t p = 0; p < setting_.count; ++p) {
@@ -136,7 +136,7 @@ class Lists {
     return near;
   }
 
-  // By every instruction set there is, into a list that may have held others before.
+  // On every available instruction set, into a list that may have held other points before.
   void check(bool list_self, NeighbourList& list) {
     std::vector<std::vector<std::uint32_t>> near;
     for (std::size_t i = 0; i < setting_.count; ++i) near.push_back(expected(i));
@@ -166,7 +166,7 @@ class Lists {
 
   static constexpr std::uint32_t kStride = 4;
 
-  // In every other window the last come first.
+  // In every other window the order is reversed.
   std::uint8_t place_of(std::size_t i) const {
     const std::size_t first = i / kWindow * kWindow, last = std::min(first + kWindow, setting_.count) - 1;
     return static_cast<std::uint8_t>(i / kWindow % 2 == 0 ? last - i : i - first);
@@ -198,7 +198,7 @@ TEST_P(NeighbourLists, HoldThePointItselfWhereAsked) {
 INSTANTIATE_TEST_SUITE_P(Settings, NeighbourLists, testing::ValuesIn(kSettings),
                          [](const auto& instance) { return instance.param.name; });
 
-// Memory is kept from one build to the next, whatever their sizes.
+// Memory is kept from one build to the next, for builds of any size.
 TEST(NeighbourList, CanBeBuiltAgainAndAgain) {
   NeighbourList list;
   for (int round = 0; round < 2; ++round) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Sums of many numbers by packs: on every instruction set the parts add up to the very sum, whatever the numbers.
+// Sums of many numbers by packs: on every instruction set the parts add up to the exact sum of any numbers.
 
 #include "pack_sums.h"
 
@@ -25,7 +25,7 @@ void add_numbers(const std::string& isa, const std::vector<Real>& values, ExactP
   portable::add_numbers(values.data(), values.size(), parts);
 }
 
-// What the parts leave of the sum: 0 where they are exact.
+// The parts' sum minus the values' sum: 0 where the parts are exact.
 template <class Real>
 double remainder_of(const std::vector<Real>& values, const ExactParts& parts) {
   ExactSum sum;
@@ -39,7 +39,7 @@ enum class Kind { alike, mixed, wild, cancelling, zero, tiny };
 template <class Real>
 Real number(Kind kind, std::uint64_t i) {
   const auto u = uniform4(5, i, 0, static_cast<std::uint32_t>(kind));
-  const int most = std::numeric_limits<Real>::max_exponent - 12;  // a thousand of them stay finite
+  const int most = std::numeric_limits<Real>::max_exponent - 12;  // a sum of a thousand stays finite
   const double sign = u[1] < 0.5 ? -1 : 1;
   switch (kind) {
     case Kind::alike:
@@ -78,8 +78,8 @@ void check_parts() {
 TEST(PackSums, OfFloatsAreExact) { check_parts<float>(); }
 TEST(PackSums, OfDoublesAreExact) { check_parts<double>(); }
 
-// Parts come to what there was before; and numbers that are alike leave a few, however many they are: a number a lane,
-// or of doubles two.
+// Parts are added to the parts already there. However many alike numbers are summed, they leave only a few parts: one
+// a lane for floats, two a lane for doubles.
 TEST(PackSums, LeaveFewPartsOfNumbersThatAreAlike) {
   for (const Isa& isa : available_isas()) {
     std::vector<float> floats(1024);

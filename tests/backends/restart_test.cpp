@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// N steps, a snapshot, N more in another simulation: the bits of 2 N steps.
+// N steps, a snapshot, and N more steps in another simulation give the bits of 2 N steps.
 
 #include <gtest/gtest.h>
 
@@ -71,7 +71,7 @@ TEST(ReferenceRestarts, GoOnWithTheSameBits) {
     Simulation second = resume(scene, first.state(), kReference);
     ASSERT_TRUE(advance(second, 30));
     expect_same_bits(whole, second);
-    // A state can change hands between back ends of one precision.
+    // A state can go from one back end to another of the same precision.
     Simulation on_cpu = resume(scene, first.state(), kCpuDouble);
     ASSERT_TRUE(advance(on_cpu, 30));
     EXPECT_EQ(on_cpu.state_hash(), whole.state_hash());

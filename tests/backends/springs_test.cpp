@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Springs and held particles: the CPU back end against the reference, and the same bits whatever it runs on.
+// Springs and held particles: the CPU back end against the reference, and the same bits on any threads and instruction
+// set.
 
 #include <gtest/gtest.h>
 
@@ -13,8 +14,8 @@ namespace {
 
 constexpr int kEdge = 8;
 
-// Ties each particle of a cubic lattice to the next ones along the axes: springs of all modes, some that break, most
-// that keep their ends from touching.
+// Ties each particle of a cubic lattice to its next neighbours along the axes with springs of all modes. Some springs
+// break; most keep their ends from touching.
 std::shared_ptr<const Structure> tie_lattice(const ParticleSet& p) {
   auto structure = std::make_shared<Structure>();
   const auto tie = [&](int i, int j) {
@@ -113,7 +114,7 @@ TEST_P(Springs, StayBrokenOverARestart) {
   const SimulationState saved = first.state();
   EXPECT_FALSE(saved.broken_springs.empty());
   Scene rules = scene_;
-  rules.structure = nullptr;  // as a scene that is read without its particles; the state brings it
+  rules.structure = nullptr;  // as in a scene read without its particles; the state brings the structure
   Simulation second = resume(rules, saved, engine(1));
   EXPECT_EQ(second.broken_springs(), saved.broken_springs);
   ASSERT_TRUE(advance(second, kSteps / 2));
@@ -132,7 +133,7 @@ TEST_P(Springs, HoldParticlesStill) {
     EXPECT_LT(dot(off, off), 1e-12) << "but for the rounding to single precision";
     EXPECT_EQ(s.velocities()[k], (Vec3d{0, 0, 0}));
   }
-  // What holds accounts for the momentum: rounding alone is left.
+  // The impulse of the hold is in the ledger, so only rounding is left.
   const double drift = momentum_drift(measured(s), s.ledger(), s.initial_momentum());
   EXPECT_LT(drift, GetParam().precision == Precision::single_precision ? 1e-6 : 1e-13);
 }
@@ -140,7 +141,7 @@ TEST_P(Springs, HoldParticlesStill) {
 TEST_P(Springs, OfParticlesThatAreRemovedVanish) {
   Simulation s = simulate(scene_, particles_, engine(2));
   const std::uint64_t before = measured(s).springs;
-  const std::uint64_t gone[] = {particles_.id[kEdge * kEdge + kEdge + 1]};  // inside: six springs
+  const std::uint64_t gone[] = {particles_.id[kEdge * kEdge + kEdge + 1]};  // an inner particle: six springs
   ASSERT_TRUE(s.remove_particles(gone));
   EXPECT_EQ(measured(s).springs, before - 6);
   ASSERT_TRUE(advance(s, 20));
@@ -152,15 +153,15 @@ TEST_P(Springs, OfParticlesThatAreRemovedVanish) {
   }
 }
 
-// What all causes did, J.
+// The work of all causes, J.
 double total_work(const Ledger& ledger) {
   double sum = 0;
   for (const double work : ledger.work.of) sum += work;
   return sum;
 }
 
-// Contacts, walls, colliders, drag, gravity, springs and what holds particles: together they do what the kinetic energy
-// gains, for any step, where none leaves with its own.
+// Contacts, walls, colliders, drag, gravity, springs and holds: in any step their work adds up to the gain in kinetic
+// energy, as long as no particle leaves and takes its energy along.
 TEST_P(Springs, AndAllOtherCausesDoTheWorkThatTheKineticEnergyGains) {
   Scene scene = scene_;
   if (scene.domain.boundary[0] == Boundary::open)
@@ -175,7 +176,7 @@ TEST_P(Springs, AndAllOtherCausesDoTheWorkThatTheKineticEnergyGains) {
       for (const double work : s.ledger().work.of) scale += std::abs(work);
       throughput = std::max(throughput, scale);
       const double gain = measured(s).kinetic_energy - before;
-      // Each step rounds each velocity once: some 1e5 roundings of half a unit, mostly of either sign.
+      // Each step rounds each velocity once: some 1e5 roundings of half a unit, of either sign.
       const double limit = on.precision == Precision::single_precision ? 1e-5 : 1e-12;
       EXPECT_NEAR(total_work(s.ledger()), gain, limit * throughput) << on.name() << " after " << s.step_count();
       EXPECT_GT(std::abs(gain), 0.01 * before);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 //
-// A file in which assertions are off, whatever the build is. It includes no other header of Hooke's: their inline
-// functions would differ from those of other files.
+// In this file assertions are off in every build. It includes no other header of Hooke's, because their inline
+// functions would differ from the same functions in other files.
 #undef HOOKE_ASSERTIONS
 #define HOOKE_ASSERTIONS 0
 #include "hooke/base/assert.h"
@@ -11,7 +11,7 @@
 
 namespace {
 
-bool is_small(int value) { return value < 10; }  // of use in an assertion alone: no warning
+bool is_small(int value) { return value < 10; }  // used only in an assertion: no warning
 
 }  // namespace
 

@@ -2,5 +2,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// How often the expressions and values of two assertions are evaluated where assertions are off.
+/// How often two assertions evaluate their expressions and values where assertions are off.
 int evaluations_without_assertions();

@@ -22,7 +22,7 @@ struct Failure {
   int line = 0;
 };
 
-// What the handler gets when an assertion with these names and values fails.
+// The values' text that the handler gets when an assertion with these names and values fails.
 template <class... Values>
 std::string text_of(const char* names, const Values&... values) {
   static std::string text;

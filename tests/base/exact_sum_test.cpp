@@ -119,7 +119,7 @@ TEST(ExactSum, HasTheSameBitsHoweverItIsSplit) {
 }
 
 TEST(ExactSum, IsOffByOneUnitInTheLastPlaceAtMost) {
-  // Of numbers and their negatives but one, what is left is known whatever the others were.
+  // The sum of numbers and all their negatives but one is known, whatever the numbers are.
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     std::vector<double> values = spread_numbers(400, 0, 1500, seed);
     const double big = values[0];
@@ -157,7 +157,7 @@ TEST(ExactSum, BeyondTheLargestNumberIsInfinite) {
   EXPECT_EQ(sum_of({Limits::lowest(), Limits::lowest()}), -INFINITY);
 }
 
-// Floats of either sign and every size, zeros and subnormal ones among them.
+// Floats of either sign and every size, with zeros and subnormal numbers.
 std::vector<float> all_kinds_of_floats(std::size_t count) {
   std::vector<float> values = {0.0F, -0.0F, std::numeric_limits<float>::denorm_min(), std::numeric_limits<float>::max(),
                                -std::numeric_limits<float>::min()};

@@ -15,16 +15,16 @@ namespace {
 
 #if defined(__SSE2__)
 
-constexpr unsigned kFlushToZero = 0x9fc0;  // FTZ and DAZ beside the masked exceptions
+constexpr unsigned kFlushToZero = 0x9fc0;  // FTZ and DAZ, with all exceptions masked
 constexpr unsigned kUpward = 0x5f80;       // rounds towards plus infinity
 
-constexpr unsigned kModes = 0xffc0;        // all but the flags of what has happened
+constexpr unsigned kModes = 0xffc0;        // all bits except the exception flags
 
 class FloatingPointGuards : public testing::Test {
  protected:
   void TearDown() override { _mm_setcsr(saved_); }
 
-  // Out of the compiler's sight, so that nothing is folded at build time.
+  // Volatile, so that the compiler folds nothing at build time.
   volatile double smallest_ = std::numeric_limits<double>::min();
   volatile double one_ = 1;
   volatile double tiny_ = 1e-30;

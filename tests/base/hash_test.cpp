@@ -11,7 +11,7 @@
 namespace hooke {
 namespace {
 
-// The first outputs of SplitMix64 from state 0, as its authors publish them: mix64 adds the increment itself.
+// The first outputs of SplitMix64 from state 0, as its authors publish them; mix64 adds the increment itself.
 TEST(Mix64, IsSplitMix64) {
   constexpr std::uint64_t kIncrement = 0x9e3779b97f4a7c15U;
   EXPECT_EQ(mix64(0), 0xe220a8397b1dcdafU);

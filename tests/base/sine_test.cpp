@@ -28,7 +28,7 @@ TEST(SineOfTurns, IsExactAtQuartersOfATurn) {
     const auto at = [&](double part) { return sine_cosine_of_turns(whole + part); };
     EXPECT_EQ(at(0).sine, 0);
     EXPECT_EQ(at(0).cosine, 1);
-    if (whole > 1e15) continue;  // a quarter is lost beside it
+    if (whole > 1e15) continue;  // too large to hold a quarter as well
     EXPECT_EQ(at(0.25).sine, 1);
     EXPECT_EQ(at(0.25).cosine, 0);
     EXPECT_EQ(at(0.5).sine, 0);

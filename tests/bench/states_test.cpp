@@ -16,7 +16,7 @@ namespace {
 
 class States : public ProgramTest {
  protected:
-  // The exit status of bench/make_states with a folder `states` in this test's own.
+  // The exit status of bench/make_states, with the folder `states` in this test's folder.
   int make_states(const std::string& names) const {
     return std::system((std::string(HOOKE_SOURCE_DIR "/bench/make_states --hooke ") + program_file() + " --folder '" +
                         path("states").string() + "' " + names)

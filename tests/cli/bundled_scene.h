@@ -8,7 +8,7 @@
 
 namespace hooke::test {
 
-/// A scene that comes with Hooke, by its name.
+/// A test of a scene that comes with Hooke; the parameter is its name.
 class BundledScene : public ProgramTest, public testing::WithParamInterface<std::string> {
  protected:
   void SetUp() override {

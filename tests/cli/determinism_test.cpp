@@ -22,7 +22,7 @@ struct Case {
 
 class Determinism : public ProgramTest, public testing::WithParamInterface<Case> {
  protected:
-  // Large enough that every thread gets some of it.
+  // Large enough that every thread gets work.
   void SetUp() override { write("s.json", pool_scene(12, GetParam().integrator, GetParam().precision)); }
 };
 
@@ -49,7 +49,7 @@ TEST_P(Determinism, AnyInstructionSetGivesTheSameBits) {
     setenv("HOOKE_ISA", isa, 1);
     const Outcome outcome = hooke({"run", "s.json", "-o", isa});
     unsetenv("HOOKE_ISA");
-    if (outcome.status == 2 && std::string(isa) != "portable") continue;  // this processor has none
+    if (outcome.status == 2 && std::string(isa) != "portable") continue;  // this processor lacks the instruction set
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(state_hash(isa), state_hash("widest")) << isa;
   }
@@ -62,7 +62,7 @@ TEST_P(Determinism, ARestartGivesTheSameBits) {
   EXPECT_EQ(state_hash("parts"), state_hash("whole"));
   EXPECT_EQ(export_all("parts"), export_all("whole"));
 
-  // Into another folder, too; and back to an earlier step of its own.
+  // Into another folder too, and back to an earlier step in the same folder.
   hooke_ok({"run", "s.json", "-o", "half", "--steps", "30"});
   hooke_ok({"run", "s.json", "-o", "other", "--resume", "half/checkpoint.h5"});
   EXPECT_EQ(state_hash("other"), state_hash("whole"));

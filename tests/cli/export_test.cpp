@@ -34,7 +34,7 @@ TEST_F(ExportCommand, GivesFormatsTheScene) {
   EXPECT_THAT(read("p.usda"), HasSubstr("upAxis = \"Z\""));
 }
 
-// A run that has not come to its first checkpoint, or has lost it: cloths are as the scene makes them.
+// A run without a checkpoint (not yet written, or lost): cloths come from the scene.
 TEST_F(ExportCommand, FindsClothsWithoutACheckpoint) {
   write("flag.json", R"({ "hooke": 1, "time": { "step": 0.001, "end": 0.02 },
       "domain": { "min": [-5, -5, -5], "max": [5, 5, 5] },

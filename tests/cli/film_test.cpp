@@ -29,7 +29,7 @@ class FilmOfARun : public ProgramTest {
     write("s.json", small_scene());
   }
 
-  // 60 steps of 0.007 s, which no frame is a multiple of.
+  // 60 steps of 0.007 s: no frame after the first falls on a step.
   static Words run(const std::string& folder, const Words& more = {}) {
     Words words{"run", "s.json", "-o", folder, "--set", "time.step=0.007", "--steps", "60"};
     words.insert(words.end(), more.begin(), more.end());
@@ -82,9 +82,9 @@ TEST_F(FilmOfARun, GoesOnWithTheRun) {
   Words half = run("half", film("f1.mp4", {"--quiet"}));
   half[7] = "30";
   hooke_ok(half);
-  EXPECT_EQ(probe_film(path("f1.mp4")).frames, 7);  // to 0.21 s
+  EXPECT_EQ(probe_film(path("f1.mp4")).frames, 7);  // up to 0.21 s
   hooke_ok(run("half", film("f2.mp4", {"--quiet", "--resume", "half"})));
-  EXPECT_EQ(probe_film(path("f2.mp4")).frames, 6);  // from there
+  EXPECT_EQ(probe_film(path("f2.mp4")).frames, 6);  // from 0.21 s on
   EXPECT_EQ(state_hash("half"), state_hash("whole"));
 }
 
@@ -137,7 +137,7 @@ class StoppedFilm : public FilmOfARun {
       const std::string series = exists("out/series.csv") ? read("out/series.csv") : "";
       return std::count(series.begin(), series.end(), '\n');
     };
-    EXPECT_TRUE(wait_until([&] { return rows() > 20; }));  // of 7 steps each, more than a frame
+    EXPECT_TRUE(wait_until([&] { return rows() > 20; }));  // 7 steps a row, longer than a frame
     program.send(signal);
     return program.wait();
   }

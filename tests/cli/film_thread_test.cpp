@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // The thread that draws a film while a run goes on, without OpenGL: the program's film_thread.cpp, studio.cpp and
-// log.cpp with a renderer of the test's own, so that a build with the thread sanitizer sees all of it but ffmpeg.
+// log.cpp with a renderer of the test's own, so that a build with the thread sanitizer sees everything except ffmpeg.
 #include "film_thread.h"
 
 #include <gmock/gmock.h>
@@ -36,13 +36,13 @@ namespace {
 using test::EnvironmentVariable;
 using testing::HasSubstr;
 
-/// What a test wants of the renderer, and what that was asked to draw. For several threads.
+/// What the test's renderer should do, and what it was asked to draw. Safe for several threads.
 class Stage {
  public:
   // Before the film starts:
   std::optional<Error> no_device;         ///< what opening the renderer says
-  std::optional<std::size_t> last_frame;  ///< an error in place of the frame after so many
-  std::chrono::milliseconds takes{0};     ///< to draw a frame
+  std::optional<std::size_t> last_frame;  ///< after so many frames, the next gives an error
+  std::chrono::milliseconds takes{0};     ///< time to draw a frame
 
   /// From now on frames wait until open() is called.
   void close() {
@@ -61,7 +61,7 @@ class Stage {
     return drawn_;
   }
 
-  /// The renderer's: draws a frame, or does not.
+  /// For the renderer: draws a frame, or fails.
   Expected<void> draw(std::vector<Vec3d> centres) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return open_; });
@@ -79,7 +79,7 @@ class Stage {
   std::vector<std::vector<Vec3d>> drawn_;
 };
 
-/// That of the test that runs.
+/// The stage of the running test.
 Stage* stage = nullptr;
 
 class PlainRenderer : public Renderer {
@@ -104,7 +104,7 @@ class PlainRenderer : public Renderer {
 
 }  // namespace
 
-// In place of the one that loads hooke-gl.so.
+// Replaces the function that loads hooke-gl.so.
 Expected<std::unique_ptr<Renderer>> load_gl_renderer(const RenderSettings& settings) {
   if (stage->no_device) return fail(*stage->no_device);
   return std::make_unique<PlainRenderer>(settings);
@@ -112,7 +112,7 @@ Expected<std::unique_ptr<Renderer>> load_gl_renderer(const RenderSettings& setti
 
 namespace {
 
-/// The largest distance (m) between two particles of the same place in two lists.
+/// The largest distance (m) between particles at the same index of two lists.
 double largest_distance(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
   double largest = a.size() == b.size() ? 0 : INFINITY;
   for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
@@ -151,7 +151,7 @@ class FilmThreads : public testing::Test {
     return {std::istreambuf_iterator<char>(in), {}};
   }
 
-  // A film of a frame every `steps_a_frame` steps.
+  // A film with a frame every `steps_a_frame` steps.
   std::unique_ptr<FilmThread> start(double steps_a_frame) const {
     auto film = FilmThread::start(path("f.mp4"), picture(steps_a_frame), simulation_);
     EXPECT_TRUE(film) << film.error().text();
@@ -163,12 +163,12 @@ class FilmThreads : public testing::Test {
     arguments.height = 48;
     arguments.samples = 1;
     arguments.frames_per_second = 1 / (steps_a_frame * simulation_.scene().time_step);
-    // Text is drawn by cairo and fontconfig, which are not built with the sanitizer.
+    // Cairo and fontconfig draw text, and they are not built with the sanitizer.
     arguments.legend = false;
     return arguments;
   }
 
-  // As a run goes on with a film, with a line in the log every step.
+  // Steps as a run with a film does, with a line in the log every step.
   void run(FilmThread& film, int steps) {
     for (int k = 0; k < steps; ++k) {
       if (film.is_due(simulation_.time())) film.show(simulation_.snapshot());
@@ -191,7 +191,7 @@ class FilmThreads : public testing::Test {
   std::filesystem::path folder_;
 };
 
-// Frames at every so many steps, and so many more or less than one.
+// Frames every few steps, at times between steps, and several frames a step.
 TEST_F(FilmThreads, EachFrameShowsItsMoment) {
   for (const double steps_a_frame : {2.0, 1.6, 0.4}) {
     SCOPED_TRACE(steps_a_frame);
@@ -235,7 +235,7 @@ TEST_F(FilmThreads, TheRunIsTheSameWithAFilm) {
   EXPECT_EQ(simulation_.state_hash(), alone.state_hash());
 }
 
-// One is being drawn, two wait: a fourth waits for its place.
+// One frame is being drawn, two wait: the caller of a fourth has to wait.
 TEST_F(FilmThreads, ASlowRendererMakesTheRunWait) {
   stage_.close();
   const auto film = start(1);
@@ -260,7 +260,7 @@ TEST_F(FilmThreads, ASlowRendererMakesTheRunWait) {
 }
 
 TEST_F(FilmThreads, EndsWithoutAFinish) {
-  stage_.takes = std::chrono::milliseconds(20);  // so that two wait at the end
+  stage_.takes = std::chrono::milliseconds(20);  // so that two frames wait at the end
   {
     const auto film = start(1);
     ASSERT_TRUE(film);
@@ -317,7 +317,7 @@ TEST_F(FilmThreads, AMissingFfmpegEndsTheFilmNotTheRun) {
 }
 
 TEST_F(FilmThreads, AnFfmpegThatDiesEndsTheFilmNotTheRun) {
-  // It takes three frames and a half.
+  // Reads three and a half frames, then fails.
   std::ofstream(path("ffmpeg")) << "#!/bin/sh\ncase \"$*\" in *-version*) exit 0;; esac\n"
                                    "head -c 43008 >/dev/null\necho 'out of ink' >&2\nexit 1\n";
   std::filesystem::permissions(path("ffmpeg"), std::filesystem::perms::owner_all);

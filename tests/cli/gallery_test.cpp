@@ -8,7 +8,7 @@ namespace {
 
 TEST_P(BundledScene, EndsOnTheSameBitsAfterARestart) {
   const bool half_a_million = GetParam() == "water" || GetParam() == "table-6.1";
-  const int steps = half_a_million ? 6 : GetParam() == "galaxy" ? 20 : 80;  // of a galaxy each is a sum over all pairs
+  const int steps = half_a_million ? 6 : GetParam() == "galaxy" ? 20 : 80;  // the galaxy sums over all pairs
   const auto run = [&](const std::string& folder, int last, std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"run", file(), "-o", folder, "--steps", std::to_string(last), "--quiet"});
     for (const std::string& value : bundled_overrides(GetParam())) {
@@ -27,7 +27,7 @@ INSTANTIATE_TEST_SUITE_P(Gallery, BundledScene, testing::ValuesIn(bundled_names(
 TEST(Gallery, HasABigSiblingOfEveryScene) {
   const std::vector<std::string> big = bundled_names(true);
   for (const std::string& name : bundled_names(false)) {
-    if (name == "table-6.1") continue;  // its numbers are the thesis's
+    if (name == "table-6.1") continue;  // its numbers are from the thesis
     EXPECT_TRUE(std::binary_search(big.begin(), big.end(), name + "-big")) << name;
   }
 }

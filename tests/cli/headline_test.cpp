@@ -18,7 +18,7 @@
 namespace hooke::test {
 namespace {
 
-// One row of series.csv a step, by column.
+// The rows of series.csv, each by column.
 std::vector<std::map<std::string, double>> rows_of(const std::string& csv) {
   std::istringstream lines(csv);
   std::string line, cell;
@@ -41,7 +41,7 @@ std::vector<std::map<std::string, double>> rows_of(const std::string& csv) {
 
 class Headline : public ProgramTest {};
 
-// docs/theory.md section 8: the dam break of 512,000 balls, 8 simulated seconds of it and 4 more.
+// docs/theory.md section 8: the dam break of 512,000 balls, 8 simulated seconds and 4 more.
 TEST_F(Headline, WaterRunsSplashesAndSettles) {
   hooke_ok({"run", std::string(HOOKE_SOURCE_DIR) + "/scenes/water.json", "-o", "water", "--set", "output.every=0.5"});
   const auto rows = rows_of(read("water/series.csv"));
@@ -63,7 +63,7 @@ TEST_F(Headline, WaterRunsSplashesAndSettles) {
   EXPECT_LT(rows.back().at("max_y"), 9);
   const auto report = nlohmann::json::parse(read("water/report.json"));
   EXPECT_LT(report.at("momentum_drift"), 1e-5);
-  // The integrator's error with a coarse step, and no more (docs/theory.md section 6).
+  // Only the integrator's error with a coarse step (docs/theory.md section 6).
   EXPECT_LT(std::abs(report.at("energy").at("balance").get<double>()),
             0.03 * report.at("energy").at("initial").get<double>());
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// docs/interchange.md does what it says: its blocks that name a file are written to it, its blocks of shell are run.
+// docs/interchange.md does what it says: a block that names a file is written to that file, a block of shell is run.
 
 #include <cstdlib>
 #include <fstream>
@@ -58,7 +58,8 @@ double last_value(const std::string& series, const std::string& column) {
 
 class InterchangePage : public ProgramTest {
  protected:
-  // In the test's folder, with the program that is tested and Debian's Python. Expects success; the output.
+  // Runs a script in the test's folder, with the program under test and Debian's Python. Expects success, returns the
+  // output.
   std::string shell(const std::string& script) const {
     write("script.sh", script);
     const std::string folder = path(".").string();
@@ -69,7 +70,7 @@ class InterchangePage : public ProgramTest {
     return read("script.out");
   }
 
-  // The page's Python finds the fastest particle, and LAMMPS the kinetic energy, that the run had at its end.
+  // The page's Python finds the fastest particle at the end of the run, and LAMMPS finds the kinetic energy.
   void expect_figures(const std::string& output) const {
     const std::string series = read("out/mixed/series.csv");
     ASSERT_EQ(last_value(series, "step"), 20);
@@ -80,7 +81,7 @@ class InterchangePage : public ProgramTest {
     EXPECT_NEAR(std::stod(match[1]), last_value(series, "kinetic"), 1e-6 * last_value(series, "kinetic"));
   }
 
-  // From the last snapshot, LAMMPS comes to where Hooke comes to.
+  // From the last snapshot on, LAMMPS and Hooke reach the same state.
   void expect_lammps_went_on() const {
     hooke_ok({"run", "scenes/mixed.json", "--allow-outside", "--set", "precision=\"double\"", "--set",
               R"(particles=[{"file": "../out/last.data"}])", "--steps", "25", "-o", "out/double"});

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// What `hooke export` writes starts a scene again: a run, out of it a file, a scene whose particles are that file.
+// Files of `hooke export` start a scene again: a run, a file exported from it, a scene with that file as particles.
 
 #include <filesystem>
 
@@ -12,7 +12,7 @@
 namespace hooke::test {
 namespace {
 
-// Ids that need more than 32 bits, materials whose names are no words, numbers without end.
+// Ids that need more than 32 bits, material names that are no words, numbers with many digits.
 std::string scene(const std::string& precision, const std::string& particles) {
   return R"({
     "hooke": 1, "precision": ")" +
@@ -39,7 +39,7 @@ class Interchange : public ProgramTest, public testing::WithParamInterface<std::
     write("start.csv", csv);
   }
 
-  // The particles of one of the run's snapshots, as the run has them, and as the file brings them back.
+  // Compares the particles of one of the run's snapshots with those that the file brings back.
   void expect_same(const std::string& precision, std::size_t index, const std::string& source) {
     const auto run = RunReader::open(path(precision + "/particles.vtkhdf"));
     ASSERT_TRUE(run) << run.error().text();
@@ -55,7 +55,7 @@ class Interchange : public ProgramTest, public testing::WithParamInterface<std::
     EXPECT_EQ(found.id, expected.id);
     EXPECT_EQ(found.material, expected.material);
     ASSERT_EQ(found.size(), expected.size());
-    // Texts of single precision have as many digits as single precision needs.
+    // Text formats of a single-precision run have as many digits as single precision needs.
     const auto rounded = [&precision](double value) {
       return precision == "single" ? static_cast<double>(static_cast<float>(value)) : value;
     };

@@ -46,7 +46,7 @@ Program::Program(const std::filesystem::path& folder, const std::vector<std::str
   argv.push_back(nullptr);
 
   pid_ = fork();
-  setpgid(pid_, pid_);  // by both: it is done before either goes on
+  setpgid(pid_, pid_);  // parent and child both call it: it is done before either goes on
   if (pid_ != 0) return;
   if (chdir(folder.c_str()) != 0) _exit(127);
   redirect(out_, STDOUT_FILENO);

@@ -17,20 +17,20 @@ namespace hooke::test {
 /// The program under test.
 std::string program_file();
 
-/// What a call of the program left behind.
+/// The result of a call of the program.
 struct Outcome {
   int status = -1;  ///< exit status, or 128 + the signal that ended it
   std::string out;
   std::string err;
 };
 
-/// A call of the program that is under way; in `folder`, with its output going to files there.
+/// A running call of the program, in `folder`; its output goes to files there.
 class Program {
  public:
   Program(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
           std::uint64_t file_size_limit = 0);
   Outcome wait();
-  /// To its process group, as a terminal does.
+  /// Sends a signal to the program's process group, as a terminal does.
   void send(int signal) const;
 
  private:
@@ -38,7 +38,7 @@ class Program {
   pid_t pid_ = -1;
 };
 
-/// A folder of the test's own that is removed with it, and the program called in it.
+/// A test with a folder of its own, which is removed at its end, and the program called in that folder.
 class ProgramTest : public testing::Test {
  protected:
   ProgramTest();
@@ -51,22 +51,22 @@ class ProgramTest : public testing::Test {
 
   Program start(const std::vector<std::string>& arguments, std::uint64_t file_size_limit = 0) const;
   Outcome hooke(const std::vector<std::string>& arguments, std::uint64_t file_size_limit = 0) const;
-  /// Expects status 0; the output.
+  /// Expects status 0; returns the output.
   std::string hooke_ok(const std::vector<std::string>& arguments) const;
   /// All snapshots of a run as CSV.
   std::string export_all(const std::string& run) const;
   /// A text value of the run's report.json, e.g. state_hash.
   std::string state_hash(const std::string& run) const;
-  /// Waits, for a minute at most, until `holds`.
+  /// Waits until `holds`, for a minute at most.
   static bool wait_until(const std::function<bool()>& holds);
 
  private:
   std::filesystem::path folder_;
 };
 
-/// A cube of side^3 particles that falls into a pool; output every 7 steps, so that most ends of runs are off the beat.
+/// A cube of side^3 particles that falls into a pool; output every 7 steps, so that most runs end between two outputs.
 std::string pool_scene(int side, const std::string& integrator, const std::string& precision);
-/// The same with 216 particles, as most tests want it.
+/// The same with 216 particles, as most tests use it.
 inline std::string small_scene() { return pool_scene(6, "symplectic-euler", "single"); }
 
 }  // namespace hooke::test

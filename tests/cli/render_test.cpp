@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 using Words = std::vector<std::string>;
 
-// Pictures of a run of 60 steps of 0.005 s, a snapshot every 7 of them.
+// Pictures of a run of 60 steps of 0.005 s, with a snapshot every 7 steps.
 class RenderCommand : public ProgramTest {
  protected:
   RenderCommand() {
@@ -50,7 +50,7 @@ class RenderCommand : public ProgramTest {
     return names;
   }
 
-  // Status 2, one line that says `what`, nothing written.
+  // Expects status 2, one line that says `what`, and no file written.
   void expect_refused(const Words& arguments, const std::string& what) {
     const Outcome outcome = hooke(arguments);
     EXPECT_EQ(outcome.status, 2) << testing::PrintToString(arguments);
@@ -152,7 +152,7 @@ TEST_F(RenderCommand, RefusesNumbersThatMakeNoSense) {
   for (const Words& range : {Words{"5", "5"}, {"5", "1"}, {"nan", "1"}, {"0", "inf"}, {"1", "x"}}) {
     expect_refused(render("p.png", with({"--color-by", "speed", "--color-range"}, range)), "--color-range");
   }
-  hooke_ok(render("p_%099999999999d.png"));  // no number of digits: a name like any other
+  hooke_ok(render("p_%099999999999d.png"));  // no valid number of digits: a name like any other
   EXPECT_EQ(files(), (Words{"p_%099999999999d.png"}));
 }
 
@@ -183,7 +183,7 @@ TEST_F(RenderCommand, SaysThatThereIsNoOpenGl) {
 }
 
 TEST_F(RenderCommand, OnlyPicturesNeedTheGlModule) {
-  // The program alone, without what lies beside it.
+  // The program alone, without the files beside it.
   std::filesystem::copy_file(program_file(), path("hooke"));
   const auto call = [&](const std::string& arguments) {
     const std::string command = "cd '" + path("").string() + "' && ./hooke " + arguments + " >call.out 2>call.err";

@@ -81,7 +81,7 @@ TEST_F(RunCommand, RefusesAFolderThatHoldsARun) {
 }
 
 TEST_F(RunCommand, ARunGoneBadIsStatus3AndKeepsItsCheckpoint) {
-  // Stable while it falls; thrown apart by a stiff floor when it lands.
+  // Stable while the cube falls; a stiff floor throws it apart when it lands.
   const Outcome bad = hooke({"run", "s.json", "--set", "materials.water.stiffness=1e7", "--set",
                              "particles[0].velocity=[0,-3,0]", "--checkpoint-every", "0.01", "--steps", "2000"});
   EXPECT_EQ(bad.status, 3) << bad.err;

@@ -28,7 +28,7 @@ class Stop : public ProgramTest {
     return arguments;
   }
 
-  // Starts the run and sends it `signal` after it has gone some way; how it ended.
+  // Starts the run and sends it `signal` after it has gone some way; returns its outcome.
   Outcome stop_by(int signal) {
     Program program = start(command(""));
     EXPECT_TRUE(wait_until([this] { return exists("out/checkpoint.h5"); }));

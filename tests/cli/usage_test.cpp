@@ -13,7 +13,7 @@ using testing::HasSubstr;
 
 class Usage : public ProgramTest {
  protected:
-  // Bad input: status 2, every one of the texts on stderr, also under --quiet, and no folder.
+  // Expects bad input: status 2, all of the texts on stderr, also under --quiet, and no folder.
   void expect_refused(std::vector<std::string> arguments, const std::vector<std::string>& texts) {
     arguments.insert(arguments.begin(), {"run", "--quiet", "-o", "out"});
     const Outcome outcome = hooke(arguments);

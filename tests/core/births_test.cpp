@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// What chance decides about births: distributions against what is asked for. Seeds are fixed, so that nothing here
+// The random quantities of births: their distributions against the requested ones. Seeds are fixed, so that no test
 // fails by chance.
 
 #include <gtest/gtest.h>
@@ -17,12 +17,13 @@ namespace {
 
 constexpr std::uint64_t kDraws = 40000;
 
-// Pearson's chi-square of `kBins` bins that should hold the same: with 19 degrees of freedom 1 in 10,000 is above 50.8.
+// Pearson's chi-square of `kBins` bins that should be equally full: with 19 degrees of freedom, 1 in 10,000 is above
+// 50.8.
 constexpr std::size_t kBins = 20;
 constexpr double kLimit = 50.8;
 class Histogram {
  public:
-  void add(double share) {  // of the way through the range
+  void add(double share) {  // position within the range, 0 to 1
     ASSERT_GE(share, 0);
     ASSERT_LE(share, 1);
     ++bins_[std::min(static_cast<std::size_t>(share * kBins), kBins - 1)];
@@ -64,7 +65,7 @@ TEST(Births, SpeedsAreEvenAndDirectionsFillTheCone) {
       const Vec3d v = draw_velocity(placed, n, {0, 0, 0});
       const double length = std::sqrt(dot(v, v));
       speed.add(length - 2);
-      // Rounding takes a few 1e-16 of the cosine.
+      // Rounding changes the cosine by a few 1e-16.
       cosine.add(std::clamp((1 - dot(v, axis) / length) / narrow, 0.0, 1.0));
       azimuth.add(0.5 + std::atan2(dot(v, across), dot(v, cross(axis, across))) / (2 * M_PI));
     }
@@ -99,8 +100,8 @@ TEST(Births, PlacesFillTheShapeEvenly) {
   for (const Histogram* h : {&disc, &sphere, &height, &radius, &capsule}) EXPECT_LT(h->chi_square(), kLimit);
 }
 
-// Life over decay: n steps are enough where n dt decay >= life, and n - 1 are not; so the mean number of steps is that
-// of two even distributions, and half a step more.
+// A life lasts the n steps for which n dt decay >= life > (n - 1) dt decay, so the number of steps tells life and
+// decay: both must be evenly distributed.
 TEST(Births, LivesAreEvenAndDecayEatsThem) {
   Emitter e = emitter_of(DiscShape{});
   e.life = Range{1, 3};

@@ -21,7 +21,7 @@ using test::add;
 
 double volume(double radius) { return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius; }
 
-// One contact as the law has it: looked for among all pairs and all images, without any of the search's short cuts.
+// All contacts by the law, from a search through all pairs and all images, without any short cuts.
 std::vector<Contact> all_pairs(const Scene& scene, const ParticleSet& p, ContactFigures& figures) {
   const ContactTable table(scene.materials, scene.contacts);
   const auto radius = [&](std::size_t i) { return scene.materials[p.material[i]].radius; };
@@ -152,7 +152,7 @@ TEST(Contacts, OfTwoMaterialsFollowTheirOwnCoefficients) {
   EXPECT_EQ(contacts[0].a, 0U);
   EXPECT_EQ(contacts[0].b, 1U);
   EXPECT_EQ(contacts[0].overlap, 0.25);
-  EXPECT_EQ(contacts[0].force, (Vec3d{0, -60, 0}));  // 200 * 0.25 + 5 * 2, downward on the lower one
+  EXPECT_EQ(contacts[0].force, (Vec3d{0, -60, 0}));  // 200 * 0.25 + 5 * 2, downward on the lower particle
 
   const auto figures = contact_figures(scene, p);
   EXPECT_EQ(figures.count, (std::vector<std::uint32_t>{1, 1}));
@@ -171,7 +171,7 @@ TEST(Contacts, OfWallsNameTheirFace) {
   scene.domain = {{0, 0, 0}, {4, 4, 4}, {kSpring, kOpen, kSpring}};
   scene.contacts.push_back({0, ContactEntry::kWall, {80, 0, 0}});
   ParticleSet p;
-  add(p, {0.25, 0.1, 3.75}, {0, 0, 0});  // overlaps 0.25 with two walls; the face below it is open
+  add(p, {0.25, 0.1, 3.75}, {0, 0, 0});  // overlaps two walls by 0.25; the face below it is open
 
   const auto contacts = find_contacts(scene, p);
   ASSERT_EQ(contacts.size(), 2U);
@@ -204,7 +204,7 @@ TEST(Contacts, AcrossAPeriodicFaceNameTheImage) {
   add(p, {9.5, 5, 5}, {0, 0, 0});
   const auto contacts = find_contacts(scene, p);
   ASSERT_EQ(contacts.size(), 1U);
-  EXPECT_EQ(contacts[0].image, (std::array<std::int32_t, 3>{-1, 0, 0}));  // b stands at -0.5
+  EXPECT_EQ(contacts[0].image, (std::array<std::int32_t, 3>{-1, 0, 0}));  // b's image is at -0.5
   EXPECT_EQ(contacts[0].overlap, 0.25);
   EXPECT_EQ(contacts[0].force, (Vec3d{250, 0, 0}));
 }
@@ -221,7 +221,7 @@ TEST(Contacts, OfAParticleWithItselfAreOneContactWithTwoSides) {
   EXPECT_EQ(contact_figures(scene, p).count[0], 2U);
 }
 
-// Of what colliders feel, the back end's own figures know the sum, heap or not.
+// The forces of listed contacts add up to the colliders' loads in the back end's figures.
 TEST(Contacts, WithCollidersAddUpToTheirLoads) {
   Scene scene = test::open_scene();
   scene.gravity = {0, -9.8, 0};
@@ -265,7 +265,7 @@ TEST(Contacts, WithCollidersAddUpToTheirLoads) {
   EXPECT_EQ(sides, 2 * test::measured(simulation).contacts + loads[0].contacts + loads[1].contacts);
 }
 
-// A bonded pair that may not touch is none for as long as its spring holds.
+// A tied pair whose spring keeps it from touching is no contact as long as the spring holds.
 TEST(Contacts, OfPairsThatASpringKeepsApartAreNone) {
   Scene scene = test::open_scene();
   auto structure = std::make_shared<Structure>();
@@ -285,7 +285,7 @@ TEST(Contacts, OfPairsThatASpringKeepsApartAreNone) {
   EXPECT_EQ(find_contacts(scene, p, {0, broken}).size(), 2U);
 }
 
-// 5 N at touch, falling to 0 at a gap of 0.2 m: half of it at 0.1 m. It is listed, and it pulls, but nobody touches.
+// 5 N at touch, falling to 0 at a gap of 0.2 m: half of it at 0.1 m. The pair is listed and pulls, but does not touch.
 TEST(Contacts, ThatCohesionHoldsAcrossAGapAreListed) {
   Scene scene = test::open_scene();
   scene.materials[0].surface.cohesion = 5;
@@ -375,8 +375,8 @@ TEST(Overlaps, AreThoseOfTheContacts) {
   EXPECT_EQ(found.ratio, expected.ratio);
 }
 
-// 28 cubed particles a twentieth of a diameter apart, each of which touches some thousand others: counted by hand,
-// offset by offset.
+// 28 cubed particles a twentieth of a diameter apart: each touches some thousand others. The expected number of pairs
+// is counted offset by offset.
 TEST(Overlaps, OfACrowdAreEstimated) {
   constexpr int kEdge = 28;
   Scene scene = test::open_scene();
@@ -392,9 +392,10 @@ TEST(Overlaps, OfACrowdAreEstimated) {
       }
     }
   }
-  p.position[7777] += Vec3d{0.03 * radius, 0, 0};  // the one ahead of it is 7777 + 28 * 28
+  p.position[7777] += Vec3d{0.03 * radius, 0, 0};  // towards particle 7777 + 28 * 28
   const Overlaps found = count_overlaps(scene, p);
-  // One in 25 of them is looked at, and they differ by 40 % with how near the surface they are: 0.4 / sqrt(900).
+  // One particle in 25 is sampled; their counts differ by 40 %, depending on how near the surface they are:
+  // 0.4 / sqrt(900).
   EXPECT_NEAR(found.pairs, expected, 4 * 0.014 * expected);
   EXPECT_EQ(found.a, 7777U);
   EXPECT_EQ(found.b, 7777U + kEdge * kEdge);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// What a caller may do between steps.
+// Edits by a caller between steps.
 
 #include <gtest/gtest.h>
 
@@ -112,7 +112,7 @@ TEST_P(Edits, ReplaceAMaterial) {
   EXPECT_EQ(s.scene().materials[1].mass, 2);
 }
 
-// A mass that changes under way: gravity pulls at the new one from then on, and nothing is unaccounted for.
+// A mass that changes during a run: gravity pulls at the new mass from then on, and everything is accounted for.
 TEST_P(Edits, AccountForANewMass) {
   scene_.gravity = {0, -9.8, 0};
   scene_.materials[1].contact = scene_.materials[0].contact;
@@ -122,12 +122,12 @@ TEST_P(Edits, AccountForANewMass) {
   heavy.mass = 20;
   ASSERT_TRUE(s.set_material(heavy));
   ASSERT_TRUE(advance(s, 200));
-  // A fall rounds the same way every step: half a unit in the last place each.
+  // A fall may round in the same direction in every step, by half a unit in the last place each.
   const double unit = engine().precision == Precision::single_precision ? 0x1p-24 : 0x1p-53;
   EXPECT_LT(momentum_drift(measured(s), s.ledger(), s.initial_momentum()), 200 * unit);
 }
 
-// Soft walls may be pressed in deeper than a radius; such a particle can still be pushed.
+// A particle may press deeper into a soft wall than its radius; it can still be pushed.
 TEST_P(Edits, ReachParticlesDeepInAWall) {
   scene_.domain.boundary[1] = Boundary::spring;
   scene_.materials[0].contact.stiffness = 10;

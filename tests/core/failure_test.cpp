@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Runs that go bad stop, and say where and why.
+// Runs that go wrong stop, and say where and why.
 
 #include <gtest/gtest.h>
 
@@ -68,7 +68,7 @@ TEST_P(Failures, CanBeGoneBackFrom) {
   EXPECT_TRUE(advance(simulation, 20));
 }
 
-// More than the smaller radius in one step, while touching: no contact law resolves that.
+// While touching, the pair approaches by more than the smaller radius in one step: no contact law resolves that.
 TEST_P(Failures, ReportAPairThatApproachesTooFast) {
   scene_.materials.push_back({"b", 0.1, 1, {1000, 2, 3}, 0, ""});
   ParticleSet particles;
@@ -87,7 +87,7 @@ TEST_P(Failures, LeaveApproachesJustBelowTheLimitAlone) {
   add(particles, {0, 0, 0}, {0, 0, 0}, 0);
   add(particles, {0.595, 0, 0}, {-99, 0, 0}, 1);
   add(particles, {0, 9, 0}, {0, 0, 0}, 0);
-  add(particles, {0.995, 9, 0}, {-400, 0, 0}, 0);  // four times the smallest radius, but not of these two
+  add(particles, {0.995, 9, 0}, {-400, 0, 0}, 0);  // four times the smallest radius, but less than this pair's
   Simulation simulation = start(particles);
   EXPECT_TRUE(advance(simulation, 1));
 }
@@ -131,7 +131,7 @@ TEST_P(Failures, RemoveFastParticlesThroughOpenFaces) {
   EXPECT_EQ(simulation.particle_count(), 1U);
 }
 
-// Forces beyond every number: the run stops in the step after at the latest, and names the particle.
+// Forces overflow: the run stops in the next step at the latest, and names the particle.
 TEST_P(Failures, ReportWhatIsNoLongerFinite) {
   scene_.domain.boundary = {Boundary::spring, Boundary::spring, Boundary::spring};
   scene_.materials[0].contact = {1e38, 0, 0};

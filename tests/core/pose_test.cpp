@@ -27,14 +27,14 @@ Collider ball(Motion motion) {
   return c;
 }
 
-// How fast a point of the collider moves, by the pose's own velocities.
+// Velocity of a point of the collider, from the pose's velocities.
 Vec3d velocity_of(const Collider& c, double time, const Vec3d& x) {
   const ColliderPose pose = pose_at(c, time);
   return pose.velocity + cross(pose.angular_velocity, moved_point(c, pose, x) - pose.pivot);
 }
 
-// The pose's velocities are the rates of what it does to points: central differences, whose error is of order h^2 =
-// 1e-8.
+// The pose's velocities are the rates at which it moves points: compared with central differences, which have an error
+// of order h^2 = 1e-8.
 void expect_consistent(const Collider& c, double time) {
   constexpr double kStep = 1e-4;
   for (const Vec3d x : {Vec3d{1, 2, 3}, Vec3d{2, 0, 3}, Vec3d{0, 0, 7}}) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 //
-// What programmers must not do is seen where they do it: of each kind of precondition that headers state, one.
+// A broken precondition is reported where it is broken: one test for each kind of precondition that headers state.
 
 #include <gtest/gtest.h>
 
@@ -159,7 +159,7 @@ TEST(CorePreconditions, ASimulationHasABackEnd) {
   EXPECT_ASSERTS((void)Simulation::resume(open_scene(), {}, nullptr), "backend != nullptr");
 }
 
-// Whatever a checkpoint holds is a user's, not a programmer's.
+// Bad contents of a checkpoint are a user's error, not a programmer's.
 TEST(CorePreconditions, SavedSpringsThatDoNotAscendAreAnError) {
   Scene scene = open_scene();
   auto structure = std::make_shared<Structure>();

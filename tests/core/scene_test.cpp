@@ -16,7 +16,7 @@ namespace {
 struct Due {
   double seconds;
   double dt;
-  std::vector<std::int64_t> steps;  // the first few that are due
+  std::vector<std::int64_t> steps;  // the first few due steps
 };
 
 // The first step at or after each multiple.

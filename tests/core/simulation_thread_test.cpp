@@ -74,7 +74,7 @@ TEST_F(SimulationThreads, CarryOutCommandsBetweenStepsInTheirOrder) {
   EXPECT_EQ(thread.finish().state_hash(), hash);
 }
 
-// Readers look at whatever is the latest, and keep it while the simulation goes on.
+// Readers take the latest state, and keep it while the simulation goes on.
 TEST_F(SimulationThreads, ShowStatesThatNeverChange) {
   SimulationThread thread(pool());
   std::vector<std::thread> readers;
@@ -103,7 +103,7 @@ TEST_F(SimulationThreads, ShowStatesThatNeverChange) {
   EXPECT_FALSE(thread.failure());
 }
 
-// Looked at from outside, edited, and asked for another material while it steps.
+// Other threads read and edit it, and change a material, while it steps.
 TEST_F(SimulationThreads, TakeEditsFromSeveralThreads) {
   SimulationThread thread(pool());
   std::vector<std::thread> hands;
@@ -155,9 +155,9 @@ TEST_F(SimulationThreads, EndInTheMidstOfARun) {
   EXPECT_THROW((void)never.get(), std::future_error);
 }
 
-// Orders that come while a step is in hand are about the steps after it.
+// Requests that arrive during a step count for the steps after it.
 TEST_F(SimulationThreads, LoseNoStepThatWasAskedForDuringAStep) {
-  SimulationThread thread(pool(kReference, 14), true);  // its steps take many milliseconds
+  SimulationThread thread(pool(kReference, 14), true);  // large: its steps take many milliseconds
   std::int64_t taken = 0;
   for (int round = 0; round < 8 && taken != 3; ++round) {
     const std::int64_t before = thread.latest()->step;
@@ -167,7 +167,7 @@ TEST_F(SimulationThreads, LoseNoStepThatWasAskedForDuringAStep) {
     thread.step(2);
     ASSERT_TRUE(wait_until([&] { return thread.is_paused(); }));
     taken = thread.latest()->step - before;
-    ASSERT_TRUE(taken == 2 || taken == 3) << taken;  // 2 where the first had not begun
+    ASSERT_TRUE(taken == 2 || taken == 3) << taken;  // 2 where the first step had not begun
   }
   EXPECT_EQ(taken, 3);
 }
@@ -178,7 +178,7 @@ TEST_F(SimulationThreads, OutliveWhatCommandsThrow) {
   EXPECT_EQ(thread.ask([](Simulation&) { return 7; }).get(), 7);
   ASSERT_TRUE(thread.failure());
   EXPECT_NE(thread.failure()->text().find("out of luck"), std::string::npos);
-  // A command that calls back when it is thrown away.
+  // A command that calls back when it is destroyed.
   struct Grip {
     SimulationThread* thread;
     ~Grip() { thread->pause(); }

@@ -8,7 +8,7 @@
 namespace hooke {
 namespace {
 
-// Powers of this kick and of the next one, and forces, as one evaluation leaves them for 2 kg.
+// Powers of this kick and of the next, and forces, as one evaluation reports them for 2 kg.
 StepReport report(double power, double next_power) {
   StepReport found;
   found.mass = 2;

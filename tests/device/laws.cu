@@ -24,7 +24,7 @@ struct Particle {
   Vec3<Real> x, v, a;
 };
 
-// One of each, on numbers that nothing can be folded of.
+// One call of each law, on numbers unknown to the compiler, so that it can't fold anything.
 template <class Real>
 __device__ Vec3<Real> all_laws(const Particle<Real>& i, const Particle<Real>& p, const ContactLaw<Real>& law,
                                const PlacedCollider<Real>& collider, const GroupAnchor<Real>& anchor,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 //
-// What programmers must not do is seen where they do it: of each kind of precondition that headers state, one.
+// A broken precondition is reported where it is broken: one test for each kind of precondition that headers state.
 
 #include <gtest/gtest.h>
 
