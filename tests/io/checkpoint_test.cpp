@@ -56,7 +56,7 @@ TEST_F(Checkpoints, KeepAccelerationsEmptyWhereThereAreNone) {
   SimulationState state = samples::state(3, 10);
   state.particles.acceleration.clear();
   ASSERT_TRUE(write_checkpoint(file, state, samples::run_info()));
-  const auto read = read_checkpoint(folder.path());  // the folder that holds it does as well
+  const auto read = read_checkpoint(folder.path());  // the folder of the checkpoint works too
   ASSERT_TRUE(read);
   EXPECT_TRUE(read->state.particles.acceleration.empty());
   EXPECT_TRUE(samples::same(read->state.particles, state.particles));

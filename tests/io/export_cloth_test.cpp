@@ -13,7 +13,7 @@
 namespace hooke {
 namespace {
 
-/// A square of two triangles across z, whose fourth corner may be missing.
+/// A square of two triangles across z; its fourth corner may be missing.
 class ExportCloth : public testing::Test {
  protected:
   ExportCloth() {
@@ -72,7 +72,7 @@ TEST_F(ExportCloth, WithoutTrianglesThatMissAParticle) {
   EXPECT_EQ(text.find("f 1//1 3//3"), std::string::npos);
 }
 
-// A spring along an edge, 2 m long: stretched from 1.9 m by 5.3 %. Only one that breaks at less has torn it.
+// A spring along an edge, 2 m long: stretched from 1.9 m by 5.3 %. It has torn only if it breaks at less than that.
 TEST_F(ExportCloth, WithoutTrianglesThatAreTorn) {
   for (const auto& [break_strain, a, torn] : {std::tuple{0.06, 9, false}, {0.05, 9, true}, {0.05, 6, false}}) {
     auto structure = std::make_shared<Structure>(*scene_.structure);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Contacts of a snapshot with three of them, worked out by hand, in each format.
+// The three contacts of a snapshot, worked out by hand, in each format.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 namespace hooke {
 namespace {
 
-// Two balls that touch through a periodic face, and one of them a wall.
+// Two balls touch through a periodic face, and one of them touches a wall.
 class ExportContacts : public testing::Test {
  protected:
   ExportContacts() {
@@ -49,7 +49,7 @@ class ExportContacts : public testing::Test {
 
 TEST_F(ExportContacts, AsATable) {
   ASSERT_TRUE(exported("c.csv", &scene_));
-  // The second ball's image stands at -0.5, so they overlap by 0.25; the spring gives 250 N and the dashpot 8.
+  // The second ball's image is at -0.5, so the balls overlap by 0.25; the spring gives 250 N and the dashpot 8.
   EXPECT_EQ(samples::read_file(folder_ / "c.csv"),
             "step,t,id_a,id_b,image_x,image_y,image_z,overlap,fx,fy,fz\n"
             "40,0.2,3,12,-1,0,0,0.25,258,0,0\n"
@@ -68,7 +68,7 @@ TEST_F(ExportContacts, AsLinesThatVtkReads) {
             "9.5 0.25 5.0 9.5 0.0 5.0 -1.0 3.0 -8.0 250.0 0.0 12.0 -1.0 0.25\n");
 }
 
-// A ball on a plate that has risen by 0.25 m when the snapshot is taken, and its name has to be quoted.
+// A ball on a plate that has risen by 0.25 m when the snapshot is taken; the plate's name has to be quoted.
 TEST_F(ExportContacts, WithCollidersNameThem) {
   Collider plate;
   plate.name = "plate, steel";
@@ -78,7 +78,7 @@ TEST_F(ExportContacts, WithCollidersNameThem) {
   scene_.colliders = {plate};
   snapshot_.particles.resize(1);
   ASSERT_TRUE(exported("c.csv", &scene_));
-  // It stands at 0, 0.25 below the centre: the spring gives 250 N, the dashpot 8 * 1.25.
+  // The plate is at 0, 0.25 below the centre: the spring gives 250 N, the dashpot 8 * 1.25.
   EXPECT_EQ(samples::read_file(folder_ / "c.csv"),
             "step,t,id_a,id_b,image_x,image_y,image_z,overlap,fx,fy,fz\n"
             "40,0.2,3,\"collider:plate, steel\",0,0,0,0.25,0,260,0\n");

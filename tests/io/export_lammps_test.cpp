@@ -13,7 +13,7 @@
 namespace hooke {
 namespace {
 
-/// What LAMMPS holds after it has read a file.
+/// LAMMPS's state after it has read a file.
 struct Lammps {
   std::vector<std::string> box_bounds;  ///< the line's words after "ITEM: BOX BOUNDS", then min and max of each axis
   std::vector<std::vector<std::string>> rows;  ///< id type radius mass x y z vx vy vz
@@ -53,7 +53,7 @@ class ExportLammps : public testing::TestWithParam<Precision> {
     ASSERT_EQ(lammps.rows.size(), p.size());
     for (std::size_t i = 0; i < p.size(); ++i) {
       const auto& row = lammps.rows[i];
-      // LAMMPS reads double; shortest digits are the run's numbers in the run's own type.
+      // LAMMPS reads doubles; the shortest digits give the run's numbers in the run's own type.
       const auto number = [&](std::size_t column) {
         const double x = samples::number(row[column]);
         return GetParam() == Precision::single_precision ? static_cast<double>(static_cast<float>(x)) : x;
@@ -147,7 +147,7 @@ TEST_P(ExportLammps, DumpSaysWhatLammpsCanNotTakeFromIt) {
 TEST_P(ExportLammps, LosesNoParticleBeyondAWall) {
   Scene scene = samples::scene(info_);
   scene.domain.min = {-50, -100, -50};
-  scene.domain.max = snapshots_[0].particles.position[5];  // one that is just on a face
+  scene.domain.max = snapshots_[0].particles.position[5];  // a particle exactly on a face
   scene.domain.max.y = 100;
   const auto files = exported("w.lmp", &scene);
   expect_particles(run_lammps("f p f", "read_data " + files[0].filename().string()), snapshots_[0].particles, true);

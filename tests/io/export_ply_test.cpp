@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Reads PLY points back by the format's description, and with VTK, which knows positions and colours.
+// Reads PLY points back by the format's description, and with VTK, which reads positions and colours.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace hooke {
 namespace {
 
-/// A little-endian file with one element, "vertex"; every value as a double, which holds all that PLY has.
+/// A little-endian file with one element, "vertex"; every value as a double, which holds every type of PLY.
 struct Ply {
   std::vector<std::string> comments;
   std::vector<std::string> properties;  ///< "float x"
@@ -128,7 +128,7 @@ TEST_P(ExportPly, VtkReadsItWithColours) {
     ASSERT_TRUE(std::getline(in, line));
     const auto words = samples::words(line);
     ASSERT_EQ(words.size(), 6U) << line;
-    for (int axis = 0; axis < 3; ++axis) {  // VTK keeps them in single precision
+    for (int axis = 0; axis < 3; ++axis) {  // VTK keeps positions in single precision
       ASSERT_EQ(static_cast<float>(samples::number(words[static_cast<std::size_t>(axis)])),
                 static_cast<float>(component(p.position[i], axis)));
     }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Surfaces of shapes that are known: VTK reads the meshes and measures them.
+// Surfaces of known shapes: VTK reads the meshes and measures them.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace {
 constexpr double kRadius = 0.2;
 constexpr double kSphere = 4.0 / 3.0 * std::numbers::pi * kRadius * kRadius * kRadius;
 
-/// What read_mesh.py says.
+/// The output of read_mesh.py.
 struct Measures {
   double points, faces, bad_edges, volume, cosine;
 };
@@ -37,7 +37,7 @@ class ExportSurface : public testing::TestWithParam<const char*> {
     p.position.push_back(x);
     p.velocity.push_back({1, -2, 0.5});
   }
-  /// n^3 particles that touch, from (-1, 2, 3) on.
+  /// Adds n^3 particles that touch, from (-1, 2, 3) on.
   void add_block(int n) {
     for (int i = 0; i < n * n * n; ++i) {
       const Vec3d at{double(i % n), double(i / n % n), double(i / (n * n))};

@@ -33,7 +33,7 @@ std::vector<std::string> split(const std::string& line) {
   return fields;
 }
 
-/// Random bits, but finite: every exponent comes up.
+/// Random bits, but finite: every exponent occurs.
 template <class Real, class Bits>
 Snapshot random_snapshot() {
   std::mt19937_64 random(7);
@@ -132,7 +132,7 @@ TEST(ExportVtp, WritesOneFileOrACollection) {
             (std::vector<std::string>{"all.pvd", "all_0000.vtp", "all_0001.vtp", "one.vtp"}));
   const std::string collection = samples::read_file(folder / "out/all.pvd");
   EXPECT_NE(collection.find(R"(timestep="0.04" part="0" file="all_0001.vtp")"), std::string::npos);
-  // The same snapshot under two names, but for nothing.
+  // The same snapshot under two names: the files are equal.
   EXPECT_EQ(samples::read_file(folder / "out/all_0001.vtp"), one);
 }
 

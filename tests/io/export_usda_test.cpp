@@ -27,7 +27,7 @@ struct Stage {
   std::map<std::string, Attribute> attributes;
 };
 
-/// All numbers of an array, whatever its brackets.
+/// All numbers of an array; brackets are ignored.
 Numbers numbers_in(const std::string& text) {
   Numbers numbers;
   for (std::size_t at = 0; (at = text.find_first_of("-0123456789", at)) != std::string::npos;) {
@@ -160,7 +160,7 @@ TEST_F(ExportUsda, HasASampleASnapshot) {
         EXPECT_NEAR(extent[3 + axis], max, 1e-5);
       }
     }
-    // The same particles all the time: said once.
+    // The particles never change, so ids and the like are written once.
     Numbers ids, widths, materials, colors;
     const ParticleSet& p = snapshots[0].particles;
     for (std::size_t i = 0; i < p.size(); ++i) {

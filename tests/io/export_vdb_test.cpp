@@ -21,7 +21,7 @@ class ExportVdb : public testing::Test {
  protected:
   ExportVdb() { openvdb::initialize(); }
 
-  /// The grids of the file that a snapshot is written to, by name.
+  /// The grids of a snapshot's file, by name.
   std::map<std::string, openvdb::GridBase::Ptr> exported(const RunInfo& info, const Snapshot& snapshot,
                                                          ExportContent content) {
     const RunReader run = samples::write_run(folder_ / "run", info, {snapshot});

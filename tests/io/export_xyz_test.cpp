@@ -64,7 +64,7 @@ TEST_P(ExportXyz, HoldsEverySnapshotToTheBit) {
   RunInfo info = samples::run_info(GetParam());
   info.materials[0].name = "salt \"sea\"\n#1 \u00e4%";
   const Scene scene = samples::scene(info);
-  // More rows than are made at once.
+  // More rows than the writer makes at once.
   const std::vector<Snapshot> snapshots{samples::snapshot(0, 150000, GetParam()), samples::snapshot(8, 0, GetParam()),
                                         samples::snapshot(16, 7, GetParam())};
   const auto frames = exported(info, snapshots, &scene);

@@ -46,8 +46,8 @@ class Journaled : public testing::Test {
 TEST_F(Journaled, ChangesShowWhenTheyAreCommitted) {
   write(0, std::string(10000, 'a'));
   file->commit();
-  write(4090, "0123456789");  // over a border of pages
-  write(9998, "xyz");         // over the committed end
+  write(4090, "0123456789");  // across a page boundary
+  write(9998, "xyz");         // across the committed end
   EXPECT_EQ(read(*file, 4089, 12), "a0123456789a");
   EXPECT_EQ(read(*file, 9997, 5), std::string("axyz\0", 5));
   EXPECT_EQ(committed(4089, 12), std::string(12, 'a'));
@@ -66,7 +66,7 @@ TEST_F(Journaled, WhatIsNotCommittedIsForgotten) {
   EXPECT_EQ(read(*file, 98, 8), std::string(8, 'a'));
 }
 
-// A commit that stops anywhere: in the journal, after it, or while its pages are put in place.
+// A commit that stops anywhere: while the journal is written, after it, or while pages are copied into place.
 TEST_F(Journaled, AnInterruptedCommitIsWholeOrNothing) {
   write(0, std::string(3 * 4096, 'a'));
   file->commit();

@@ -61,7 +61,7 @@ TEST(Report, HasEveryFieldThatIsPromised) {
   for (const char* field : {"isa", "contacts_per_particle", "max_overlap_ratio", "neighbour_rebuilds"}) {
     EXPECT_TRUE(json.contains(field)) << field;
   }
-  // What gravity and the contact's spring did is accounted for to the integrator's first-order error.
+  // The work of gravity and of the contact's spring is accounted for, up to the integrator's first-order error.
   EXPECT_NEAR(json["energy"]["balance"], 0, 0.05);
   EXPECT_LT(json["momentum_drift"], 1e-12);
 }

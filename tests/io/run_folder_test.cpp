@@ -57,7 +57,7 @@ TEST_F(RunFolder, SnapshotsReadBackInBothPrecisions) {
     std::vector<Snapshot> written;
     auto writer = create(true, precision);
     ASSERT_TRUE(writer) << writer.error().text();
-    // Counts that change, vanish and pass the size of a chunk.
+    // Counts that change, fall to 0 and exceed the size of a chunk.
     const std::size_t counts[] = {70000, 70000, 5, 0, 0, 1, 70001, 65536, 140000, 3};
     std::int64_t step = 0;
     for (const std::size_t n : counts) {
@@ -85,7 +85,7 @@ TEST_F(RunFolder, TellsStepsAndTimes) {
   EXPECT_EQ(reader->find_step(9), std::nullopt);
   EXPECT_EQ(reader->find_time(0.06), 1U);
   EXPECT_EQ(reader->find_time(1e9), 2U);
-  // The reader sees later snapshots when it is opened again, and still its own meanwhile.
+  // A reader sees later snapshots only when it is opened again; until then it sees its own.
   ASSERT_TRUE(writer->write_snapshot(samples::snapshot(24, 4)));
   ASSERT_TRUE(writer->flush());
   EXPECT_TRUE(samples::same(*reader->read(2), samples::snapshot(16, 4)));
@@ -149,7 +149,7 @@ TEST_F(RunFolder, AnUnwritablePathLeavesNothingBehind) {
   ASSERT_FALSE(at_file);
   EXPECT_NE(at_file.error().text().find("is a file, not a folder"), std::string::npos);
 
-  // Nowhere on the way to a file may the folders stay that were made for it.
+  // Wherever the way to a file fails, the folders made for it must be removed.
   fs::create_directories(folder / "b");
   fs::create_directories(folder / "b/series.csv.unfinished");
   const auto blocked = RunWriter::create(folder / "b", samples::run_info(), "{}", {});
@@ -197,7 +197,9 @@ TEST_F(RunFolder, DamagedSnapshotsAreErrors) {
 }
 
 TEST_F(RunFolder, ResumedRunsExportWhatUninterruptedOnesDo) {
-  const auto count_at = [](std::int64_t step) { return static_cast<std::size_t>(3000 - step); };  // some leave
+  const auto count_at = [](std::int64_t step) {
+    return static_cast<std::size_t>(3000 - step);
+  };  // some particles leave
   const auto write_to = [&](RunWriter&& writer, std::int64_t from, std::int64_t to) {
     for (std::int64_t step = from; step <= to; ++step) {
       if (kEveryEight.is_due(step, 0.005) || step == to) {

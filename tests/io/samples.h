@@ -12,7 +12,7 @@
 
 namespace hooke::samples {
 
-/// A folder of its own that goes away with it.
+/// A folder that is removed with this object.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -30,7 +30,7 @@ class TemporaryFolder {
 /// Two materials, dt 0.005 s.
 RunInfo run_info(Precision precision = Precision::single_precision);
 
-/// `n` particles with random positions and velocities that follow from the step: the same call gives the same bits.
+/// `n` particles with random positions and velocities that depend on the step: the same call gives the same bits.
 ParticleSet particles(std::int64_t step, std::size_t n, Precision precision);
 Snapshot snapshot(std::int64_t step, std::size_t n, Precision precision = Precision::single_precision);
 /// A state with every field set.
@@ -41,7 +41,7 @@ SeriesRow series_row(std::int64_t step);
 Scene scene(const RunInfo& info);
 /// Writes a run of these snapshots and opens it. Throws where that fails.
 RunReader write_run(const std::filesystem::path& folder, const RunInfo& info, const std::vector<Snapshot>& snapshots);
-/// Exports all snapshots of a run; the files. Throws where that fails.
+/// Exports all snapshots of a run and returns the files. Throws where that fails.
 std::vector<std::filesystem::path> export_all(const RunReader& run, const std::filesystem::path& file,
                                               const Scene* scene = nullptr);
 
@@ -55,9 +55,9 @@ std::vector<std::string> files_in(const std::filesystem::path& folder);
 
 /// The words of a line, between white space.
 std::vector<std::string> words(const std::string& line);
-/// A number that a run of this precision wrote; throws where that is not all of the text.
+/// A number that a run of this precision wrote; throws where the text holds anything else.
 double number(const std::string& text, Precision precision = Precision::double_precision);
-/// What a shell command prints; throws, with that, where it fails.
+/// The output of a shell command; throws, with the output, where the command fails.
 std::string output_of(const std::string& command);
 
 }  // namespace hooke::samples

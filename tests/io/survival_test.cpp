@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// What is left when the program is killed, or the disk is full.
+// Which files survive when the program is killed, or the disk is full.
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -79,7 +79,7 @@ bool write_for_ever(RunWriter& writer, std::int64_t from, SharedNumber& flushed)
   }
 }
 
-// So many times over, each time at another moment: a few for every change, many in the long tests.
+// Repeated so many times, each time killed at another moment: a few after every change, many in the long tests.
 class SurvivalOfKills : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(AFew, SurvivalOfKills, testing::Values(4));
 INSTANTIATE_TEST_SUITE_P(Many, SurvivalOfKills, testing::Values(40));
@@ -111,7 +111,7 @@ TEST_P(SurvivalOfKills, EverySnapshotBeforeAKillReadsBack) {
     const std::int64_t before = check();
     ASSERT_GE(before, 1);
 
-    // And once more, killed while it is being continued.
+    // And once more, killed while the run is continued.
     SharedNumber again;
     kill_during(again, delay(), [&] {
       auto writer = RunWriter::resume(run, samples::run_info(), "{}", before - 1, {0, 1});
@@ -143,7 +143,7 @@ TEST_P(SurvivalOfKills, AKillDuringACheckpointLeavesTheOldOrTheNewOne) {
   }
 }
 
-/// Makes writes behind `bytes` fail in this process, as on a full disk.
+/// Makes writes beyond `bytes` fail in this process, as on a full disk.
 void limit_file_size(rlim_t bytes) {
   const rlimit limit{bytes, bytes};
   ::signal(SIGXFSZ, SIG_IGN);
@@ -160,7 +160,7 @@ TEST(Survival, AFullDiskIsReportedAndWhatWasThereStaysReadable) {
       auto writer = RunWriter::create(run, samples::run_info(), "{}", {});
       if (!writer || write_for_ever(*writer, 0, flushed)) return false;
       const auto after = writer->finish();
-      // It stays an error, says why, and nothing crashes on the way out.
+      // Later calls give the error too, with the reason, and nothing crashes at the end.
       return !after && after.error().kind == Error::Kind::io &&
              after.error().text().find("File too large") != std::string::npos &&
              !writer->write_snapshot(samples::snapshot(1000, 10));

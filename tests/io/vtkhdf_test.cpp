@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Reads particles.vtkhdf with plain HDF5, step by step in the way that the VTKHDF specification prescribes for
-// temporal PolyData, as VTK's reader does.
+// Reads particles.vtkhdf with plain HDF5, step by step as the VTKHDF specification prescribes for temporal PolyData and
+// as VTK's reader does.
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
@@ -22,7 +22,7 @@ class Vtkhdf : public testing::Test {
     for (std::size_t k = 0; k < counts.size(); ++k) {
       ASSERT_TRUE(writer->write_snapshot(samples::snapshot(static_cast<std::int64_t>(8 * k), counts[k])));
     }
-    // Not finished: what plain HDF5 sees of a run that goes on.
+    // Not finished: plain HDF5 reads a run that goes on.
     ASSERT_TRUE(writer->flush());
     writer_ = std::make_unique<RunWriter>(std::move(*writer));
     file = H5Fopen((folder / "run/particles.vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -30,7 +30,7 @@ class Vtkhdf : public testing::Test {
   }
   void TearDown() override { H5Fclose(file); }
 
-  /// Numbers `start` to `start + count` of a table, whatever type they are stored in.
+  /// Numbers `start` to `start + count` of a table of any stored type.
   template <class T>
   std::vector<T> read(const std::string& name, hid_t type, hsize_t start, hsize_t count, hsize_t width = 1) {
     const hid_t dataset = H5Dopen2(file, ("VTKHDF/" + name).c_str(), H5P_DEFAULT);
@@ -75,7 +75,7 @@ TEST_F(Vtkhdf, SaysWhatItIs) {
   H5Aread(version_attribute, H5T_NATIVE_INT64, version);
   EXPECT_EQ(version[0], 2);
   EXPECT_EQ(version[1], 0);
-  // VTK asks for a text of fixed length in ASCII.
+  // VTK requires an ASCII text of fixed length.
   const hid_t type_attribute = H5Aopen(group, "Type", H5P_DEFAULT);
   const hid_t type = H5Aget_type(type_attribute);
   EXPECT_EQ(H5Tget_class(type), H5T_STRING);
@@ -121,8 +121,8 @@ TEST_F(Vtkhdf, EveryStepIsWhereTheSpecificationLooksForIt) {
       const std::size_t cells = t == 0 ? n : 0;
       ASSERT_EQ(whole(name + "/NumberOfCells", part, 1)[0], static_cast<std::int64_t>(cells));
       ASSERT_EQ(whole(name + "/NumberOfConnectivityIds", part, 1)[0], static_cast<std::int64_t>(cells));
-      // One more offset than cells in every part before: VTK 9.3 adds the number of parts. Later ones count the
-      // parts that it takes to come to this cell offset, which is the same where cells there are.
+      // Every part has one offset more than cells, so VTK 9.3 adds the number of parts before. Later versions count
+      // the parts up to this cell offset, which gives the same where there are cells.
       std::vector<std::int64_t> ascending(cells + 1);
       std::iota(ascending.begin(), ascending.end(), 0);
       const auto cell_offset = static_cast<hsize_t>(cell_offsets[t]);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// A build without OpenVDB: exports that need it are refused by name, and leave nothing behind.
+// A build without OpenVDB: it refuses exports that need OpenVDB, by name, and writes no file for them.
 #include <gtest/gtest.h>
 
 #include "hooke/io/export.h"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// The thread that writes a run's large files, beside the one that steps: what a build with the thread sanitizer has to
-// see. What the files hold is the business of run_folder_test.cpp and survival_test.cpp.
+// The thread that writes a run's large files, beside the thread that steps: these tests are for a build with the thread
+// sanitizer. run_folder_test.cpp and survival_test.cpp test the contents of the files.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kParticles = 500;
 
-/// Writes behind `bytes` fail in this process, as on a full disk, for as long as this lives.
+/// During its lifetime, writes beyond `bytes` fail in this process, as on a full disk.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) : signal_before_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -46,7 +46,7 @@ class FullDisk {
   void (*signal_before_)(int);
 };
 
-/// Whether `holds` within a minute.
+/// Whether `holds` becomes true within a minute.
 bool wait_until(const std::function<bool()>& holds) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   while (!holds() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -61,14 +61,14 @@ class WriterThread : public testing::Test {
     return std::move(writer.value());
   }
 
-  // Steps `first` to `last`: of each a row and a snapshot, of every fifth a checkpoint, for which a disk needs long.
+  // Steps `first` to `last`: a row and a snapshot for each step, and a large checkpoint for every fifth.
   static void write(RunWriter& writer, std::int64_t first, std::int64_t last) {
     const SimulationState state = samples::state(first, kParticles);
     for (std::int64_t step = first; step <= last; ++step) {
       ASSERT_TRUE(writer.write_series(samples::series_row(step)));
       ASSERT_TRUE(writer.write_snapshot(samples::snapshot(step, kParticles)));
       if (step % 5 != 0) continue;
-      // Its springs and surfaces belong to the simulation too, which goes on meanwhile.
+      // The state shares its springs and surfaces with the simulation, which goes on meanwhile.
       SimulationState now = state;
       now.step = step;
       ASSERT_TRUE(writer.write_checkpoint(std::move(now)));
@@ -89,7 +89,7 @@ class WriterThread : public testing::Test {
     EXPECT_EQ(checkpoint->state.step, last - last % 5);
   }
 
-  // All calls after a failure say the same.
+  // Expects that all calls after a failure give the same error.
   static void expect_failed(RunWriter& writer, const std::string& why) {
     for (int tries = 0; tries < 2; ++tries) {
       for (const Expected<void>& done : {writer.write_snapshot(samples::snapshot(1'000'000 + tries, kParticles)),
@@ -124,7 +124,7 @@ TEST_F(WriterThread, RunsFollowEachOtherInOneProcess) {
     write(writer, 0, 5);
     EXPECT_TRUE(round % 2 == 0 || writer.flush());
     EXPECT_TRUE(round < 2 || writer.finish());
-    // The next one takes the place of one that may still be writing.
+    // The next writer replaces a writer that may still be writing.
     writer = create(folder / "other");
     write(writer, 5, 8);
     writer = RunWriter(std::move(writer));
@@ -151,7 +151,7 @@ TEST_F(WriterThread, ReadersAndOtherWritersOfTheProcessGoOnMeanwhile) {
   write(writer, 0, 0);
   ASSERT_TRUE(writer.flush());
   std::atomic<bool> written{false};
-  // HDF5 is called by these two, by the writers' own threads and by this one.
+  // These two threads, the writers' own threads and this thread all call HDF5.
   std::thread reader([&] {
     std::size_t before = 1;
     for (bool last = false; !last;) {
@@ -183,7 +183,7 @@ TEST_F(WriterThread, ReadersAndOtherWritersOfTheProcessGoOnMeanwhile) {
   expect_steps(folder / "other", 0, 20);
 }
 
-// What is read is one checkpoint or the next, whatever takes its name and however often.
+// A reader gets one whole checkpoint, however often the file is replaced meanwhile.
 TEST_F(WriterThread, ACheckpointIsReadAndDescribedWhileItIsReplaced) {
   RunWriter writer = create(run);
   write(writer, 0, 0);
@@ -211,7 +211,7 @@ TEST_F(WriterThread, ACheckpointIsReadAndDescribedWhileItIsReplaced) {
   replacer.join();
 }
 
-// One is being written, one waits: a third waits for its place.
+// One snapshot is being written, one waits: the caller of a third has to wait.
 TEST_F(WriterThread, ASlowWriterMakesTheCallerWait) {
   RunWriter writer = create(run);
   std::atomic<std::int64_t> taken{0};
@@ -246,7 +246,7 @@ TEST_F(WriterThread, AFullDiskIsSaidByTheNextCall) {
     }
     ASSERT_FALSE(written);
   }
-  // Room again does not help: there would be a gap.
+  // Free space does not help afterwards: there would be a gap.
   expect_failed(writer, (run / kParticlesFile).string() + ": can't be written: File too large");
   const auto reader = RunReader::open(run);
   ASSERT_TRUE(reader) << reader.error().text();
@@ -280,7 +280,7 @@ TEST_F(WriterThread, ACheckpointThatCanNotBeWrittenIsSaidByTheNextCall) {
   EXPECT_EQ(RunReader::open(run)->size(), 1U);
 }
 
-// Nobody asks for the error; what waits behind it is dropped.
+// The caller never asks for the error; whatever still waits to be written is dropped.
 TEST_F(WriterThread, DestructionAfterAFailureEnds) {
   for (int round = 0; round < 5; ++round) {
     RunWriter writer = create(folder / "gone");

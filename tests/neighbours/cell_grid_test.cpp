@@ -49,7 +49,7 @@ class Grids : public testing::TestWithParam<Box> {
     return box().min + Vec3d{u[0] * size.x, u[1] * size.y, u[2] * size.z};
   }
 
-  // Whether the cells around `key` hold `other`; each cell may be named once only.
+  // Whether the cells around `key` include `other`; each cell may be named only once.
   bool is_around(std::uint64_t key, std::uint64_t other) const {
     CellGrid::KeyRange ranges[CellGrid::kMostRanges];
     const std::size_t count = grid_.neighbour_ranges(key, ranges);
@@ -102,7 +102,7 @@ TEST_P(Grids, FindEverythingWithinReachInTheCellsAround) {
   const Vec3d size = box().max - box().min;
   for (std::uint64_t i = 0; i < 3000; ++i) {
     const Vec3d a = point(i);
-    // A step of up to the reach in any direction; what leaves a periodic axis comes back on the other side.
+    // A step of up to the reach in any direction; a point that leaves a periodic axis comes back on the other side.
     const auto u = uniform4(2, i, 0);
     Vec3d b = a;
     for (int axis = 0; axis < 3; ++axis) {

@@ -61,7 +61,7 @@ class CellLists : public testing::TestWithParam<Setting> {
 
   CellList cells_;
   std::vector<Vec3d> points_;
-  std::vector<std::uint32_t> order_{1, 2, 3};  // what was in it must not matter
+  std::vector<std::uint32_t> order_{1, 2, 3};  // earlier contents must not matter
 };
 
 TEST_P(CellLists, SortPointsByLevelAndCell) {
@@ -83,7 +83,7 @@ TEST_P(CellLists, SortPointsByLevelAndCell) {
   ASSERT_EQ(cells_.point_count(), end);
 }
 
-// What is in the box is found; nothing is found twice; and most of what is found is near it.
+// Every point in the box is found, no point is found twice, and no point far from the box is found.
 TEST_P(CellLists, FindEverythingInABoxOnce) {
   sort();
   const Vec3d size = setting().max - setting().min;
@@ -130,7 +130,7 @@ TEST_P(CellLists, FindEverythingInABoxOnce) {
   }
 }
 
-// From far more ranges than are looked up at a time, too.
+// With far more ranges than the list looks up at a time, too.
 TEST_P(CellLists, VisitWhoeverIsNearOnce) {
   sort();
   const Vec3d size = setting().max - setting().min;

@@ -20,7 +20,7 @@ constexpr double kDiameter = 1;
 constexpr double kSkin = 0.25;
 constexpr std::size_t kGroup = 4;
 
-// Where a point that was listed at x is after some steps, relative to there.
+// Displacement, after some steps, of point i that was listed at x.
 using Motion = std::function<Vec3d(const Vec3d& x, std::uint64_t i, double steps)>;
 
 Vec3d noise(std::uint64_t i, double size) {
@@ -37,7 +37,7 @@ class Bounded {
       const auto u = uniform4(30, i, 0);
       x_.push_back({u[0] * size.x, u[1] * size.y, u[2] * size.z});
     }
-    // Groups are to lie close together.
+    // Sorted so that the points of a group lie close together.
     const auto row = [](const Vec3d& x) { return std::pair(std::floor(x.z / 1.5), std::floor(x.y / 1.5)); };
     std::sort(x_.begin(), x_.end(),
               [&](const Vec3d& a, const Vec3d& b) { return row(a) != row(b) ? row(a) < row(b) : a.x < b.x; });
@@ -51,7 +51,7 @@ class Bounded {
     anchors_.resize((count + kGroup - 1) / kGroup);
   }
 
-  // Points whose index is in `gone` are not there any more.
+  // Point `gone` does not exist any more.
   std::int64_t follow(const Motion& motion, double steps, std::size_t gone = std::numeric_limits<std::size_t>::max()) {
     return bounds_.follow(
         [&](std::size_t g) {
@@ -68,7 +68,7 @@ class Bounded {
         anchors_);
   }
 
-  // Whether point i, having moved by u, is further from its anchor than allowed, so many steps after that followed.
+  // Whether point i, moved by u, is further from its anchor than allowed, `steps` steps after follow().
   bool outliers(std::size_t i, const Vec3d& u, double steps) const {
     const Vec3d off = u - anchors_[i / kGroup].at(steps);
     return !(dot(off, off) <= anchors_[i / kGroup].limit2(steps));
@@ -79,7 +79,7 @@ class Bounded {
     return count;
   }
 
-  // Pairs that were not listed and touch when each has moved by motion(x, i, steps).
+  // Pairs that were not listed and touch once each point has moved by motion(x, i, steps).
   std::vector<std::pair<std::size_t, std::size_t>> touching(const Motion& motion, double steps) const {
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
     for (std::size_t i = 0; i < x_.size(); ++i) {
@@ -118,7 +118,7 @@ struct Setting {
 const Setting kSettings[] = {
     {400, {9, 9, 9}}, {400, {60, 3, 20}}, {200, {5e4, 5e4, 5e4}}, {2, {9, 9, 9}}, {1, {9, 9, 9}}};
 
-// A day's choice of ways to move, each a little further with every step.
+// Several ways to move, each a little further with every step.
 const Motion kMotions[] = {
     [](const Vec3d&, std::uint64_t i, double t) { return t * noise(i, 0.02); },
     [](const Vec3d&, std::uint64_t i, double t) { return t * noise(i, 0.1); },
@@ -130,7 +130,7 @@ const Motion kMotions[] = {
     [](const Vec3d& x, std::uint64_t, double t) { return Vec3d{x.x < 4 ? 0.02 * t * t : -0.02 * t * t, 1, 0}; },
 };
 
-// Whoever touches without being listed: one of the two outliers, or the anchors are no longer good.
+// Of two points that touch without being listed, at least one is an outlier, as long as the anchors are good.
 TEST(MotionBounds, NeverMissATouchOfTwoThatAreNoOutliers) {
   int questions = 0, kept = 0;
   for (const Setting& setting : kSettings) {
@@ -157,7 +157,8 @@ TEST(MotionBounds, NeverMissATouchOfTwoThatAreNoOutliers) {
   EXPECT_GT(kept, 500) << "the question was put";
 }
 
-// What a search around an outlier relies on: a particle that touches it and is none is where it is looked for.
+// A search around an outlier relies on this: a particle that touches the outlier and is no outlier itself lies within
+// the searched distance.
 TEST(MotionBounds, SayWhereNeighboursOfOutliersAre) {
   int mild = 0, far = 0;
   for (const bool periodic : {false, true}) {
@@ -186,7 +187,7 @@ TEST(MotionBounds, SayWhereNeighboursOfOutliersAre) {
   EXPECT_GT(far, 50) << "the question was put";
 }
 
-// One fast grain takes the list from nobody else.
+// One fast grain makes no other grain an outlier.
 TEST(MotionBounds, FindOnlyTheFastGrainAnOutlier) {
   Bounded bounded(2000, {60, 3, 20}, false);
   const Motion motion = [](const Vec3d&, std::uint64_t i, double t) {
@@ -211,7 +212,7 @@ TEST(MotionBounds, FollowWhatMovesTogether) {
 
 TEST(MotionBounds, FollowASmallShearOfALongPool) {
   Bounded bounded(200, {60, 1, 1}, false);
-  // Ends of the pool move apart by more than a diameter, neighbours by a fiftieth.
+  // The pool's ends move apart by more than a diameter, neighbours by a fiftieth.
   const Motion shear = [](const Vec3d& x, std::uint64_t, double t) { return Vec3d{0.002 * t * x.x, 0, 0}; };
   ASSERT_GT(bounded.follow(shear, 0), 10);
   EXPECT_EQ(bounded.outlier_count(shear, 0, 2), 0U);
@@ -235,7 +236,7 @@ TEST(MotionBounds, IgnoreTheDeparted) {
   EXPECT_EQ(bounded.outlier_count(motion, 1, 0), 1U) << "all but the one that is gone are where they were";
 }
 
-// Rounding would make anchors that are very far from where particles were listed too coarse.
+// Anchors very far from the listed positions would be too coarse because of rounding.
 TEST(MotionBounds, GiveUpAfterAVeryLongWay) {
   Bounded bounded(300, {9, 9, 9}, false);
   EXPECT_LT(bounded.follow([](const Vec3d&, std::uint64_t, double t) { return Vec3d{t, 0, 0}; }, 1e6), 0);

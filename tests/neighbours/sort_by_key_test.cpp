@@ -15,13 +15,13 @@ namespace {
 void expect_sorted_like_the_standard_library(std::vector<std::uint64_t> keys) {
   std::vector<std::uint32_t> expected(keys.size());
   std::iota(expected.begin(), expected.end(), 0U);
-  // By index where keys are equal: stable.
+  // Stable: by index where keys are equal.
   std::sort(expected.begin(), expected.end(),
             [&](std::uint32_t a, std::uint32_t b) { return keys[a] != keys[b] ? keys[a] < keys[b] : a < b; });
   std::vector<std::uint64_t> sorted = keys;
   std::sort(sorted.begin(), sorted.end());
 
-  std::vector<std::uint32_t> order{1, 2, 3};  // what was in it must not matter
+  std::vector<std::uint32_t> order{1, 2, 3};  // earlier contents must not matter
   sort_by_key(keys, order);
   EXPECT_EQ(keys, sorted);
   EXPECT_EQ(order, expected);
@@ -41,7 +41,7 @@ TEST(SortByKey, HandlesFewKeys) {
   expect_sorted_like_the_standard_library({~0UL, 0, 1UL << 63U, 1});
 }
 
-// More than one of the blocks that threads share, and counts that no block divides.
+// More than one of the blocks that threads share out, and counts that are no multiple of a block.
 TEST(SortByKey, IsStableAndRightForManyKeys) {
   for (const std::size_t count : {65'535UL, 65'537UL, 200'001UL}) {
     expect_sorted_like_the_standard_library(keys_of(count, [](std::uint64_t i) { return mix64(i); }));

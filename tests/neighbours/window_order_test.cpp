@@ -14,10 +14,10 @@
 namespace hooke {
 namespace {
 
-// How many neighbours who lies in a slot has.
+// The number of neighbours of the particle in a slot.
 std::uint8_t count_of(std::size_t slot) { return static_cast<std::uint8_t>(256 * uniform4(61, slot, 0)[0]); }
 
-// The slots that points in cell order lay in before: any order.
+// The previous slots of points in cell order: a random order.
 std::vector<std::uint32_t> some_order(std::size_t count) {
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0U);
@@ -27,7 +27,7 @@ std::vector<std::uint32_t> some_order(std::size_t count) {
 
 class WindowOrders : public testing::TestWithParam<std::size_t> {
  protected:
-  // Lays out points in `order`, which becomes the slots' order. Returns what it was.
+  // Lays out points in `order`, which becomes the slots' order. Returns the order before.
   std::vector<std::uint32_t> lay_out(std::vector<std::uint32_t>& order) {
     std::vector<std::uint32_t> before = order;
     slots_.lay_out(order);
@@ -58,7 +58,7 @@ TEST_P(WindowOrders, PutThoseWithMostNeighboursFirst) {
   for (std::size_t p = 0; p < before.size(); ++p) ASSERT_EQ(order[slots_.slot_of(p)], before[p]) << p;
 }
 
-// More than were listed before: of the new ones no number of neighbours is known.
+// More points than were listed before: the new points' numbers of neighbours are unknown.
 TEST_P(WindowOrders, CountTheUnknownAsAlone) {
   std::vector<std::uint32_t> order = some_order(GetParam());
   lay_out(order);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// The fast back end against the specification: in double precision the same bits, on every instruction set.
+// The fast back end against the reference: in double precision the same bits, on every instruction set.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ class Parity : public testing::TestWithParam<std::tuple<Scenario, Integrator>> {
   Scenario scenario_;
 };
 
-// One step on each; both must fail or neither, with the same words.
+// One step on each; both must succeed, or both must fail with the same words.
 bool step_both(Simulation& a, Simulation& b) {
   const auto on_a = a.step(), on_b = b.step();
   EXPECT_EQ(on_a.has_value(), on_b.has_value());
@@ -91,7 +91,7 @@ TEST_P(Parity, CpuInSingleHasTheSameBitsOnEveryInstructionSet) {
   std::uint64_t expected = 0;
   for (const Isa& isa : available_isas()) {
     Simulation cpu = simulate(scenario_.scene, scenario_.particles, {"cpu", Precision::single_precision, 2, isa.name});
-    (void)cpu.step(scenario_.steps);  // whether or not it goes well
+    (void)cpu.step(scenario_.steps);  // may fail
     std::uint64_t hash = 0;
     for (const Vec3d& x : cpu.positions()) hash += std::hash<double>{}(x.x) ^ std::hash<double>{}(x.y + 3 * x.z);
     hash += cpu.state_hash();

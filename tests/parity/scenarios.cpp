@@ -30,8 +30,8 @@ Scene uniform_scene(const Vec3d& min, const Vec3d& max) {
   return scene;
 }
 
-// To what single precision holds. Through memory: GCC 12 at -O2 turns the cast of a vector to float and back into
-// nothing.
+// Rounded to single precision. Through memory, because GCC 12 at -O2 optimises the cast of a vector to float and back
+// away.
 Vec3d rounded(const Vec3d& a) {
   const volatile float x = static_cast<float>(a.x), y = static_cast<float>(a.y), z = static_cast<float>(a.z);
   return {x, y, z};
@@ -75,7 +75,7 @@ void add_places(Collection& out) {
   out.add_cloud("random_one_material", uniform_scene({0, 0, 0}, {6, 8, 5}), 151, 100);
   out.add_cloud("random_mixed", mixed_scene({0, 0, 0}, {6, 8, 5}), 200, 100);
   out.add_cloud("negative", mixed_scene({-130, -72, -9}, {-125, -66, -4}), 150);
-  for (const double at : {-5e5, 5e5 - 8}) {  // a million radii away; floats are 0.03 apart there
+  for (const double at : {-5e5, 5e5 - 8}) {  // a million radii from 0; floats are 0.03 apart there
     out.add_cloud(at < 0 ? "huge_negative" : "huge", uniform_scene({at, at, at}, {at + 8, at + 8, at + 8}), 200);
   }
   Scene sparse = uniform_scene({-5e5, -5e5, -5e5}, {5e5, 5e5, 5e5});
@@ -123,7 +123,7 @@ void add_tight(Collection& out) {
   box("thin_open", {0.25, 6, 6}, {O, S, S}, 60);
 }
 
-// Radii one to ten and more: each size has cells of its own.
+// Radii in a ratio of one to ten and more: each size has cells of its own.
 void add_sizes(Collection& out) {
   for (std::size_t b = 0; b < std::size(kBoundaries); ++b) {
     Scene scene = mixed_scene({0, 0, 0}, {6, 7, 5});
@@ -135,7 +135,7 @@ void add_sizes(Collection& out) {
   }
 }
 
-// Everything that a collider can be, in the way of particles that fall apart.
+// Every kind of collider, in the way of particles that fall apart.
 void add_colliders(Collection& out) {
   for (std::size_t b = 0; b < std::size(kBoundaries); ++b) {
     Scene scene = mixed_scene({-4, 2, -4}, {4, 10, 4});
@@ -146,7 +146,7 @@ void add_colliders(Collection& out) {
   }
 }
 
-// Friction, no tension and cohesion, some of them on everything that can touch.
+// Friction, no tension and cohesion, for contacts of every kind.
 void add_surface_laws(Collection& out) {
   for (std::size_t b = 0; b < std::size(kBoundaries); ++b) {
     Scene scene = mixed_scene({-4, 2, -4}, {4, 10, 4});

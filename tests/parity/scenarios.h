@@ -11,7 +11,7 @@
 
 namespace hooke::test {
 
-/// A scene and its particles, every coordinate of which single precision holds exactly.
+/// A scene and its particles. Single precision holds every coordinate exactly.
 struct Scenario {
   std::string name;
   Scene scene;
@@ -21,8 +21,8 @@ struct Scenario {
 
 inline void PrintTo(const Scenario& scenario, std::ostream* os) { *os << scenario.name; }
 
-/// Random, negative, huge, degenerate and empty ones, odd counts, mixed radii, every mix of boundaries, tiny periodic
-/// boxes and thin domains.
+/// Random, negative, huge, degenerate and empty scenarios, odd counts, mixed radii, every mix of boundaries, tiny
+/// periodic boxes and thin domains.
 const std::vector<Scenario>& scenarios();
 
 }  // namespace hooke::test

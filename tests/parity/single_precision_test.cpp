@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Single precision against the specification: one evaluation on the same positions, which single precision holds
-// exactly.
+// Single precision against the reference: one evaluation on the same positions, which single precision holds exactly.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +26,7 @@ TEST_P(SinglePrecision, OneStepIsThatOfTheReferenceButForRounding) {
   if (!a) GTEST_SKIP() << a.error().text();
   if (reference.particle_count() == 0) return;
 
-  // Each contact's overlap is known to a few units in the last place of the distance, and as many are summed up.
+  // Each contact's overlap is known to a few units in the last place of the distance, and such errors add up.
   constexpr double kUnit = 0x1p-24;
   double force = 0, lightest = INFINITY, fastest = measured(reference).max_speed;
   for (const Material& m : scenario.scene.materials) {
@@ -35,7 +34,8 @@ TEST_P(SinglePrecision, OneStepIsThatOfTheReferenceButForRounding) {
     lightest = std::min(lightest, m.mass);
   }
   const auto n = static_cast<double>(reference.particle_count());
-  const double contacts_each = 12 + 4 * static_cast<double>(before.contacts) / n;  // of the most crowded
+  const double contacts_each =
+      12 + 4 * static_cast<double>(before.contacts) / n;  // for the particle with the most contacts
   const double allowed = kUnit * (8 * fastest + 8 * contacts_each * scenario.scene.time_step * force / lightest);
   ASSERT_EQ(reference.particle_count(), single.particle_count());
   for (std::size_t i = 0; i < reference.velocities().size(); ++i) {

@@ -9,7 +9,7 @@
 namespace hooke::test {
 namespace {
 
-// The row of a table of deviations by step: the larger of the two around `step`.
+// From a table of deviations by step, the larger of the two rows around `step`.
 double around(const std::map<std::int64_t, double>& by_step, std::int64_t step) {
   const auto after = by_step.lower_bound(step);
   if (after == by_step.end()) return by_step.rbegin()->second;
@@ -45,8 +45,8 @@ Limit Limits::in_double(std::int64_t step) const {
   return {position, {}, {}, 2 * position / time_step_};
 }
 
-// What plain float engines in five orders of arithmetic were measured to reach, with a margin of four. The README's
-// rows only round the start; a touch decided one step early or late moves more.
+// The measured deviations of plain float engines in five orders of arithmetic, with a margin of four. The README's rows
+// only round the start; a touch decided one step early or late moves particles further.
 Limit Limits::in_single(std::int64_t step) const {
   const auto within = [&](double radii) { return Limit{radii * radius_, {}, {}, {}}; };
   const auto until = [&](std::int64_t last, double median) {
@@ -65,8 +65,8 @@ Limit Limits::in_single(std::int64_t step) const {
   return in_single_by_readme(step);
 }
 
-// Cases of another name: the README's own rule, the float32 row times 10 while that row is below 1e-2 R; without rows,
-// two particles are bound as the hardest of the pairs above, more as the chain.
+// Cases of another name follow the README's own rule, the float32 row times 10 while that row is below 1e-2 R. Without
+// rows, the limit for two particles is that of the hardest pair above, for more particles that of the chain.
 Limit Limits::in_single_by_readme(std::int64_t step) const {
   if (from_float32_.empty()) return {(particles_ <= 2 ? 1e-2 : 2e-2) * radius_, {}, {}, {}};
   const double row = around(from_float32_, step);

@@ -10,7 +10,7 @@
 
 namespace hooke::test {
 
-/// What a case's largest deviation from LAMMPS may be at one step. Absent: no limit there.
+/// The largest allowed deviations of a case from LAMMPS at one step. Absent: no limit.
 struct Limit {
   std::optional<double> position;         ///< max |dx| over the particles, m
   std::optional<double> median_position;  ///< median |dx|, m
@@ -18,8 +18,8 @@ struct Limit {
   std::optional<double> velocity;         ///< max |dv|, m/s
 };
 
-/// The limits of one case for one precision, each from the case's README.md or, for the name's pattern, from what plain
-/// float engines were measured to reach.
+/// The limits of one case for one precision: from the case's README.md or, for known patterns of names, from the
+/// measured deviations of plain float engines.
 class Limits {
  public:
   Limits(const LammpsCase& lammps_case, const LoadedScene& scene, Precision precision);

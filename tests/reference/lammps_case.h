@@ -13,16 +13,16 @@
 
 namespace hooke::test {
 
-/// A table of numbers with named columns, as the reference cases have them.
+/// A table of numbers with named columns, as in the reference cases.
 struct Table {
   std::vector<std::string> columns;
   std::vector<std::vector<double>> rows;
-  int digits = 0;  ///< most significant digits of any number in it: how exactly it was written
+  int digits = 0;  ///< the most significant digits of any number in it: the precision of its text
 
   bool has(const std::string& column) const;
   std::size_t column(const std::string& name) const;  ///< fails the test where there is none
   double at(std::size_t row, const std::string& name) const { return rows[row][column(name)]; }
-  /// What rounding to the table's digits can have changed of `value`.
+  /// The largest error of `value` from rounding to the table's digits.
   double rounding(double value) const;
 };
 
@@ -45,7 +45,7 @@ struct LammpsCase {
   bool has(const std::string& file) const { return std::filesystem::exists(folder / file); }
   /// Instants of expected.csv, or of every expected_stepN.csv, by step, with the table that each came from.
   std::vector<std::pair<ExpectedInstant, Table>> instants(const std::string& file = "expected.csv") const;
-  // What tests are registered by, in every process that runs one of them: no table is parsed, no scene loaded.
+  // For the registration of tests, in every process that runs one of them: parses no table, loads no scene.
   bool has_instants() const;
   std::size_t particle_count() const;  ///< rows of initial.csv
 
@@ -56,7 +56,7 @@ struct LammpsCase {
 
 inline void PrintTo(const LammpsCase& c, std::ostream* os) { *os << c.name; }
 
-/// All cases that can be found, by name: those beside the checkout, or else the project's own small part.
+/// All cases found, by name: the cases beside the checkout, or else the project's own small part of them.
 std::vector<LammpsCase> lammps_cases();
 
 }  // namespace hooke::test

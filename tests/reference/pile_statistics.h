@@ -8,7 +8,7 @@
 
 namespace hooke::test {
 
-/// What the README of a pile calls its summary: spheres of one radius in a box, up is z.
+/// The summary of a pile, as its README defines it: spheres of one radius in a box, up is z.
 struct PileStatistics {
   double height_995 = 0;        ///< 99.5 % quantile of z of the centres, m
   double phi_bulk = 0;  ///< volume fraction in 4 R < z < 0.8 height, centres at least 4 R from the side walls
@@ -18,7 +18,7 @@ struct PileStatistics {
   double z_bulk = 0;  ///< the same, in the interior
   double rattlers = 0;  ///< part with fewer than 4 contacts
   double max_overlap_over_d = 0;
-  double deep_overlap_over_d = 0;  ///< that one contact in a thousand exceeds
+  double deep_overlap_over_d = 0;  ///< one contact in a thousand exceeds it
   double mean_overlap_over_d = 0;  ///< over contacts
   double zcm = 0;  ///< m
 };

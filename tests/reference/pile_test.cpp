@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Piles: chaotic on the way, so only what they settle to is compared with LAMMPS.
+// Piles: their motion is chaotic, so only the settled state is compared with LAMMPS.
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ class Pile : public testing::TestWithParam<std::tuple<LammpsCase, Engine>> {
 };
 
 // README.md of the pile: "accept phi_bulk +-0.003, Z_bulk +-0.06, height and zcm +-0.4 %, mean overlap per slab +-5 %,
-// max overlap +-20 %". Of the slabs those that are full: the topmost is the surface.
+// max overlap +-20 %". Only full slabs count: the topmost slab holds the surface.
 TEST_P(Pile, SettlesAsInLammps) {
   const LoadedScene loaded = pile().load();
   const double radius = loaded.scene.materials.front().radius;
@@ -73,8 +73,8 @@ TEST_P(Pile, SettlesAsInLammps) {
   if (std::get<1>(GetParam()).precision == Precision::double_precision) {
     EXPECT_NEAR(now.max_overlap_over_d, expected["max_overlap_over_D"], 0.2 * expected["max_overlap_over_D"]);
   }
-  // The deepest single contact is a matter of luck: runs in double precision whose starts differ by 1e-7 end between
-  // 0.041 and 0.048, LAMMPS's own at 0.041. What one contact in a thousand exceeds is not.
+  // The deepest single contact is a matter of luck: runs in double precision with starts that differ by 1e-7 end
+  // between 0.041 and 0.048, LAMMPS's own at 0.041. The overlap that one contact in a thousand exceeds is not.
   const double deep = expected_final(pile(), loaded.scene).deep_overlap_over_d;
   EXPECT_NEAR(now.deep_overlap_over_d, deep, 0.05 * deep);
   EXPECT_NEAR(now.mean_overlap_over_d, expected["mean_overlap_over_D"], 0.05 * expected["mean_overlap_over_D"]);
@@ -102,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, Pile,
                          });
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Pile);
 
-// That the figures above mean what LAMMPS's mean: from its own final positions they give its own summary.
+// The figures above mean the same as LAMMPS's: from LAMMPS's final positions they give LAMMPS's summary.
 TEST(PileStatistics, OfTheExpectedPositionsAreTheExpectedSummary) {
   for (const LammpsCase& pile : pile_cases()) {
     const LoadedScene loaded = pile.load();

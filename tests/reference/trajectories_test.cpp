@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Every trajectory that LAMMPS was run for, step by step against it.
+// Every trajectory computed by LAMMPS, compared step by step.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ std::vector<LammpsCase> trajectory_cases() {
   return cases;
 }
 
-// The cases that have `file` (any, if empty), each on every engine that it is not too large for.
+// The cases that have `file` (all cases, if empty), each on every engine for which the case is not too large.
 std::vector<CaseOnEngine> cases_with(const std::string& file, bool on_reference) {
   std::vector<CaseOnEngine> all;
   for (const LammpsCase& c : trajectory_cases()) {
@@ -44,7 +44,7 @@ std::vector<CaseOnEngine> cases_with(const std::string& file, bool on_reference)
 
 double length(const Vec3d& a) { return std::sqrt(dot(a, a)); }
 
-// Compares an instant with what LAMMPS has; numbers in `table` are only as good as they were written.
+// Compares an instant with LAMMPS's, within the limit and the rounding of the numbers in `table`.
 void compare(const ParticleSet& now, const ExpectedInstant& expected, const Table& table, const Limit& limit) {
   ASSERT_EQ(now.id, expected.id) << "at step " << expected.step;
   std::vector<double> dx;
@@ -98,8 +98,8 @@ TEST_P(LammpsOtherIntegrator, IsFollowedAtEveryStepGiven) {
   }
 }
 
-// The height of the centre of mass, m, at each row of `series`: the mean over runs whose starts differ by the rounding
-// of a float, 1e-7 of each coordinate, so that what chance does to one of them averages out.
+// The height of the centre of mass, m, at each row of `series`: the mean over runs. Their starts differ by the rounding
+// of a float, 1e-7 of each coordinate, so that the chance of a single run averages out.
 std::vector<double> mean_heights(const LoadedScene& loaded, const Engine& engine, const Table& series) {
   constexpr std::uint64_t kRuns = 16;
   std::vector<double> mean(series.rows.size(), 0);
@@ -120,7 +120,7 @@ std::vector<double> mean_heights(const LoadedScene& loaded, const Engine& engine
   return mean;
 }
 
-// Where the paths of single particles have parted, what they do together has not.
+// Where the paths of single particles have diverged, the figures of all particles together still agree.
 TEST_P(LammpsSeries, IsFollowed) {
   const LoadedScene loaded = reference().load();
   const Table series = read_table(reference().folder / kSeriesFile);
@@ -143,9 +143,9 @@ TEST_P(LammpsSeries, IsFollowed) {
     // README.md of the dam break: "At the last snapshots compare series: xcm, zcm within 1e-2 R, KE within 3 %, mean
     // contacts within 0.03, xmax within 0.5 R, max overlap within 20 %". Of the clusters: "KE to 5-10 % while moving,
     // zcm to 1e-3 of R", which holds while single particles are followed too. Later a run in single precision is one of
-    // many possible: at the end they spread over 0.04 R (standard deviation) in zcm, runs in double over 0.016 R, and
-    // by more than the energy itself when all but at rest. What they have in common is their mean: the shaking by
-    // rounding lets it settle some 0.04 R deeper.
+    // many possible runs: at the end they spread over 0.04 R (standard deviation) in zcm, runs in double over 0.016 R;
+    // the energy spreads by more than itself when almost at rest. Only their mean is reproducible: shaken by rounding,
+    // the clusters settle some 0.04 R deeper.
     const bool followed = !parts || limits.at(step).position.has_value();
     if (followed) {
       EXPECT_NEAR(now.kinetic_energy, energy, (dam_break ? 0.03 : 0.1) * energy) << "at step " << step;
@@ -165,7 +165,7 @@ TEST_P(LammpsSeries, IsFollowed) {
       }
     }
     if (!single) {
-      // Paths that agree to 1e-9 m make figures that agree as far as they are written.
+      // Paths that agree to 1e-9 m give figures that agree to all digits written.
       EXPECT_NEAR(now.kinetic_energy, energy, 1e-6 * most_energy) << "at step " << step;
       EXPECT_NEAR(contacts_each, series.at(row, "mean_contacts_per_particle"), 1e-6) << "at step " << step;
       EXPECT_NEAR(now.min.z, series.at(row, "zmin"), 1e-6 * radius) << "at step " << step;
@@ -178,7 +178,7 @@ std::string name_of(const testing::TestParamInfo<CaseOnEngine>& instance) {
 }
 INSTANTIATE_TEST_SUITE_P(Cases, Lammps, testing::ValuesIn(cases_with("", true)), name_of);
 INSTANTIATE_TEST_SUITE_P(Cases, LammpsOtherIntegrator, testing::ValuesIn(cases_with(kEulerFile, true)), name_of);
-// The reference has the bits of cpu in double.
+// The reference is left out: it has the bits of cpu in double.
 INSTANTIATE_TEST_SUITE_P(Cases, LammpsSeries, testing::ValuesIn(cases_with(kSeriesFile, false)), name_of);
 
 // Two implementations of the same specification end a case on the same bits.

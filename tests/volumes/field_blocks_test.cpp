@@ -22,7 +22,7 @@ TEST(FieldBlocks, SumWhatReachesEachVoxel) {
   for (std::uint64_t i = 0; i < 50; ++i) {
     const auto r = test::random4(5, i);
     position.push_back({3 * r[0] - 1.5, 3 * r[1] - 1.5, 3 * r[2] - 1.5});
-    reach.push_back(i % 7 == 0 ? 1.1 : 0.3);  // the larger reach over a whole block
+    reach.push_back(i % 7 == 0 ? 1.1 : 0.3);  // the larger reach spans a whole block
     value.push_back({static_cast<float>(r[3])});
   }
   const FieldBlocks blocks(position, reach, kVoxel);
