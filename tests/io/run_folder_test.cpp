@@ -197,9 +197,7 @@ TEST_F(RunFolder, DamagedSnapshotsAreErrors) {
 }
 
 TEST_F(RunFolder, ResumedRunsExportWhatUninterruptedOnesDo) {
-  const auto count_at = [](std::int64_t step) {
-    return static_cast<std::size_t>(3000 - step);
-  };  // some particles leave
+  const auto count_at = [](std::int64_t step) { return static_cast<std::size_t>(3000 - step); };  // some leave
   const auto write_to = [&](RunWriter&& writer, std::int64_t from, std::int64_t to) {
     for (std::int64_t step = from; step <= to; ++step) {
       if (kEveryEight.is_due(step, 0.005) || step == to) {

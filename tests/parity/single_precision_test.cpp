@@ -34,8 +34,7 @@ TEST_P(SinglePrecision, OneStepIsThatOfTheReferenceButForRounding) {
     lightest = std::min(lightest, m.mass);
   }
   const auto n = static_cast<double>(reference.particle_count());
-  const double contacts_each =
-      12 + 4 * static_cast<double>(before.contacts) / n;  // for the particle with the most contacts
+  const double contacts_each = 12 + 4 * static_cast<double>(before.contacts) / n;  // for one particle, at most
   const double allowed = kUnit * (8 * fastest + 8 * contacts_each * scenario.scene.time_step * force / lightest);
   ASSERT_EQ(reference.particle_count(), single.particle_count());
   for (std::size_t i = 0; i < reference.velocities().size(); ++i) {
