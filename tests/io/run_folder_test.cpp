@@ -149,7 +149,7 @@ TEST_F(RunFolder, AnUnwritablePathLeavesNothingBehind) {
   ASSERT_FALSE(at_file);
   EXPECT_NE(at_file.error().text().find("is a file, not a folder"), std::string::npos);
 
-  // Wherever the way to a file fails, the folders made for it must be removed.
+  // A folder is in the way of series.csv: particles.vtkhdf must not stay behind.
   fs::create_directories(folder / "b");
   fs::create_directories(folder / "b/series.csv.unfinished");
   const auto blocked = RunWriter::create(folder / "b", samples::run_info(), "{}", {});

@@ -11,8 +11,8 @@
 namespace hooke {
 namespace {
 
-// The largest relative error of inverse_root() over all orders of size in which attraction computes, each swept in
-// steps that share no pattern with its bits.
+// The largest relative error of inverse_root() over all orders of magnitude that attraction uses, each swept in steps
+// that share no pattern with its bits.
 template <class Real>
 double worst_inverse_root(int lowest, int highest) {
   double worst = 0;
@@ -26,7 +26,7 @@ double worst_inverse_root(int lowest, int highest) {
   return worst;
 }
 
-// Three roundings, of half an epsilon each at most, reach the result in full.
+// Three roundings of at most half an epsilon each add up in the result.
 TEST(InverseRoot, IsRightToTheLastDigits) {
   EXPECT_LT(worst_inverse_root<float>(-80, 81), 1.5 * std::numeric_limits<float>::epsilon());
   EXPECT_LT(worst_inverse_root<double>(-80, 81), 1.5 * std::numeric_limits<double>::epsilon());
@@ -40,11 +40,11 @@ TEST(Attraction, IsNewtonsAndSoftenedPlummers) {
   EXPECT_NEAR(attraction_potential<ExactMath>(towards, 7.0, 27.0), -0.5, 1e-15);
 }
 
-// A cloud of eight masses, far away: against the sum of what each pulls with. The next term of the expansion is smaller
-// by the cloud's size over its distance.
+// The expansion of a cloud of eight masses, far away, against the sum of the pulls of its masses. The next term of the
+// expansion is smaller by the cloud's size over its distance.
 class CloudOfMasses : public testing::Test {
  protected:
-  static constexpr double kSize = 0.01;  // of the distance, which is about 1
+  static constexpr double kSize = 0.01;  // relative to the distance, which is about 1
   const Vec3d centre_{0.6, -0.5, 0.62};
   std::vector<std::pair<Vec3d, double>> masses_;
   MassCloud<double> cloud_{};
@@ -80,7 +80,7 @@ TEST_F(CloudOfMasses, PullsLikeItsParts) {
       potential += attraction_potential<ExactMath>(centre_ + at, mass, softening2);
     }
     const Vec3d off = cloud_attraction<ExactMath>(centre_, cloud_, softening2) - sum;
-    // Octupoles: some times size^3, of the mass; quadrupoles left out would be off by size^2.
+    // The error is the octupoles, a few size^3 times the mass; without quadrupoles it would be size^2.
     EXPECT_LT(std::sqrt(dot(off, off)), 10 * kSize * kSize * kSize * cloud_.mass) << softening2;
     EXPECT_NEAR(cloud_potential<ExactMath>(centre_, cloud_, softening2), potential,
                 5 * kSize * kSize * kSize * cloud_.mass);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Particles that attract each other: orbits that are known, and books that close.
+// Particles that attract each other: known orbits, and balances of energy and momentum.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 namespace hooke::test {
 namespace {
 
-// A scene whose particles feel nothing but each other's attraction.
+// A scene without other forces than the particles' attraction of each other.
 Scene attracting_scene(double constant, Integrator integrator = Integrator::velocity_verlet) {
   Scene scene = open_scene();
   scene.materials = {{"star", 0.01, 1, {0, 0, 0}, 0, ""}, {"planet", 0.01, 1e-3, {0, 0, 0}, 0, ""}};
@@ -29,7 +29,7 @@ Scene attracting_scene(double constant, Integrator integrator = Integrator::velo
 class Orbits : public testing::TestWithParam<Engine> {};
 
 // Two masses on an ellipse of eccentricity 0.2 come back to where they were after each period 2 pi sqrt(a^3 / (G M)).
-// Velocity Verlet's period is off by a part of (omega dt)^2 / 24 times what the ellipse is uneven, some 1e-7.
+// Velocity Verlet's period has a relative error of (omega dt)^2 / 24 times a factor for the ellipse, some 1e-7.
 TEST_P(Orbits, OfKeplerClose) {
   constexpr int kSteps = 6000, kTurns = 10;
   constexpr double kMajor = 1, kEccentricity = 0.2, kConstant = 2;
@@ -37,7 +37,7 @@ TEST_P(Orbits, OfKeplerClose) {
   const double m_1 = scene.materials[0].mass, m_2 = scene.materials[1].mass, total = m_1 + m_2;
   const double period = 2 * std::numbers::pi * std::sqrt(kMajor * kMajor * kMajor / (kConstant * total));
   scene.time_step = period / kSteps;
-  const double distance = kMajor * (1 + kEccentricity);  // furthest from each other, where they are slowest
+  const double distance = kMajor * (1 + kEccentricity);  // at their largest distance, where they are slowest
   const double speed = std::sqrt(kConstant * total / kMajor * (1 - kEccentricity) / (1 + kEccentricity));
   ParticleSet particles;
   add(particles, {-distance * m_2 / total, 0, 0}, {0, -speed * m_2 / total, 0}, 0);
@@ -50,7 +50,7 @@ TEST_P(Orbits, OfKeplerClose) {
     ASSERT_TRUE(advance(s, kSteps));
     EXPECT_NEAR(accounted_energy(s) / energy, 1, 1e-6) << "after turn " << turn;
   }
-  // Where the two are along their way, as a part of a period, is the error of the period over all turns.
+  // The error of the period over all turns shows in the phase of the two masses along their orbit.
   const Vec3d apart = s.positions()[1] - s.positions()[0];
   EXPECT_NEAR(apart.x, distance, 1e-6 * distance);
   EXPECT_LT(std::abs(apart.y) / (speed * period) / kTurns, 1e-6);
@@ -58,7 +58,7 @@ TEST_P(Orbits, OfKeplerClose) {
 }
 
 // Three equal masses chase each other along a figure eight (Chenciner and Montgomery 2000; initial values by Simo):
-// after its period each is back.
+// after a period each mass is back.
 TEST_P(Orbits, OfThreeBodiesAreAFigureEight) {
   constexpr double kPeriod = 6.32591398;
   constexpr int kSteps = 6000;
@@ -71,7 +71,7 @@ TEST_P(Orbits, OfThreeBodiesAreAFigureEight) {
   add(particles, {0, 0, 0}, v);
   Simulation s = simulate(scene, particles, GetParam());
   ASSERT_TRUE(advance(s, kSteps / 3));
-  // A third of a period on, each is about where another one was: 2/3 of a step is missing.
+  // After a third of a period each mass is about where another mass was: 2/3 of a step is missing.
   for (const Vec3d& now : s.positions()) {
     double nearest = 1;
     for (const Vec3d& before : particles.position) {
@@ -83,7 +83,7 @@ TEST_P(Orbits, OfThreeBodiesAreAFigureEight) {
   ASSERT_TRUE(advance(s, kSteps - kSteps / 3));
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3d off = s.positions()[i] - particles.position[i];
-    // Eight digits of the initial values, and the integrator's (omega dt)^2.
+    // Initial values have eight digits, and the integrator's error is (omega dt)^2.
     EXPECT_LT(std::sqrt(dot(off, off)), 1e-5) << i;
   }
   EXPECT_NEAR(accounted_energy(s) / s.initial_energy(), 1, 1e-7);
@@ -92,8 +92,8 @@ TEST_P(Orbits, OfThreeBodiesAreAFigureEight) {
 INSTANTIATE_TEST_SUITE_P(Engines, Orbits, testing::Values(kReference, kCpuDouble),
                          [](const auto& test) { return test.param.name(); });
 
-// A cluster at rest falls together: what attraction's work adds is the kinetic energy, to rounding, under either
-// integrator; and what the work and the change of the potential energy differ by is the integrator's error.
+// A cluster at rest collapses: the work of attraction equals the kinetic energy, up to rounding, under either
+// integrator. The work differs from the loss of potential energy by the integrator's error.
 class ClusterBooks : public testing::TestWithParam<std::tuple<Integrator, Attraction::Method>> {};
 
 TEST_P(ClusterBooks, Close) {
@@ -113,11 +113,12 @@ TEST_P(ClusterBooks, Close) {
   const Measurements now = measured(s);
   ASSERT_GT(now.kinetic_energy, 0.001 * std::abs(potential));
   EXPECT_NEAR(s.ledger().work[Cause::attraction] / now.kinetic_energy, 1, 1e-10);
-  // Symplectic Euler's mean velocity of a step is half a kick off; the tree's potential is as good as its forces.
+  // Symplectic Euler's mean velocity of a step is off by half a kick; the tree's potential is as accurate as its
+  // forces.
   const double integration = s.ledger().work[Cause::attraction] + now.attraction_energy - potential;
   const bool exact = method == Attraction::Method::direct && integrator == Integrator::velocity_verlet;
   EXPECT_LT(std::abs(integration) / now.kinetic_energy, exact ? 1e-4 : 2e-2);
-  // Pair by pair nothing is given but rounding; the tree gives what its errors don't cancel.
+  // Pair by pair the total momentum is 0 up to rounding; the tree's errors do not cancel.
   const Vec3d given = s.ledger().impulse[Cause::attraction];
   EXPECT_LT(std::sqrt(dot(given, given)), (method == Attraction::Method::direct ? 1e-12 : 1e-3) * now.momentum_scale);
   const Vec3d off = now.momentum - given;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// What colliders do to particles that move.
+// Moving particles and colliders.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ Scene scene_with(Collider collider) {
   return scene;
 }
 
-// A ball falls on each shape from above its top, at y = 0, and comes back as it does from the domain's floor.
+// A ball falls from above on each shape's top, at y = 0, and bounces as it does off the domain's floor.
 TEST(BouncingBall, GoesTheSameWayOverEveryShape) {
   const Shape shapes[] = {PlaneShape{{3, 0, -2}, {0, 5, 0}},
                           BoxShape{{-2, -1, -2}, {2, 0, 2}},
@@ -76,13 +76,12 @@ TEST(BouncingBall, GoesTheSameWayOverEveryShape) {
   }
 }
 
-// The plane moves along x; by shear and damping a ball that lies on it takes on its velocity as v (1 - e^(-c t / m)),
-// c = c_s + c_d.
+// The plane moves along x; shear and damping speed up a ball that lies on it as v (1 - e^(-c t / m)), c = c_s + c_d.
 TEST(MovingPlane, CarriesARestingBall) {
   for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
     Scene scene = scene_with(make_collider(PlaneShape{{0, 0, 0}, {0, 1, 0}}, SteadyMotion{{2, 0, 0}, {}, {}}));
     ParticleSet ball;
-    add(ball, {0, 0.5 - 9.8 / 1000, 0}, {0, 0, 0});  // as deep as its weight presses it
+    add(ball, {0, 0.5 - 9.8 / 1000, 0}, {0, 0, 0});  // pressed in by its weight
     Simulation simulation = simulate(scene, ball, engine);
     for (int i = 1; i <= 10; ++i) {
       ASSERT_TRUE(advance(simulation, 100));
@@ -91,19 +90,19 @@ TEST(MovingPlane, CarriesARestingBall) {
       EXPECT_NEAR(simulation.velocities()[0].y, 0, 1e-4);
     }
     EXPECT_NEAR(measured(simulation).colliders[0].force.y, -9.8, 1e-2) << "it presses down";
-    // 2 N s at 2 m/s, half of which the dashpots keep.
+    // 2 N s at 2 m/s; the dashpots keep half of it.
     EXPECT_NEAR(simulation.ledger().impulse[Cause::collider].x, simulation.velocities()[0].x, 1e-5);
   }
 }
 
-// A turning disc moves what lies on it along with the speed of the place where it lies.
+// A turning disc carries a ball along with the speed of the disc's surface under the ball.
 TEST(TurningDisc, TakesAlongByTheSpeedOfItsSurface) {
   Scene scene = scene_with(make_collider(DiscShape{{0, 0, 0}, {0, 1, 0}, 5}, SteadyMotion{{}, {0, 2, 0}, {}}));
   ParticleSet ball;
   add(ball, {3, 0.5 - 9.8 / 1000, 0}, {0, 0, 0});
   Simulation simulation = simulate(scene, ball, kReference);
   ASSERT_TRUE(advance(simulation, 1));
-  // omega x r = (0, 2, 0) x (3, 0, 0) = (0, 0, -6); in one step of 0.001 s, of it (c_s + c_d) dt/m.
+  // omega x r = (0, 2, 0) x (3, 0, 0) = (0, 0, -6); one step of 0.001 s gives (c_s + c_d) dt/m of it.
   EXPECT_NEAR(simulation.velocities()[0].z, -6 * 5 * 0.001, 1e-12);
   EXPECT_NEAR(simulation.velocities()[0].x, 0, 1e-12);
 }
@@ -123,7 +122,7 @@ TEST(Heap, WeighsOnAColliderWhatItsParticlesWeigh) {
     EXPECT_NEAR(now.colliders[0].force.y / weight, -1, 1e-3) << engine.name();
     EXPECT_NEAR(now.colliders[0].force.x / weight, 0, 1e-3);
     EXPECT_GT(now.colliders[0].contacts, 4U);
-    // About the pivot, the middle of the box, the weight at the heap's centre has this lever.
+    // The lever of the weight, from the pivot (the middle of the box) to the heap's centre.
     const Vec3d lever = now.centre_of_mass - Vec3d{-8.5, -10, 6.5};
     EXPECT_NEAR(now.colliders[0].torque.z / weight, -lever.x, 2e-2);
     EXPECT_NEAR(now.colliders[0].torque.x / weight, lever.z, 2e-2);
@@ -131,7 +130,8 @@ TEST(Heap, WeighsOnAColliderWhatItsParticlesWeigh) {
   }
 }
 
-// What a collider's material says of a pair holds; without a material, the walls' coefficients do.
+// A collider's material mixes with the particle's, unless the pair has an entry; a collider without a material has the
+// walls' coefficients.
 TEST(ColliderMaterial, MixesWithTheParticles) {
   const auto force = [](const Scene& scene) {
     ParticleSet ball;
@@ -169,7 +169,7 @@ TEST(FastApproach, ToAColliderStopsTheRun) {
   }
 }
 
-// The slope of what lies in a hollow drum grows with how fast it turns: shear lifts the grains further.
+// The slope of grains in a hollow drum grows with the drum's speed: shear lifts the grains further.
 TEST(Drum, LiftsGrainsHigherTheFasterItTurns) {
   double before = 0;
   for (const double speed : {0.0, 0.5, 1.5}) {
@@ -178,7 +178,7 @@ TEST(Drum, LiftsGrainsHigherTheFasterItTurns) {
     scene.materials[0].contact.shear = scene.materials[0].contact.damping = 10;
     Simulation simulation = simulate(scene, lattice(scene, {5, 3, 2}, {-2, -2.6, 0.7}, 1, 0.02, 3), kCpuSingle);
     ASSERT_TRUE(advance(simulation, 8000));
-    // The middle of the heap hangs below the axis by this angle, degrees, along the way the drum turns.
+    // Angle of the heap's middle from straight below the axis, in the direction in which the drum turns, degrees.
     const Vec3d middle = measured(simulation).centre_of_mass;
     const double angle = std::atan2(middle.x, -middle.y) * 180 / std::numbers::pi;
     if (speed == 0) {
@@ -195,8 +195,8 @@ TEST(Drum, LiftsGrainsHigherTheFasterItTurns) {
   }
 }
 
-// A ball that sticks out of a periodic domain, and has moved on for three lengths of it, is felt on the other side: as
-// in a domain that has it in its middle. One as long as the domain is there once.
+// A ball sticks out of a periodic domain and has moved by three lengths of the domain. It acts on the other side just
+// as in a domain with the ball in its middle. A collider as long as the domain acts once.
 TEST(PeriodicColliders, AreFeltAcrossTheFaces) {
   Collider ball = make_collider(SphereShape{{9.75, -1, -9.5}, 1.5}, SteadyMotion{{30, 0, 0}, {0, 0, 3}, {}});
   Collider floor = make_collider(BoxShape{{-5, -4, -20}, {15, -2, 20}});
@@ -210,7 +210,7 @@ TEST(PeriodicColliders, AreFeltAcrossTheFaces) {
   middle.domain.max += shift;
   ParticleSet grains, shifted;
   for (int k = 0; k < 12; ++k) {
-    const double angle = 0.55 * k;  // around the ball, on both sides of both faces
+    const double angle = 0.55 * k;  // around the ball, across both faces
     Vec3d x{9.75 + 1.3 * std::cos(angle), 1 + 0.1 * k, -9.5 + 1.3 * std::sin(angle)};
     add(shifted, x, {0, 0, 0});
     if (x.x >= 10) x.x -= 10;
@@ -226,7 +226,7 @@ TEST(PeriodicColliders, AreFeltAcrossTheFaces) {
         Vec3d off = across.positions()[k] - within.positions()[k];
         off.x -= 10 * std::round(off.x / 10);
         off.z -= 20 * std::round(off.z / 20);
-        // What rounding of the images makes of it grows while they collide.
+        // Rounding errors of the images grow during collisions.
         EXPECT_LT(dot(off, off), 1e-16) << engine.name() << ' ' << i << ' ' << k;
       }
     }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Energy before and after single impacts, from head-on to grazing. A wall law of its own gained energy at grazing
-// impact in another engine for years; Hooke's walls are partners of infinite mass in the one law that there is.
+// Energy before and after single impacts, from head-on to grazing. For years another engine had a separate wall law
+// that gained energy at grazing impact; Hooke's walls are partners of infinite mass in its only law.
 
 #include <gtest/gtest.h>
 
@@ -18,20 +18,20 @@ namespace {
 constexpr double kRadius = 0.5;
 constexpr double kStiffness = 1000;
 constexpr double kSpeed = 1;  // relative, m/s: overlaps of a fiftieth of a diameter
-constexpr double kApart = 4;  // between the places of two experiments, m
+constexpr double kApart = 4;  // distance between two experiments, m
 
 struct Impact {
   double angle;  // degrees from head-on; 90 passes by
-  double phase;  // 0 to 1: where in a step the touch falls
+  double phase;  // 0 to 1: moment of the touch within a step
 };
 
-// The cosine of the angle at which `speed` meets the surface; at 90 degrees none does.
+// The cosine of the angle of impact: the part of `speed` along the normal, 0 at 90 degrees.
 double cosine(const Impact& impact) { return std::cos(impact.angle * M_PI / 180); }
 
 struct Law {
   double omega_dt;
   double damping_ratio;
-  double shear_ratio;  // like the damping ratio, of c_s
+  double shear_ratio;  // like the damping ratio, for c_s
   Integrator integrator;
   double mass_2 = 1;
 };
@@ -54,18 +54,18 @@ Vec3d place(std::size_t i, std::size_t count) {
   return {at(i % side), 0, at(i / side)};
 }
 
-// Steps until every contact is over, but those damped so much that they never end.
+// Steps until every contact is over, except contacts damped so much that they never end.
 bool finish(Simulation& simulation, const Law& law) {
   return advance(simulation, static_cast<std::int64_t>(12 / law.omega_dt));
 }
 
-// What is left of the energy of the relative motion, `w` (m/s), with that in the spring.
+// The remaining energy of the relative motion, `w` (m/s), and of the spring.
 double energy_left(const Vec3d& w, double overlap, double m_eff) {
   const double spring = overlap > 0 ? kStiffness / m_eff * overlap * overlap : 0;
   return (dot(w, w) + spring) / (kSpeed * kSpeed);
 }
 
-// The energy of the relative motion after each impact as a part of that before. All happen side by side.
+// For each impact, the energy of the relative motion after it over the energy before. All happen side by side.
 std::vector<double> pair_impacts(const Law& law, const std::vector<Impact>& impacts) {
   const double m_eff = law.mass_2 / (1 + law.mass_2);
   const Scene scene = impact_scene(law, m_eff);
@@ -96,7 +96,7 @@ std::vector<double> wall_impacts(const Law& law, const std::vector<Impact>& impa
   for (std::size_t i = 0; i < impacts.size(); ++i) {
     const double sine = std::sin(impacts[i].angle * M_PI / 180);
     const double gap = impacts[i].phase * kSpeed * cosine(impacts[i]) * scene.time_step;
-    // All slide the same way, so that none meets another.
+    // All slide the same way, so that experiments do not meet.
     add(particles, place(i, impacts.size()) + Vec3d{0, gap, 0}, {kSpeed * sine, -kSpeed * cosine(impacts[i]), 0}, 0);
   }
   Simulation simulation = simulate(scene, particles, kCpuDouble);
@@ -151,7 +151,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Impacts,
                                                                                 : "symplectic_euler";
                          });
 
-// DESIGN section 8: undamped, at most (omega0 dt)^2/4 of it for any phase of entry, symplectic Euler.
+// DESIGN section 8: undamped, energy changes by at most (omega0 dt)^2/4 for any phase of entry, symplectic Euler.
 TEST(UndampedImpacts, GainAndLoseAtMostTheirBoundAtAnyPhase) {
   for (const double omega_dt : {0.05, 0.15, 0.3, 0.55}) {
     const double bound = omega_dt * omega_dt / 4;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Momentum and energy of many particles: kept where nothing acts from outside, booked where something does.
+// Momentum and energy of many particles: kept where nothing acts from outside, in the ledger where something does.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ constexpr Integrator kIntegrators[] = {Integrator::symplectic_euler, Integrator:
 
 double length(const Vec3d& a) { return std::sqrt(dot(a, a)); }
 
-// Rounding of one step is half a unit in the last place a particle at most, and it does not pile up faster than that.
+// One step rounds by at most half a unit in the last place for each particle, and errors add up no faster than that.
 double momentum_limit(const Engine& engine, std::int64_t steps) {
   const double unit = engine.precision == Precision::single_precision ? 0x1p-24 : 0x1p-53;
   return unit * std::sqrt(static_cast<double>(steps)) * 4;
@@ -50,7 +50,7 @@ TEST(Momentum, IsKeptToRoundingWithoutWallsAndGravity) {
   }
 }
 
-// Gravity, walls, drag and departures: what they give is booked, and nothing is left over.
+// Gravity, walls, drag and departures: the ledger accounts for all momentum.
 TEST(Momentum, IsAccountedForWithEverythingThatActs) {
   for (const Integrator integrator : kIntegrators) {
     Scene scene = open_scene();
@@ -84,7 +84,7 @@ TEST(Momentum, DriftNoticesWhatIsMissing) {
   EXPECT_NEAR(momentum_drift(wrong, simulation.ledger(), simulation.initial_momentum()), 0.1, 1e-15);
 }
 
-// A handful of particles that fall on a floor, with dashpots and drag: the largest change of what is accounted for.
+// A few particles that fall on a floor, with dashpots and drag: the largest change of the accounted energy.
 double energy_defect(Integrator integrator, double dt, double duration) {
   Scene scene = open_scene();
   mix_materials(scene, 0.25);
@@ -133,7 +133,7 @@ TEST(Energy, OfADepartureIsBooked) {
   }
 }
 
-// A squeezed block of particles, some of which springs tie, with cohesion: they touch each other from the start.
+// A squeezed block of particles with cohesion; springs tie some of them, and they touch each other from the start.
 struct SqueezedBlock {
   explicit SqueezedBlock(Integrator integrator) : particles(lattice(scene, {6, 4, 4}, {-2.6, 0, 0}, 0.9, 0, 1)) {
     scene.integrator = integrator;
@@ -151,8 +151,8 @@ struct SqueezedBlock {
   ParticleSet particles;
 };
 
-// What is in contacts and springs of particles that sink, or leave through a face in front of the block, in a step in
-// which it hardly moves: each pair counts once, whether one or both of it go.
+// The energy in contacts and springs of particles that sink, or leave through a face in front of the block, in a step
+// in which the block hardly moves: each pair counts once, whether one or both of its particles go.
 TEST(Energy, OfContactsAndSpringsThatVanishIsBooked) {
   for (const Integrator integrator : kIntegrators) {
     for (const bool sinks : {true, false}) {
@@ -182,8 +182,8 @@ TEST(Energy, OfContactsAndSpringsThatVanishIsBooked) {
   }
 }
 
-// A block flies apart while a sink eats into it: what the ledger leaves open is the integrator's error, falls with the
-// step, and is small beside what went with those that sank.
+// A block flies apart while a sink eats into it: the energy missing from the ledger is the integrator's error. It falls
+// with the step, and is small compared with the energy that went with sunk particles.
 TEST(Energy, OfWhatVanishesInMotionIsBookedUpToTheIntegratorsOrder) {
   const auto defect = [](Integrator integrator, double dt) {
     SqueezedBlock block(integrator);

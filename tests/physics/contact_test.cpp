@@ -63,7 +63,7 @@ TEST(ContactForce, InSinglePrecisionIsTheSameLaw) {
   }
 }
 
-// Two particles as the engine puts them to the law, drawn at random.
+// Two random particles, passed to the law as the engine does.
 template <class R>
 struct RandomPair {
   Vec3<R> x_1, x_2, v_1, v_2;
@@ -88,7 +88,7 @@ struct RandomPair {
     R dissipation;  // by both dashpots
   };
 
-  // On the particle of position x, from the one of position y.
+  // The force on the particle at x from the particle at y.
   static Contact force(const Vec3<R>& x, const Vec3<R>& y, const Vec3<R>& v, const Vec3<R>& u, R tie, R reach,
                        const ContactCoefficients<R>& c) {
     const Vec3<R> x_ip = x - y;
@@ -123,7 +123,7 @@ TYPED_TEST(ContactForceOf, NeverGivesEnergyThroughItsDashpots) {
   }
 }
 
-// Coefficients can be applied to the sum of contacts in place of each.
+// Coefficients can be applied to the sum over contacts instead of to each contact.
 TEST(ContactForce, IsLinearInItsVectors) {
   const ContactCoefficients<double> c{1000, 5, 3};
   ContactVectors<double> sum;
@@ -150,7 +150,7 @@ TYPED_TEST(ContactForceOf, PushesCoincidentCentresApartByTheirIds) {
   }
 }
 
-// Frames that move with a velocity in which nothing rounds give the same bits; others the same but for rounding.
+// Frames that move with a velocity at which nothing rounds give the same bits; other frames the same up to rounding.
 TYPED_TEST(ContactForceOf, IsTheSameInAMovingFrame) {
   using R = TypeParam;
   constexpr R kEpsilon = std::numeric_limits<R>::epsilon();
@@ -171,7 +171,7 @@ TYPED_TEST(ContactForceOf, IsTheSameInAMovingFrame) {
   }
 }
 
-// Smallest numbers of all: no division by a distance that underflowed to nothing.
+// The smallest numbers: no division by a distance that underflowed to 0.
 TYPED_TEST(ContactForceOf, IsFiniteForTheSmallestDistances) {
   using R = TypeParam;
   for (const R tiny : {std::numeric_limits<R>::denorm_min(), std::numeric_limits<R>::min(),

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Fields against what mathematics says of a particle in them.
+// Fields against analytic solutions for a particle in them.
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ void expect_near(const Vec3d& a, const Vec3d& b, double tolerance) {
 
 class Fields : public testing::TestWithParam<Engine> {
  protected:
-  // Of a number around 1, after a thousand steps that round it.
+  // The rounding error of a number around 1 after a thousand steps.
   double rounding() const { return GetParam().precision == Precision::single_precision ? 1e-4 : 1e-12; }
 };
 
@@ -48,7 +48,7 @@ TEST_P(Fields, WindTakesWhatHasDragAlong) {
   Simulation s = simulate(scene, one_at({0, 0, 0}), GetParam());
   for (int n = 500; n <= 1500; n += 500) {
     ASSERT_TRUE(advance(s, 500));
-    // Symplectic Euler's own sequence, and the exponential that it stands for, off by half a step's worth.
+    // Symplectic Euler's own sequence, and the exponential, from which it differs by half a step's change.
     expect_near(s.velocities()[0], (1 - std::pow(1 - kStep * kDrag / kMass, n)) * u, 4 * rounding());
     expect_near(s.velocities()[0], (1 - std::exp(-n * kStep * kDrag / kMass)) * u, 4 * kStep * kDrag / kMass);
   }
@@ -68,7 +68,7 @@ TEST_P(Fields, GustsComeAndGoAndTravel) {
   const double third = 2 * std::numbers::pi / 3;
   const Gust everywhere{{0, 0, 6}, 0.25, 0}, travelling{{0, 0, 6}, 0.25, 12};
   for (const Gust& gust : {everywhere, travelling}) {
-    // Along the wind, which blows towards -x; the middle one is a third of a wavelength behind.
+    // Along the wind, which blows towards -x, the second particle is a third of a wavelength behind.
     ParticleSet p = one_at({0, 0, 0}, 1);
     add(p, {4, 7, 0}, {0, 0, 0}, 1);
     Simulation s = simulate(scene_with({Wind{{-2, 0, 0}, 10.0, 0, gust}, {}, {}}), p, GetParam());
@@ -80,7 +80,7 @@ TEST_P(Fields, GustsComeAndGoAndTravel) {
       const double lag = gust.wavelength > 0 ? (i == 0 ? s.positions()[0].x / 4 : x / 4) * third : 0;
       const double wind = 6 * std::cos(lag);
       const double gain = s.velocities()[static_cast<std::size_t>(i)].z - before[i].z;
-      // One step's gain: a difference of velocities of some m/s, of a gust that a step shifts by 1.6e-3 of itself.
+      // One step's gain: the difference of velocities of some m/s; a step changes the gust by 1.6e-3 of itself.
       EXPECT_NEAR(gain, kStep * 2 * (wind - before[i].z), kStep * 2 * 0.02 + rounding());
     }
   }
@@ -103,7 +103,7 @@ TEST_P(Fields, WhoeverWantsToWalkThereAdaptsItsSpeed) {
   Simulation there =
       simulate(scene_with({PushToward{{30, 40, 0}, 7, 1.5, 0.5}, {}, {}}), one_at({30, 40, 0}, 1), GetParam());
   ASSERT_TRUE(advance(there, 10));
-  expect_near(there.velocities()[0], {0, 0, 0}, 0);  // no way to go
+  expect_near(there.velocities()[0], {0, 0, 0}, 0);  // at the target: no direction to go
 }
 
 TEST_P(Fields, APushTowardsAPointPulls) {
@@ -124,7 +124,7 @@ TEST_P(Fields, ActWhereAndOnWhomTheySay) {
   EXPECT_EQ(s.velocities()[2].z, 0) << "not in the box";
 }
 
-// A triangle in the plane z = 2 x: wind presses on it along its normal alone.
+// A triangle in the plane z = 2 x: wind presses on it only along its normal.
 TEST_P(Fields, WindPressesOnSheets) {
   ParticleSet p = one_at({0, 0, 0}, 1);
   add(p, {3, 0, 6}, {0, 0, 0}, 1);
@@ -140,7 +140,7 @@ TEST_P(Fields, WindPressesOnSheets) {
   const Vec3d gain = (kStep / 5 * area_drag * area * dot(u, normal) / 3) * normal;
   for (const Vec3d& v : s.velocities()) expect_near(v, gain, 1e-3 * rounding());
   expect_near(s.ledger().impulse[Cause::field], 15.0 * gain, rounding());
-  // What it has gained across itself it no longer feels.
+  // A triangle that moves relative to the wind only within its own plane feels no force.
   Scene drifting = scene;
   for (Vec3d& v : p.velocity) v = u + Vec3d{1, 7, 2};  // along the triangle
   Simulation t = simulate(drifting, p, GetParam());

@@ -12,7 +12,7 @@
 namespace hooke::test {
 namespace {
 
-// The settled heap presses on the floor with its weight, and on opposite walls alike.
+// The settled heap presses on the floor with its weight, and equally on opposite walls.
 TEST(Heap, WeighsOnTheFloorWhatItsParticlesWeigh) {
   for (const Engine& engine : {kCpuDouble, kCpuSingle}) {
     for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
@@ -46,7 +46,7 @@ TEST(Heap, WeighsOnTheFloorWhatItsParticlesWeigh) {
   }
 }
 
-// The same of a floor that is a collider, as the contacts of a snapshot list it.
+// The same for a floor that is a collider, from the listed contacts of a snapshot.
 TEST(Heap, WeighsOnACollider) {
   Scene scene = open_scene();
   mix_materials(scene, 0.25);
@@ -76,7 +76,7 @@ TEST(Heap, WeighsOnACollider) {
   EXPECT_NEAR(sum.z / weight, 0, 1e-2);
 }
 
-// A column of n: contact j carries the weight of the n - j above it.
+// A column of n particles: contact j carries the weight of the n - j particles above it.
 TEST(Column, IsCompressedByTheWeightAbove) {
   Scene scene = open_scene();
   scene.gravity = {0, -9.8, 0};

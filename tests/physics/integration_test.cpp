@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// What the work of contacts and springs and the change of their energy differ by.
+// The difference between the work of contacts and springs and the change of their energy.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,8 @@ namespace {
 
 class Integration : public testing::TestWithParam<Integrator> {
  protected:
-  // Some dozen particles that bump into each other for a second, half of them tied; over all causes' work, in sum.
+  // A hundred particles that bump into each other for a second, half of them tied. The error relative to the sum of all
+  // causes' work.
   static double error(double dt) {
     Scene scene = open_scene();
     scene.integrator = GetParam();
@@ -34,7 +35,7 @@ class Integration : public testing::TestWithParam<Integrator> {
     const Measurements now = measured(s);
     EXPECT_GT(s.ledger().springs.broken, 0U);
     const double error = integration_error(now, s.ledger(), s.initial_elastic());
-    // Nothing else gives or takes: the balance of energy is off by the same.
+    // No other cause acts: the balance of energy has the same error.
     EXPECT_NEAR(accounted_energy(s) - s.initial_energy(), error, 1e-9 * s.initial_energy());
     double throughput = s.initial_energy();
     for (const double work : s.ledger().work.of) throughput += std::abs(work);

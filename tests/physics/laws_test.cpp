@@ -47,7 +47,7 @@ TEST(EffectiveMass, OfPairsAndWalls) {
 TEST(DampingRatio, IsOneWhereCritical) {
   EXPECT_EQ(damping_ratio(2 * std::sqrt(400 * 0.25), 400, 0.25), 1);
   EXPECT_EQ(damping_ratio(3, 0, 1), 0);
-  // The figure of the first reference case: K 1000, Kd 3, m_eff 1/2.
+  // From the first reference case: K 1000, Kd 3, m_eff 1/2.
   EXPECT_NEAR(damping_ratio(3, 1000, 0.5), 0.0671, 5e-5);
 }
 
@@ -63,7 +63,7 @@ TEST(CriticalStep, SolvesItsEquation) {
   }
 }
 
-// The recurrence v += dt a; x += dt v of x'' = -omega2 x - gamma x' grows above that step and dies out below.
+// The recurrence v += dt a; x += dt v for x'' = -omega2 x - gamma x' grows above the critical step and decays below.
 TEST(CriticalStep, IsWhereSymplecticEulerTurnsUnstable) {
   for (const double gamma : {0.0, 0.3, 3.0}) {
     const double critical = critical_step(1, gamma);

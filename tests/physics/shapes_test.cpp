@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Distances from shapes against a search for the nearest of many points of their surfaces, and where no place of a
-// surface is the nearest.
+// Distances from shapes against a search for the nearest of many points of their surfaces, and at points where many
+// places of a surface are nearest.
 
 #include "hooke/core/shapes.h"
 
@@ -28,8 +28,8 @@ Vec3d at_random(std::uint64_t i, double reach) {
 
 double length_of(const Vec3d& a) { return std::sqrt(dot(a, a)); }
 
-// A distance and the way to the surface define each other: one step along the normal meets it, every other point of
-// the ball around is not closer.
+// The normal leads to the surface: a step of the distance against the normal ends on it, and no point of the surface
+// is closer.
 TEST(ShapeDistance, LeadsToTheSurfaceAndNothingIsNearer) {
   for (const Shape& shape : kShapes) {
     const ShapeGeometry<double> g = geometry_of(shape, false, {0, 0, 0});
@@ -39,7 +39,7 @@ TEST(ShapeDistance, LeadsToTheSurfaceAndNothingIsNearer) {
       EXPECT_NEAR(length_of(d.normal), 1, 1e-14);
       const Vec3d foot = x - d.distance * d.normal;
       EXPECT_NEAR(shape_distance(g, foot).distance, 0, 1e-14) << shape.index();
-      // A distance changes by no more than one moves; a little further out it grows by just that.
+      // A distance changes by no more than the point moves; along the normal it grows by exactly that.
       const Vec3d beside = x + 0.1 * at_random(i + 7777, 1);
       EXPECT_LE(std::abs(shape_distance(g, beside).distance - d.distance), length_of(beside - x) + 1e-14);
       if (d.distance > 0) {
@@ -82,12 +82,12 @@ TEST(ShapeDistance, IsFiniteWhereManyPlacesAreNearest) {
   }
 }
 
-// From inside of a hollow cylinder its mantle and both ends are faces, from outside it is one.
+// From inside a hollow cylinder its mantle and both ends are three faces, from outside it is one face.
 TEST(HollowShapes, AreTouchedFromBothSides) {
   const auto faces_within = [](const Shape& s, const Vec3d& x, double radius) {
     std::vector<Vec3d> normals;
     for_each_face(geometry_of(s, true, {0, 0, 0}), x, [&](const SurfaceDistance<double>& face) {
-      const Vec3d& n = face.normal;  // along an axis but for rounding
+      const Vec3d& n = face.normal;  // along an axis, up to rounding
       if (face.distance < radius) normals.push_back({std::round(n.x), std::round(n.y), std::round(n.z)});
     });
     return normals;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Springs against what mathematics says of them.
+// Springs against analytic solutions.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ std::shared_ptr<const Structure> structure_of(const std::vector<Spring>& springs
   return structure;
 }
 
-// Two particles of different mass, tied, their spring stretched by `extension` (m), at rest.
+// Two particles of different mass, at rest, tied by a spring that is stretched by `extension` (m).
 struct Pair {
   Scene scene = open_scene();
   ParticleSet particles;
@@ -34,7 +34,7 @@ struct Pair {
     scene.integrator = Integrator::velocity_verlet;
     scene.time_step = dt;
     scene.materials = {{"a", 0.5, kMass1, {1000, 0, 0}, 0, ""}, {"b", 0.5, kMass2, {1000, 0, 0}, 0, ""}};
-    // In no direction of an axis.
+    // Not along an axis.
     const Vec3d along{2.0 / 7, 3.0 / 7, 6.0 / 7};
     add(particles, {1, 2, 3}, {0, 0, 0}, 0);
     add(particles, Vec3d{1, 2, 3} + (kRest + extension) * along, {0, 0, 0}, 1);
@@ -51,7 +51,7 @@ double extension_of(const Simulation& s) {
 
 class SpringModes : public testing::TestWithParam<std::tuple<SpringMode, double>> {};
 
-// e'' = -k/m e - c/m e' while the spring acts, and a steady rate while it doesn't. It starts where it acts.
+// e'' = -k/m e - c/m e' while the spring acts, and a steady rate while it doesn't. The spring acts at the start.
 TEST_P(SpringModes, FollowTheAnalyticSolution) {
   const auto [mode, damping] = GetParam();
   const double start = mode == SpringMode::compression ? -0.1 : 0.1, dt = 1e-4;
@@ -62,7 +62,7 @@ TEST_P(SpringModes, FollowTheAnalyticSolution) {
   const auto rate = [&](double t) {
     return -start * std::exp(-decay * t) * (omega + decay * decay / omega) * std::sin(omega * t);
   };
-  const double crossing = (M_PI - std::atan(omega / decay)) / omega;  // where it first passes its rest length
+  const double crossing = (M_PI - std::atan(omega / decay)) / omega;  // when the spring first passes its rest length
   const auto expected = [&](double t) {
     if (mode == SpringMode::both || t <= crossing) return acting(t);
     return rate(crossing) * (t - crossing);
@@ -70,13 +70,13 @@ TEST_P(SpringModes, FollowTheAnalyticSolution) {
   for (const Engine& engine : {kReference, kCpuDouble}) {
     const Pair pair(start, damping, mode, dt);
     Simulation s = simulate(pair.scene, pair.particles, engine);
-    // Once around; a one-sided spring then has let go of its ends for three quarters of that.
+    // One period; a one-sided spring does not act for three quarters of it.
     const auto steps = static_cast<int>(2 * M_PI / omega / dt);
     for (int n = 0; n < steps; n += 100) {
       ASSERT_TRUE(advance(s, 100));
-      // Velocity Verlet is off by (omega dt)^2/24 of the phase, 6 (omega dt)^2/24 in all; damping sees the half-step
-      // velocity, omega dt/2 of a step too late, decay dt/2 relative; and the step in which a spring stops acting is
-      // off by up to its length, omega dt of the speed.
+      // Velocity Verlet's phase is off by (omega dt)^2/24, 6 (omega dt)^2/24 in all. Damping sees the half-step
+      // velocity, omega dt/2 of a step too late, decay dt/2 relative. The moment at which a spring stops acting is
+      // off by up to a step, omega dt of the speed.
       const double w = omega * dt;
       EXPECT_NEAR(extension_of(s), expected(s.time()),
                   std::abs(start) * (w * w + 8 * decay * dt + (mode == SpringMode::both ? 0 : 8 * w * w)))
@@ -133,17 +133,17 @@ TEST(Springs, HangInADiscreteCatenary) {
   ASSERT_TRUE(advance(s, 60000));
   ASSERT_LT(measured(s).max_speed, 1e-6) << "at rest";
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    // What is left of the speed, over the decay's rate.
+    // The remaining speed over the decay's rate.
     EXPECT_NEAR(s.positions()[i + 1].x, expected[i].x, 1e-6) << i;
     EXPECT_NEAR(s.positions()[i + 1].y, expected[i].y, 1e-6) << i;
   }
-  // The ends carry the chain: per second, what gravity gives it.
+  // The ends carry the chain: a second's impulse equals that of gravity.
   const double before = s.ledger().impulse[Cause::hold].y;
   ASSERT_TRUE(advance(s, 2000));
   EXPECT_NEAR(s.ledger().impulse[Cause::hold].y - before, (kLinks + 1) * kMass * 9.8, 1e-5);
 }
 
-// Work is what the kicks add to the kinetic energy, and springs do all of it here.
+// Work is the kinetic energy that kicks add; here springs do all of it.
 TEST(Springs, AccountForTheKineticEnergy) {
   for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
     for (const Engine& engine : {kReference, kCpuDouble}) {
@@ -169,7 +169,7 @@ TEST(Springs, AccountForTheKineticEnergy) {
 TEST(Springs, BreakForEverWhenStretchedTooFar) {
   for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
     Scene scene = open_scene();
-    scene.time_step = 1.0 / 64;  // exact in binary, as all below
+    scene.time_step = 1.0 / 64;  // exact in binary, as all numbers below
     ParticleSet particles;
     add(particles, {0, 0, 0}, {0, 0, 0});
     add(particles, {4, 0, 0}, {1, 0, 0});
@@ -177,7 +177,7 @@ TEST(Springs, BreakForEverWhenStretchedTooFar) {
     s.break_strain = 0.25;
     scene.structure = structure_of({s});
     Simulation simulation = simulate(scene, particles, engine);
-    // At rest length 4 it tears above 5 m: after 64 steps it is 5 m long, and whoever begins step 65 sees 5 + 1/64 m.
+    // The rest length is 4 m, so it tears above 5 m. After 64 steps it is 5 m long, at the start of step 66 5 + 1/64 m.
     ASSERT_TRUE(advance(simulation, 65));
     EXPECT_EQ(simulation.ledger().springs.broken, 0U);
     EXPECT_EQ(measured(simulation).springs, 1U);
@@ -185,14 +185,15 @@ TEST(Springs, BreakForEverWhenStretchedTooFar) {
     EXPECT_EQ(simulation.ledger().springs.broken, 1U);
     EXPECT_EQ(measured(simulation).springs, 0U);
     EXPECT_EQ(simulation.broken_springs(), std::vector<std::uint64_t>{0});
-    // Back together: it stays broken.
+    // Moved back together, it stays broken.
     ASSERT_TRUE(simulation.set_particle(2, {4.5, 0, 0}, {0, 0, 0}));
     ASSERT_TRUE(advance(simulation, 5));
     EXPECT_EQ(measured(simulation).springs, 0U);
   }
 }
 
-// Two overlapping particles with a spring of their distance: without contact they stay, with it they are pushed apart.
+// Two overlapping particles with a spring as long as their distance: without contact they stay, with contact they are
+// pushed apart.
 TEST(Springs, KeepTheirEndsFromTouchingWhereAskedTo) {
   for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
     for (const bool contact : {false, true}) {
@@ -207,7 +208,7 @@ TEST(Springs, KeepTheirEndsFromTouchingWhereAskedTo) {
       ASSERT_TRUE(advance(simulation, 10));
       EXPECT_EQ(simulation.positions()[0].x < 0, contact);
       if (contact) continue;
-      // Torn, they touch again.
+      // Once the spring is torn, they touch again.
       ASSERT_TRUE(simulation.set_particle(2, {2, 0, 0}, {0, 0, 0}));
       ASSERT_TRUE(advance(simulation, 1));
       EXPECT_EQ(simulation.ledger().springs.broken, 1U);

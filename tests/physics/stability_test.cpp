@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// The largest stable step of a pile, found by running one: a face-centred cubic block, touching by a hair.
+// The largest stable step of a pile, found by running a face-centred cubic block with the slightest touch.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 namespace hooke::test {
 namespace {
 
-constexpr int kCells = 2;  // an axis; the fastest mode alternates within one
+constexpr int kCells = 2;  // along each axis; the fastest mode alternates within one cell
 constexpr double kOverlap = 1e-3;
 
 Scene fcc_scene(const ContactCoefficients<double>& contact) {
@@ -43,7 +43,7 @@ ParticleSet fcc_block(const Scene& scene) {
   return particles;
 }
 
-// How far a displacement of 1e-10 m grows in `steps` of `dt`.
+// The growth of a displacement of 1e-10 m in `steps` of `dt`.
 double growth(const ContactCoefficients<double>& contact, double dt, int steps = 80) {
   constexpr double kStart = 1e-10;
   Scene scene = fcc_scene(contact);
@@ -66,7 +66,7 @@ double growth(const ContactCoefficients<double>& contact, double dt, int steps =
   return furthest / kStart;
 }
 
-// The block is 0.1 % compressed, which lowers its eigenvalues by as little.
+// The block is compressed by 0.1 %, which lowers its eigenvalues by as little.
 constexpr double kNear = 0.02;
 constexpr int kManySteps = 300;  // a mode of dashpots grows by 4 % a step there
 
@@ -115,7 +115,7 @@ TEST(StableStep, NamesThePairThatLimits) {
   EXPECT_EQ(stable_step(scene).limit, "shear and damping of hard - hard");
 }
 
-// A chain whose fastest mode moves neighbours against each other: omega^2 = 4 k/m, gamma = 4 c/m, but for its ends.
+// A chain: its fastest mode moves neighbours against each other, omega^2 = 4 k/m, gamma = 4 c/m, except at its ends.
 TEST(StableStep, IsThatOfAChainOfSprings) {
   constexpr int kLinks = 60;
   for (const double damping : {0.0, 3.0, 400.0}) {
@@ -124,7 +124,7 @@ TEST(StableStep, IsThatOfAChainOfSprings) {
     ParticleSet particles;
     auto structure = std::make_shared<Structure>();
     for (std::uint64_t i = 1; i <= kLinks + 1; ++i) {
-      // The start of that mode.
+      // A small displacement in that mode.
       add(particles, {1.5 * static_cast<double>(i) + (i % 2 == 0 ? 1e-6 : -1e-6), 0, 0}, {0, 0, 0});
       if (i > 1) structure->springs.push_back({i - 1, i, 1.5, 1000, damping});
     }
@@ -179,8 +179,8 @@ TEST(StableStep, IsThatOfDrag) {
   EXPECT_EQ(stable_step(scene).limit, "drag of " + scene.materials[0].name);
 }
 
-// Drag of the medium and of fields brake together; the step at which they let a particle's speed grow is the one that
-// is said, and named is who has a part in it.
+// Drag of the medium and of fields brake together. A particle's speed grows above the step that stable_step() gives,
+// and the limit's name lists every cause of it.
 TEST(StableStep, CountsWhatFieldsBrake) {
   Scene scene = open_scene();
   scene.materials[0].contact = {0, 0, 0};
@@ -223,7 +223,7 @@ TEST(StableStep, NamesTheClothAndTheWindOnIt) {
   const std::string name = scene.materials[0].name;
   EXPECT_EQ(stable_step(scene, corners).limit, "stiffness of the springs around particle 1 (cloths[0], " + name + ")");
   Wind wind;
-  wind.area_drag = 300;  // on 2 m^2, a third of it a corner
+  wind.area_drag = 300;  // on 2 m^2, a third of it for each corner
   scene.fields = {{wind, {}, {}}};
   EXPECT_DOUBLE_EQ(stable_step(scene, corners).seconds, 2 / 200.0);
   EXPECT_EQ(stable_step(scene, corners).limit, "area_drag of the wind fields[0] on cloths[0]");

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Friction, tension and cohesion: the law by itself, two bodies against an integration written out here, and what
-// mathematics says of them.
+// Friction, tension and cohesion: the law by itself, two bodies against an integration written out here, and analytic
+// solutions.
 
 #include <gtest/gtest.h>
 
@@ -89,7 +89,7 @@ TEST(SurfaceLaw, OfAPairIsEqualAndOpposite) {
   }
 }
 
-// Two bodies, written out: Coulomb's cap, tension and cohesion as the scene's keys are described, by branches.
+// Two bodies, written out with branches: Coulomb's cap, tension and cohesion as the scene's keys describe them.
 struct TwoBodies {
   double k, c_s, c_d, mu, tension, strength, range, radius, m_1, m_2, dt;
   Vec3d x_1, v_1, x_2, v_2;
@@ -129,7 +129,7 @@ TEST_P(Surfaces, FollowTheIntegrationOfTwoBodies) {
   const auto& [friction, tension, cohesion, range] = GetParam().surface;
   TwoBodies bodies{1000, 6, 4, friction, tension, cohesion, range, 0.5, 1, 2, 1e-4, {}, {}, {}, {}};
   bodies.x_1 = {0, 0, 0};
-  bodies.v_1 = {0.5, 1, 0.25};  // oblique: sliding first, then sticking where friction is strong
+  bodies.v_1 = {0.5, 1, 0.25};  // oblique: slides first, then sticks where friction is strong
   bodies.x_2 = {1.03125, 0.0625, 0};
   bodies.v_2 = {-0.5, -0.25, 0};
 
@@ -152,7 +152,7 @@ TEST_P(Surfaces, FollowTheIntegrationOfTwoBodies) {
     if (n % 100 != 99) continue;
     for (Simulation& run : runs) {
       ASSERT_TRUE(advance(run, 100));
-      // Doubles round 1e-16 of a metre, floats 1e-7, a contact found a step later moves by 1e-4 s of 1 m/s times dt.
+      // Doubles round by 1e-16 m, floats by 1e-7 m; a contact found a step later moves by 1e-4 s of 1 m/s times dt.
       const double tolerance = run.backend_info().precision == Precision::double_precision ? 1e-12 : 1e-4;
       for (const auto& [at, x] : {std::pair{0, bodies.x_1}, std::pair{1, bodies.x_2}}) {
         const Vec3d off = run.positions()[static_cast<std::size_t>(at)] - x;
@@ -173,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Surfaces,
                                          SurfaceCase{"all", {0.4, 0, 5, 0.0625}}),
                          [](const auto& instance) { return instance.param.name; });
 
-// On a floor that friction alone brakes, a block goes v^2 / (2 mu g) and stops; and its energy is in the ledger.
+// On a floor where only friction brakes, a block slides v^2 / (2 mu g) and stops; the ledger accounts for its energy.
 TEST(Friction, StopsASlidingParticleWhereTheBooksSay) {
   constexpr double kMu = 0.25, kSpeed = 2, kG = 8, kDt = 1e-4;
   for (const Engine& engine : {kReference, kCpuDouble}) {
@@ -182,7 +182,7 @@ TEST(Friction, StopsASlidingParticleWhereTheBooksSay) {
     scene.gravity = {0, -kG, 0};
     scene.domain.boundary[1] = Boundary::spring;
     scene.domain.min.y = 0;
-    // Damping of 2 sqrt(k m) keeps it from hopping, shear makes it stick at the end: below 1e-3 m/s.
+    // Damping of 2 sqrt(k m) keeps the block from hopping, shear makes it stick at the end: below 1e-3 m/s.
     scene.materials = {{"block", 0.5, 1, {1e4, 2000, 200}, 0, ""}};
     scene.materials[0].surface.friction = kMu;
     ParticleSet particles;
@@ -193,13 +193,13 @@ TEST(Friction, StopsASlidingParticleWhereTheBooksSay) {
     EXPECT_NEAR(s.velocities()[0].x, kSpeed / 2, 1e-9) << "uniformly braked";
     EXPECT_NEAR(s.ledger().work[Cause::wall], -0.75 * 0.5 * kSpeed * kSpeed, 1e-9);
     ASSERT_TRUE(advance(s, static_cast<std::int64_t>(0.6 * time / kDt)));
-    // A step of the braking, and what sticking creeps: 1e-3 m/s for m/c_s seconds.
+    // One step of braking, and the creep while it sticks: 1e-3 m/s for m/c_s seconds.
     EXPECT_NEAR(s.positions()[0].x, kSpeed * kSpeed / (2 * kMu * kG), 0.5 * kSpeed * kDt + 1e-5);
     EXPECT_NEAR(s.velocities()[0].x, 0, 1e-9);
   }
 }
 
-// A slope of which the tangent is below mu holds a particle but for the creep of its dashpot; above, it slides.
+// A slope with a tangent below mu holds a particle, except for the creep of its dashpot; on a steeper slope it slides.
 TEST(Friction, HoldsOnASlopeUpToItsAngle) {
   for (const double tangent : {0.2, 0.6}) {
     constexpr double kMu = 0.4, kG = 10, kShear = 1e4;
@@ -219,8 +219,8 @@ TEST(Friction, HoldsOnASlopeUpToItsAngle) {
   }
 }
 
-// Cohesion is conservative: with no dashpots energy comes back, to the integrator's error, and two at rest within its
-// range come together and stay.
+// Cohesion is conservative: without dashpots energy comes back, up to the integrator's error, and two particles at rest
+// within its range come together and stay.
 TEST(Cohesion, KeepsTheEnergyAndBinds) {
   for (const Engine& engine : {kReference, kCpuDouble}) {
     Scene scene = open_scene();
@@ -247,7 +247,7 @@ TEST(Cohesion, KeepsTheEnergyAndBinds) {
   }
 }
 
-// Across a periodic face, and to a wall that it doesn't touch.
+// Across a periodic face, and to a wall that the particle doesn't touch.
 TEST(Cohesion, ReachesAcrossPeriodicFacesAndToWalls) {
   Scene scene = open_scene();
   scene.domain.min = {0, 0, 0};
@@ -269,7 +269,7 @@ TEST(Cohesion, ReachesAcrossPeriodicFacesAndToWalls) {
   }
 }
 
-// What is fixed stays to the bit, and is a partner of infinite mass: what hits it leaves as it would leave a wall.
+// A fixed particle does not move by a bit, and is a partner of infinite mass: a ball bounces off it as off a wall.
 TEST(Fixed, ParticlesDoNotMoveAndTurnOthersBack) {
   for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
     Scene scene = open_scene();
@@ -298,7 +298,7 @@ TEST(Fixed, ParticlesDoNotMoveAndTurnOthersBack) {
   }
 }
 
-// The ledger's kinetic balance holds with sliding contacts, and friction is a cause of its own in it.
+// The ledger's kinetic balance holds with sliding contacts, and friction is a separate cause in it.
 TEST(Friction, IsInTheLedger) {
   for (const Engine& engine : {kReference, kCpuDouble}) {
     Scene scene = open_scene();

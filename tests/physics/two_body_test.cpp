@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Two particles, and one against a wall: what the engine does against what mathematics says.
+// Two particles, and one against a wall: the engine against analytic solutions.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// What a contact along its normal obeys: m_eff s'' = -k s - c s', s the overlap.
+// A contact along its normal: m_eff s'' = -k s - c s', s the overlap.
 struct Oscillator {
   double k, c, m_eff;
   double s0, rate0;  // at t = 0
@@ -43,8 +43,8 @@ struct Oscillator {
     const Complex a = (s1 - s0 * q) / (p - q), b = s0 - a;
     return (a * std::pow(p, n) + b * std::pow(q, n)).real();
   }
-  // Velocity Verlet's positions are those of symplectic Euler whose velocities are half a step behind: started so that
-  // one kick of a whole step leads to the half-step velocity.
+  // Velocity Verlet's positions equal those of symplectic Euler with velocities half a step behind. So start Euler such
+  // that one kick of a whole step leads to the half-step velocity.
   double verlet_overlap(int n, double dt) const {
     const double half_rate = rate0 + dt / 2 * (-omega2() * s0 - gamma() * rate0);
     const double w = omega2() * dt * dt, g = gamma() * dt;
@@ -85,7 +85,7 @@ class Bodies : public testing::TestWithParam<std::tuple<Contact, Integrator>> {
     }
     scene.materials.push_back({"b", 0.75, contact().mass_2, {o.k, 7, o.c}, 0, ""});
     scene.contacts = {{0, 1, {o.k, 7, o.c}}};
-    // Both move, the centre of mass too.
+    // Both particles move, and so does the centre of mass.
     particles = pair_on_x(scene, o.s0, {0.3 + o.rate0, 0, 0}, {0.3, 0, 0});
     return simulate(scene, particles, engine);
   }
