@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: The Hooke authors
 # SPDX-License-Identifier: MIT
 #
-# compile_laws.sh NVCC HOST_COMPILER SOURCES OUTPUT: device code of every law, all of whose operations are rounded once.
+# compile_laws.sh NVCC HOST_COMPILER SOURCES OUTPUT: device code of every law; each operation is rounded once.
 set -euo pipefail
 nvcc=$1 compiler=$2 sources=$3 output=$4
 "$nvcc" -ccbin "$compiler" -std=c++20 -arch=sm_90 --fmad=false -Werror all-warnings \

@@ -79,7 +79,7 @@ TEST(DefaultCamera, LooksFromALittleAboveWithTheLongSideAcross) {
   EXPECT_GT(camera.eye.y, box.max.y);
   EXPECT_GT(std::abs(axes(camera).right.x), 0.8);
   EXPECT_EQ(camera.up, (Vec3d{0, 1, 0}));
-  // Up is up, whatever it is.
+  // The camera's up follows the given up.
   for (const Vec3d& up : {Vec3d{0, 0, 1}, Vec3d{0, -1, 0}, Vec3d{1, 0, 0}}) {
     EXPECT_GT(dot(axes(default_camera(box, up, 35, 1)).up, up), 0.8);
   }

@@ -16,7 +16,7 @@ Domain domain() {
   return d;
 }
 
-// Corners lie on the shape, and seen from outside triangles go against the clock.
+// Corners lie on the shape, and triangles are counterclockwise as seen from outside.
 TEST(ShapeSurface, LiesOnTheShapeAndFacesOutward) {
   const Shape shapes[] = {PlaneShape{{0.2, 0.1, 0}, {1, 2, 3}},
                           BoxShape{{-1, -0.5, -2}, {1, 0.7, 0}},
@@ -57,7 +57,8 @@ TEST(ColliderMeshes, MoveWithTheirColliders) {
   scene.colliders[0].motion = SteadyMotion{{1, 0, 0}, {0, 0, M_PI / 2}, Vec3d{0, 0, 0}};
   const std::vector<ShadedMesh> meshes = collider_meshes(scene, 1, {10, 0, 0});
   ASSERT_EQ(meshes.size(), 1U);
-  // After a quarter of a turn about 0 it reaches from x = -1 to 0 and up to y = 2, moved by 1, seen from (10, 0, 0).
+  // After a quarter of a turn about 0 the box spans x = -1 to 0 and goes up to y = 2; it is moved by 1, and positions
+  // are relative to (10, 0, 0).
   float low = 1e9f, high = -1e9f, top = -1e9f;
   for (const ShadedMesh::Corner& corner : meshes[0].corners) {
     low = std::min(low, corner.position.x);

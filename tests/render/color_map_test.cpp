@@ -64,7 +64,7 @@ TEST(ColorMap, ClampsAndShowsNoNumberAsGrey) {
   EXPECT_EQ(map_color(std::numeric_limits<double>::quiet_NaN()), (Color{128, 128, 128}));
 }
 
-// Values of the article that defines the space.
+// Values from the article that defines the space.
 TEST(ColorMap, OklabOfKnownColors) {
   struct Known {
     Color color;

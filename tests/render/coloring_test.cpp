@@ -12,7 +12,7 @@
 namespace hooke {
 namespace {
 
-// Two that touch, on the floor of a tank, and one that falls.
+// Two particles that touch on the floor of a tank, and one that falls.
 struct Sample {
   Scene scene;
   ParticleSet particles;
@@ -57,7 +57,7 @@ TEST(ColorValues, HeightIsAgainstGravity) {
 
 TEST(DefaultScale, SuitsTheRun) {
   const Sample s;
-  const double reach = 1.15 * 2.5;  // up to the highest, and a bit
+  const double reach = 1.15 * 2.5;  // a bit above the highest particle
   const auto high = [&](ColorBy by) {
     const ColorScale scale = default_scale(s.scene, s.particles, by);
     EXPECT_EQ(scale.by, by);

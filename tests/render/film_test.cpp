@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Films are read back by ffprobe.
+// ffprobe reads films back.
 
 #include "hooke/render/film.h"
 
@@ -198,7 +198,7 @@ TEST_F(Film, AKillLeavesTheFramesAddedBefore) {
     int status = 0;
     ASSERT_EQ(waitpid(child, &status, 0), child);
     ASSERT_TRUE(WIFSIGNALED(status));
-    // ffmpeg goes on for a moment.
+    // ffmpeg goes on writing for a moment.
     test::FilmProbe probe;
     for (int i = 0; i < 100 && probe.frames < kFrames; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -30,7 +30,7 @@ ParticleSet one_of_each(const Vec3d& corner = {0, 0, 0}) {
   return particles;
 }
 
-// A surface takes the place of the spheres of its particles.
+// A surface replaces the spheres of its particles.
 TEST(MakeFrame, SurfacesAreDrawnInPlaceOfTheirParticles) {
   Scene scene = tank();
   ParticleSet particles = one_of_each();
@@ -49,7 +49,7 @@ TEST(MakeFrame, SurfacesAreDrawnInPlaceOfTheirParticles) {
   EXPECT_EQ(mesh.color, (Color{0xc0, 0x20, 0x40}));
   EXPECT_EQ(mesh.corners[2].position, vec_cast<float>(particles.position[2] - frame.origin));
 
-  // Where a spring along an edge, 1 m long here, is stretched so far that it breaks, there is a hole.
+  // A triangle is a hole where a spring along its edge, 1 m long here, is stretched so far that it breaks.
   for (const double break_strain : {0.2, 0.3}) {
     auto tearable = std::make_shared<Structure>(*structure);
     tearable->springs.push_back({2, 1, 0.8, 100, 0, break_strain});
@@ -59,7 +59,7 @@ TEST(MakeFrame, SurfacesAreDrawnInPlaceOfTheirParticles) {
   }
   scene.structure = structure;
 
-  // Across a periodic face its two ends are neighbours, not on a picture.
+  // The two ends of an edge across a periodic face are neighbours, but far apart in a picture.
   scene.domain.boundary = {Boundary::periodic, Boundary::periodic, Boundary::periodic};
   particles.position[1].x = scene.domain.min.x + 0.9 * scene.domain.length(0);
   const Look look = make_look(scene, particles, ColorBy::material);
@@ -99,7 +99,7 @@ TEST(MakeFrame, SpheresArePlacedColouredAndSizedByTheirParticles) {
     EXPECT_NEAR(s.z, expected.z, 1e-6);
   }
   EXPECT_EQ(frame.spheres[0].color, (Color{0xc0, 0x20, 0x40}));
-  EXPECT_NE(frame.spheres[1].color, frame.spheres[2].color);  // without one of their own, not the same
+  EXPECT_NE(frame.spheres[1].color, frame.spheres[2].color);  // materials without a colour of their own differ
   EXPECT_EQ(frame.spheres[0].radius, 0.25f);
   EXPECT_EQ(frame.spheres[1].radius, 0.5f);
 }
@@ -126,7 +126,7 @@ TEST(MakeFrame, OnlyWaterFoams) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(frame.spheres[i].foam, 0) << i;
   EXPECT_EQ(frame.spheres[3].foam, 255);
 
-  // Rises with the speed; at rest it is water all the same.
+  // Foam rises with the speed; at rest it is above 0, because the sphere is water.
   int before = 0;
   for (const double speed : {0.0, 0.5, 0.7, 0.9, 2.0}) {
     particles.velocity[3] = {0, -speed * look.foam_speed, 0};
@@ -136,7 +136,7 @@ TEST(MakeFrame, OnlyWaterFoams) {
   }
   EXPECT_EQ(before, 255);
 
-  // Coloured by a quantity it is balls like all else.
+  // Coloured by a quantity, water is drawn as balls like everything else.
   frame = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::speed), 1.5);
   EXPECT_EQ(frame.spheres[3].foam, 0);
   EXPECT_EQ(frame.spheres[3].radius, 0.2f);

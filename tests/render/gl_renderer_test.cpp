@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Pictures drawn by Mesa's software driver, so that they are the same on any machine but for its version.
+// Mesa's software driver draws the pictures, so that they are the same on any machine with the same version of Mesa.
 //
 // Where HOOKE_UPDATE_IMAGES is set, the stored pictures are written instead of compared (target update_test_images).
 
@@ -40,7 +40,7 @@ class GlRenderer : public testing::Test {
     return *shared;
   }
 
-  // Throws, with why, where there is no OpenGL: the machine is not set up (tools/setup.sh).
+  // Throws, with the reason, where there is no OpenGL: the machine is not set up (tools/setup.sh).
   static std::unique_ptr<Renderer> make(const RenderSettings& settings) {
     auto made = make_gl_renderer(settings);
     if (!made) throw std::runtime_error(made.error().text());
@@ -61,7 +61,7 @@ Frame frame_of(const PictureScene& p) {
 // Red balls, radius 0.5, in a tank of 8 x 4 x 6 m.
 Frame red_balls(const std::vector<Vec3d>& at, const char* color = "#e01010") {
   PictureScene p{"", ball_tank({8, 4, 6}, 0.5, color), {}};
-  ParticleSet high;  // the same camera whatever is shown
+  ParticleSet high;  // gives the same camera for any balls
   add(high, {4, 3.5, 3});
   for (const Vec3d& position : at) add(p.particles, position);
   return make_frame(p.scene, p.particles, 0, make_look(p.scene, high, ColorBy::material), kAspect);
@@ -145,12 +145,12 @@ TEST_F(GlRenderer, ABallIsWhereItIsAndNowhereElse) {
     const float depth = -dot(Vec3f{s.x, s.y, s.z} - view.eye, view.back);
     const double radius = static_cast<double>(view.scale * s.radius / depth);
     area += std::numbers::pi * radius * radius;
-    // Just inside of its rim and outside of it, above, where there is light.
+    // Just inside and just outside the ball's rim, at the top, where there is light.
     EXPECT_TRUE(is_red(at(image, x, y - static_cast<int>(0.85 * radius))));
     EXPECT_FALSE(is_red(at(image, x, y - static_cast<int>(1.2 * radius))));
   }
   EXPECT_NEAR(count(image, is_red), area, 0.12 * area);
-  // Far from the balls and their shadows the picture is that without them.
+  // Far from the balls and their shadows, the picture is the same as without balls.
   EXPECT_EQ(at(image, 1, 1), at(empty, 1, 1));
   EXPECT_EQ(at(image, kWidth - 2, kHeight / 8), at(empty, kWidth - 2, kHeight / 8));
 }
@@ -164,7 +164,7 @@ TEST_F(GlRenderer, WithoutParticlesNothingIsDrawn) {
 
 TEST_F(GlRenderer, WhatIsHiddenDoesNotShow) {
   Frame frame = red_balls({{4, 2, 3}, {4, 2, 3}});
-  // The second, green and smaller, right behind the first.
+  // The second ball, green and smaller, is right behind the first.
   const Vec3d back = axes(frame.camera).back;
   Sphere& hidden = frame.spheres[1];
   const auto put = [&](double distance) {
@@ -180,7 +180,7 @@ TEST_F(GlRenderer, WhatIsHiddenDoesNotShow) {
   EXPECT_EQ(count(draw(frame), is_green), 0);
   put(-0.2);  // inside
   EXPECT_EQ(count(draw(frame), is_green), 0);
-  put(0.8);  // before it
+  put(0.8);  // in front of it
   EXPECT_GT(count(draw(frame), is_green), 20);
   put(0.4);  // sticks out of it
   EXPECT_GT(count(draw(frame), is_green), 5);
@@ -225,7 +225,7 @@ TEST_F(GlRenderer, FastWaterIsWhite) {
   EXPECT_LT(white[2] - white[0], 60) << testing::PrintToString(white);
 }
 
-// By night what does not glow is dark, and what does is as bright as its colour.
+// At night, balls that do not glow are dark, and balls that glow are as bright as their colour.
 TEST_F(GlRenderer, SparksShineByThemselves) {
   Frame frame = red_balls({{4, 2, 3}});
   frame.daylight = 0.12f;
@@ -282,7 +282,7 @@ TEST_F(GlRenderer, RefusesSizesThatCanNotBe) {
   }
 }
 
-// Compared with the stored picture; what was drawn is kept where they differ.
+// Compares with the stored picture; keeps the drawn picture where they differ.
 class StoredPicture : public GlRenderer, public testing::WithParamInterface<PictureScene> {};
 
 Image read_png(const std::filesystem::path& file) {
@@ -322,7 +322,7 @@ INSTANTIATE_TEST_SUITE_P(All, StoredPicture, testing::ValuesIn(picture_scenes())
   return name;
 });
 
-// The stored pictures are of different scenes: one file in place of another would not do.
+// The stored pictures show different scenes: swapped files would be noticed.
 TEST(StoredPictures, AreAllDifferent) {
   std::vector<Image> images;
   for (const PictureScene& p : picture_scenes()) {

@@ -46,7 +46,7 @@ TEST(Interpolate, GoesThroughBothEnds) {
   EXPECT_EQ(first.velocity, a.velocity);
   expect_near(last.position[0], b.position[0]);
   expect_near(last.velocity[0], b.velocity[0]);
-  // And leaves and arrives with the velocities of both ends.
+  // The path leaves and arrives with the velocities of both ends.
   constexpr double h = 1e-6;
   const ParticleSet soon = interpolate(box(), before, after, 2 + h), late = interpolate(box(), before, after, 2.5 - h);
   expect_near((1 / h) * (soon.position[0] - a.position[0]), a.velocity[0], 1e-3);
@@ -85,7 +85,7 @@ TEST(Interpolate, CrossesAPeriodicFaceTheShortWay) {
   expect_near(at(0.03).position[0], {0.1, 5, 5});
   expect_near(at(0.01).position[1], {0.1, 5, 5});
   expect_near(at(0.03).position[1], {9.9, 5, 5});
-  // Between walls it is the long way that has been taken.
+  // Between walls the particle has moved the long way.
   scene.domain.boundary[0] = Boundary::spring;
   expect_near(at(0.02).position[0], {5, 5, 5});
 }

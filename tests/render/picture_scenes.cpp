@@ -10,7 +10,7 @@
 namespace hooke::test {
 namespace {
 
-// Where particle `index` would be but for a little disorder.
+// `at` with a small random shift for particle `index`.
 Vec3d jittered(const Vec3d& at, double most, std::uint64_t index) {
   const auto u = uniform4(3, index, 0);
   return at + most * Vec3d{2 * u[0] - 1, 2 * u[1] - 1, 2 * u[2] - 1};
@@ -48,7 +48,7 @@ PictureScene large_on_small() {
   return picture;
 }
 
-// A pool with a crown that rises from it, and drops.
+// A pool, a crown that rises from it, and drops.
 PictureScene splash() {
   PictureScene picture{"splash", ball_tank({8, 4, 5}, 0.06, "#2f7fd6"), {}};
   picture.scene.materials[0].look = MaterialLook::water;
@@ -76,7 +76,7 @@ PictureScene by_speed() {
   return picture;
 }
 
-// The pile again, with z upward, walls on four sides, an eye of the scene's own and an orbit.
+// The pile again, with z upward, walls on four sides, and an eye and an orbit from the scene.
 PictureScene orbit() {
   PictureScene picture{"orbit", ball_tank({4, 4, 4}, 0.3, "#4cb35a"), {}};
   picture.scene.gravity = {0, 0, -9.8};

@@ -14,7 +14,7 @@ namespace hooke::test {
 
 /// A small scene to take a picture of, the same in every run and on every machine.
 struct PictureScene {
-  std::string name;  ///< of its stored picture too: images/NAME.png
+  std::string name;  ///< also names the stored picture: images/NAME.png
   Scene scene;
   ParticleSet particles;
   ColorBy by = ColorBy::material;
@@ -23,7 +23,7 @@ struct PictureScene {
 
 inline void PrintTo(const PictureScene& picture, std::ostream* out) { *out << picture.name; }
 
-/// Between them they show everything that a picture can hold.
+/// All picture scenes; together they show everything that a picture can hold.
 std::vector<PictureScene> picture_scenes();
 
 /// The scene of a tank of this size with balls of one material, "a".

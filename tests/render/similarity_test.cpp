@@ -13,7 +13,7 @@
 namespace hooke::test {
 namespace {
 
-// Soft waves of different lengths: edges, slopes and even parts.
+// Soft waves of different lengths: edges, slopes and flat parts.
 Image waves() {
   Image image(96, 64);
   for (int y = 0; y < image.height; ++y) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Against brute force: every pixel's ray with every sphere, in double precision.
+// Against brute force: every pixel's ray against every sphere, in double precision.
 
 #include "hooke/render/visible_spheres.h"
 
@@ -39,7 +39,7 @@ Vec3d across(double x, double y, const Projection& view) {
   return x * vec_cast<double>(view.right) + y * vec_cast<double>(view.up);
 }
 
-// Who is seen at the centre of any pixel. Of a sphere only its outside is seen, from the projection's nearest depth on.
+// The spheres seen at the centre of any pixel. A sphere shows only its outside, from the projection's nearest depth on.
 std::set<std::uint32_t> owners(const std::vector<Sphere>& spheres, const Projection& view) {
   std::set<std::uint32_t> all;
   const Vec3d ahead = -1.0 * vec_cast<double>(view.back);
@@ -145,7 +145,7 @@ TEST(VisibleSpheres, NothingHidesWhatReachesBeforeIt) {
 
 TEST(VisibleSpheres, OfNoneNone) { EXPECT_TRUE(visible_spheres({}, project(Camera{}, kWidth, kHeight)).empty()); }
 
-// 100,000 balls on a cubic lattice, a little jittered, a box of 50 x 40 x 50.
+// 100,000 balls on a slightly jittered cubic lattice, a box of 50 x 40 x 50.
 std::vector<Sphere> dense_pile() {
   std::vector<Sphere> pile;
   for (std::size_t i = 0; i < 100'000; ++i) {
@@ -183,7 +183,7 @@ TEST(Project, PutsTheTargetInTheMiddleAndTheFieldOfViewFromBottomToTop) {
   EXPECT_EQ(view.width, 1280);
   EXPECT_EQ(view.height, 720);
   EXPECT_FALSE(view.parallel);
-  // A metre at a depth of 1 m, where half the picture is tan 30 degrees.
+  // Pixels a metre at a depth of 1 m, where half the picture is tan 30 degrees.
   EXPECT_NEAR(view.scale, 360 / std::tan(std::numbers::pi / 6), 1e-3);
   EXPECT_FLOAT_EQ(view.nearest, 4e-3f);
   EXPECT_FLOAT_EQ(view.back.z, 1);

@@ -42,7 +42,7 @@ std::vector<Sphere> slab(int depth, std::uint8_t foam) {
 }
 
 TEST(WaterThickness, IsTheDepthOfWhatIsPackedAtRandom) {
-  // Frame draws the spheres of water larger by a quarter, so that of a metre their own volume fills this much.
+  // A frame's water spheres are larger by a quarter than the particles; the particles fill this share of a metre.
   const double own = 64 * 4 * std::numbers::pi / 3 * std::pow(0.1 / 1.25, 3);
   for (const int depth : {1, 3}) {
     const WaterThickness thickness = water_thickness(slab(depth, 1), from_above());

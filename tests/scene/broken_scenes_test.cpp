@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Every broken/NAME.json is refused with the findings of broken/NAME.expected, all of them and no others.
+// Every broken/NAME.json is refused with exactly the findings of broken/NAME.expected.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ std::string read(const fs::path& file) {
 class BrokenScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(BrokenScene, IsRefusedWithItsMessage) {
-  // Without OpenVDB what is wrong with a distance field is not found.
+  // Without OpenVDB, errors of a distance field are not found.
   if (GetParam() == "bodies-meshes" || GetParam() == "emitters-meshes") HOOKE_NEEDS_OPENVDB();
   LoadOptions options;
   options.memory_limit = std::uint64_t{1} << 30U;

@@ -29,7 +29,7 @@ ClusterParticles make(ClusterSource::Profile profile, double companion = 0) {
   return made;
 }
 
-// A random quantity of n particles is off by its spread over sqrt(n): four of those are allowed.
+// A random quantity of n particles has an error of its spread over sqrt(n): four times that is allowed.
 constexpr double kAllowed = 4 / 141.0;
 
 TEST(PlummerCluster, IsInEquilibrium) {
@@ -43,7 +43,7 @@ TEST(PlummerCluster, IsInEquilibrium) {
     momentum += kMass * made.velocity[i];
   }
   std::nth_element(radius.begin(), radius.begin() + kCount / 2, radius.end());
-  // Half of the mass that is within ten scales is within 1.29 of them; without the cut it were 1.3048.
+  // Half of the mass within ten scales is within 1.29 scales; without the cut it would be within 1.3048.
   EXPECT_NEAR(radius[kCount / 2] / kScale, 1.29, 1.29 * kAllowed);
   EXPECT_LE(*std::max_element(radius.begin(), radius.end()), 10.001 * kScale);
   // The virial theorem: 2 T = -W = 3 pi / 32 G M^2 / scale.
@@ -64,11 +64,11 @@ TEST(DiscCluster, TurnsOnCircles) {
     EXPECT_LE(ratio, 6.001);
     if (ratio < std::sqrt(3.0)) ++within;
     EXPECT_NEAR(x.x * v.x + x.z * v.z, 0, 1e-9);
-    EXPECT_GE(x.z * v.x - x.x * v.z, 0);  // against the clock, seen from above
+    EXPECT_GE(x.z * v.x - x.x * v.z, 0);  // counterclockwise, seen from above
     const double speed2 = kConstant * total / kScale * ratio * ratio / std::pow(1 + ratio * ratio, 1.5);
     EXPECT_NEAR(dot(v, v), speed2, 1e-9);
   }
-  // Kuzmin's disc has 1 - 1 / sqrt(1 + 3) = 1 / 2 within sqrt(3) scales, of 1 - 1 / sqrt(37) within the cut.
+  // Kuzmin's disc has 1 - 1 / sqrt(1 + 3) = 1 / 2 of its mass within sqrt(3) scales, 1 - 1 / sqrt(37) within the cut.
   EXPECT_NEAR(static_cast<double>(within) / kCount, 0.5 / (1 - 1 / std::sqrt(37.0)), kAllowed);
 }
 

@@ -22,17 +22,17 @@ class FileReading : public testing::Test {
     warnings_.clear();
     return read_particle_file(folder_.write(name, text), name, rules_, findings_, warnings_);
   }
-  /// What is wrong with the file that was read last, a finding a line.
+  /// The errors of the file that was read last, a finding a line.
   std::string complaints() { return Error{Error::Kind::bad_input, findings_.take()}.text(); }
   std::string warnings() const { return Error{Error::Kind::bad_input, warnings_}.text(); }
-  /// What is wrong with this file.
+  /// The errors of this file.
   std::string refusal(const std::string& name, std::string_view text) {
     read(name, text);
     return complaints();
   }
 
-  /// Reads every beginning of a good file of `count` particles, and the file with each byte changed. Either there are
-  /// findings or all particles; never a value that no file may bring in.
+  /// Reads every beginning of a valid file of `count` particles, and the file with each byte changed. The result is
+  /// findings or all particles, and never a value that is not allowed in a file.
   void damage(const std::string& name, const std::string& text, std::size_t count) {
     const auto check = [&](const FileParticles& p, bool complete) {
       if (complete && findings_.empty()) {

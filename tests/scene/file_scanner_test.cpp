@@ -29,7 +29,7 @@ TEST(FileScanner, ReadsLinesOfEveryForm) {
   EXPECT_FALSE(in.skip_lines(2));
 }
 
-// Lines and bytes that lie across the pieces in which a file is read are whole.
+// Lines and bytes that cross the pieces in which a file is read stay whole.
 TEST(FileScanner, JoinsItsPieces) {
   const ScratchFolder folder;
   std::string text;

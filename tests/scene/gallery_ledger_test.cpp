@@ -18,9 +18,9 @@ namespace {
 
 class GalleryLedger : public testing::TestWithParam<std::string> {};
 
-// What the kinetic energy gains is the work of all causes, and what comes and goes with particles: in double but for
-// rounding, by a billionth of what goes through the ledger. Without gravity, where particles come and go, whose
-// potential energy the ledger does not tell from the kinetic.
+// The gain in kinetic energy is the work of all causes plus the energy that particles bring and take: in double up to
+// rounding, a billionth of the energy that goes through the ledger. Where particles come and go, without gravity: the
+// ledger does not tell their potential energy from the kinetic.
 TEST_P(GalleryLedger, KineticEnergyBalances) {
   const std::filesystem::path file = bundled_folder() / (GetParam() + ".json");
   if (has_mesh(file)) HOOKE_NEEDS_OPENVDB();

@@ -18,7 +18,7 @@ TEST(JsonReader, KeepsOrderLinesAndComments) {
   EXPECT_EQ(r.lines.at("a"), 4);
   EXPECT_EQ(r.lines.at("a[0]"), 5);
   EXPECT_EQ(r.lines.at("a[1]"), 6);
-  EXPECT_EQ(r.lines.at("c"), 7);  // a number is known to end only on the next line
+  EXPECT_EQ(r.lines.at("c"), 7);  // the reader knows a number's end only on the next line
   EXPECT_TRUE(r.faults.empty());
 }
 

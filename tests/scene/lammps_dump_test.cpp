@@ -73,7 +73,7 @@ TEST_F(LammpsDumpTest, TakesTheBestOfSeveralPositions) {
   EXPECT_EQ(complaints(), "");
 }
 
-// The box is -1 to 4 and periodic along x alone. A face belongs to the lower end.
+// The box is -1 to 4 and periodic only along x. A position on a face belongs to the lower end.
 TEST_F(LammpsDumpTest, BringsParticlesBackIntoPeriodicBoxes) {
   const std::string head = "ITEM: TIMESTEP\n0\n" + kBox;
   const std::vector<Vec3d> wrapped{{3.75, -0.25, 2}, {-0.5, 5.5, 2}, {-1, 2, 6.25}};
@@ -85,7 +85,7 @@ TEST_F(LammpsDumpTest, BringsParticlesBackIntoPeriodicBoxes) {
   EXPECT_EQ(read("p.dump", head + "ITEM: ATOMS xs y z type\n-0.25 1 2 1\n1.5 1 2 1\n1 1 2 1\n").position,
             (std::vector<Vec3d>{{2.75, 1, 2}, {1.5, 1, 2}, {-1, 1, 2}}));
   EXPECT_EQ(complaints(), "");
-  // The bounds of a tilted box hold it; they are not its faces.
+  // The bounds of a tilted box enclose it; they are not its faces.
   const std::string tilted =
       "ITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS xy xz yz pp pp pp\n0 1 0\n0 1 0\n0 1 0\n"
       "ITEM: ATOMS x y z type\n1.5 0 0 1\n";

@@ -63,7 +63,7 @@ TEST(Lattice, HcpIsClosePacked) {
   const auto all = sites(lattice);
   EXPECT_EQ(all.size(), lattice.site_count());
   EXPECT_NEAR(smallest_distance(all), 1, 1e-12);
-  // In the middle everyone has twelve neighbours.
+  // In the middle every site has twelve neighbours.
   const Vec3d middle{2.5, 2.5, 2.5};
   const auto nearer = [&](const Vec3d& a, const Vec3d& b) {
     return dot(a - middle, a - middle) < dot(b - middle, b - middle);

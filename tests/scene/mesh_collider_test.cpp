@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Meshes as colliders: their distances against those of the shapes that they approximate, and balls that bounce off
-// them.
+// Meshes as colliders: their distances against the distances of the shapes that they approximate, and balls that bounce
+// off meshes.
 
 #include <gtest/gtest.h>
 
@@ -19,8 +19,8 @@
 namespace hooke::test {
 namespace {
 
-// Closed meshes near their surfaces, inside and out, to a small part of a cell: what is left is the bend of the surface
-// between samples and the triangles' own.
+// Closed meshes near their surfaces, inside and out, to a small part of a cell: the rest comes from the curvature of
+// the surface between samples and between the triangles' corners.
 TEST(DistanceField, IsTheDistanceFromTheSurface) {
   HOOKE_NEEDS_OPENVDB();
   const double cell = 0.05, reach = 0.25;
@@ -44,7 +44,7 @@ TEST(DistanceField, IsTheDistanceFromTheSurface) {
         continue;
       }
       ++near;
-      // At edges and inside of them the distance has creases, which a cell rounds off: by three tenths of it at most.
+      // Behind edges the distance has creases, which a cell rounds off by at most three tenths of a cell.
       worst = std::max(worst, std::abs(distance(mesh, x) - expected));
     }
     EXPECT_GT(near, 300);
@@ -52,8 +52,8 @@ TEST(DistanceField, IsTheDistanceFromTheSurface) {
   }
 }
 
-// A ball dropped onto a mesh of each shape goes the way it goes over the shape itself. On flat faces the field is
-// exact; over bent ones a sample's distance is off by cell^2 / (8 radius), a fortieth of a cell here.
+// A ball dropped onto a mesh of each shape moves as it does over the shape itself. Over flat faces the field is exact;
+// over curved faces a sample's distance is off by cell^2 / (8 radius), a fortieth of a cell here.
 TEST(BouncingBall, GoesTheSameWayOverAMeshOfAShape) {
   HOOKE_NEEDS_OPENVDB();
   const double cell = 0.5 / 3;
@@ -85,7 +85,7 @@ TEST(BouncingBall, GoesTheSameWayOverAMeshOfAShape) {
   }
 }
 
-// The same bits however often it is made, and on every back end in double.
+// The same bits every time a field is made, and on every back end in double.
 TEST(DistanceField, HasTheSameBitsEveryTime) {
   HOOKE_NEEDS_OPENVDB();
   const TriangleMesh mesh = ball_mesh(0, 1, 64);
@@ -97,7 +97,7 @@ TEST(DistanceField, HasTheSameBitsEveryTime) {
   }
 }
 
-// A plate as thick as one radius stops what falls on it, and so does a sheet without any thickness, from both sides.
+// A plate as thick as one radius stops a ball that falls on it, and so does a sheet without thickness, from both sides.
 TEST(MeshCollider, KeepsFeaturesOfOneRadius) {
   HOOKE_NEEDS_OPENVDB();
   const double radius = 0.5;

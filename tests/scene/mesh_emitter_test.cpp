@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Meshes as emitters and sinks: where births take place, who is taken away, and the same on every back end.
+// Meshes as emitters and sinks: where particles are born, which particles are removed, and the same on every back end.
 
 #include <gtest/gtest.h>
 
@@ -22,13 +22,13 @@ namespace {
 
 constexpr std::uint64_t kDraws = 20000;
 
-// How far so many of kDraws are from the share that is expected, in standard deviations; the seed is fixed.
+// The deviation of `count` out of kDraws from the expected share, in standard deviations; the seed is fixed.
 double deviations(std::uint64_t count, double share) {
   const double n = static_cast<double>(kDraws);
   return std::abs(static_cast<double>(count) - n * share) / std::sqrt(n * share * (1 - share));
 }
 
-// Its samples reach 0.5 m into the ball; most of it is deeper than that.
+// The field's samples reach 0.5 m into the ball; most of the ball is deeper than that.
 MeshShape ball_of_field() { return shape_of(ball_mesh(0, 2, 128), 0.05, 0.02); }
 
 TEST(Enclosure, IsOfAllThatIsInsideHoweverDeep) {
@@ -41,7 +41,7 @@ TEST(Enclosure, IsOfAllThatIsInsideHoweverDeep) {
       const auto u = random4(3, i);
       const Vec3d x{6 * u[0] - 3, 6 * u[1] - 3, 6 * u[2] - 3};
       const double beyond = std::sqrt(dot(x, x)) - 2;
-      if (std::abs(beyond) < 0.01) continue;  // the mesh's edges are that far inside of the ball
+      if (std::abs(beyond) < 0.01) continue;  // the mesh's edges are that far inside the ball
       EXPECT_EQ(encloses(geometry, x - origin), beyond < 0) << beyond;
       deep += beyond < 0 && distance(ball, x) > 1 ? 1 : 0;
     }
@@ -69,7 +69,7 @@ TEST(MeshEmitter, FillsAClosedMeshEvenly) {
   EXPECT_LT(deviations(ahead, 0.5), 4);
 }
 
-// A cone without ends: as many births as there is area.
+// A cone without ends: births in proportion to area.
 TEST(MeshEmitter, CoversTheFacesOfAnOpenMeshEvenly) {
   HOOKE_NEEDS_OPENVDB();
   Emitter e;
@@ -90,7 +90,7 @@ TEST(MeshEmitter, CoversTheFacesOfAnOpenMeshEvenly) {
   EXPECT_LT(deviations(left, 0.5), 4);
 }
 
-// Read from files, with a sink in the way that takes whoever comes into it.
+// Meshes read from files, with a sink in the way that removes every particle that gets inside.
 TEST(MeshEmitter, IsTheSameOnEveryBackEnd) {
   HOOKE_NEEDS_OPENVDB();
   const ScratchFolder folder;

@@ -4,7 +4,7 @@
 
 namespace hooke {
 
-/// As little as a scene can say, and two particles.
+/// The shortest possible scene, with two particles.
 inline constexpr const char* kMinimalScene = R"({
   "hooke": 1,
   "time": { "step": 0.01, "end": 1 },

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Sources of a scene that are files, of every format.
+// Files as sources of a scene's particles, in every format.
 
 #include "hooke/scene/particle_file.h"
 
@@ -82,7 +82,7 @@ TEST_F(ParticleFileTest, HoldsBackWhatRepeatsItselfButNotWhatEndedTheReading) {
   for (int i = 0; i < 50; ++i) text += "water 1 2 nan\n";
   read("p.xyz", text);
   const auto all = findings_.take();
-  EXPECT_EQ(all.size(), 1U);  // looked through before any row is read
+  EXPECT_EQ(all.size(), 1U);  // checked before any row is read
   text[0] = '0';
   text.replace(0, 3, "50");
   read("p.xyz", text);

@@ -85,7 +85,7 @@ TEST_F(PlyParticlesTest, ReadsBothOrdersOfBytes) {
         warnings(),
         "p.ply: columns that Hooke does not read are ignored: \"neighbours\", \"temperature\", \"element camera\", "
         "\"element face\"");
-    // The first vertex stands behind the header and two cameras of 15 bytes.
+    // The first vertex is behind the header and two cameras of 15 bytes.
     EXPECT_EQ(p.place.at(0), binary(big).find("end_header\n") + 11 + 30);
     EXPECT_EQ(p.place.at(1) - p.place.at(0), 8 + 8 + 1 + 12 + 4 + 4 + 2U);
   }

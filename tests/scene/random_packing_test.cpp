@@ -31,8 +31,8 @@ TEST(RandomPacking, KeepsCentresApart) {
 }
 
 TEST(RandomPacking, FillsUpToJamming) {
-  // Saturated random sequential addition covers 0.384 of space: 0.733 centres a cubed spacing. Near walls, where
-  // centres lie on the faces, there is room for a few more.
+  // Saturated random sequential addition covers 0.384 of space: 0.733 centres for each cubed spacing. Centres may lie
+  // on the box's faces, so there is room for a few more.
   const CentreBox box{{0, 0, 0}, {12, 12, 12}};
   const auto points = random_packing(box, 1, kAsManyAsFit, 1);
   expect_apart(points, 1, box);
@@ -57,7 +57,7 @@ TEST(RandomPacking, FillsFlatAndThinBoxes) {
   const CentreBox flat{{0, 3, 0}, {20, 3, 20}};
   const auto plane = random_packing(flat, 1, kAsManyAsFit, 1);
   expect_apart(plane, 1, flat);
-  EXPECT_GT(static_cast<double>(plane.size()), 0.68 * 400);  // discs jam at 0.547: 0.696 a squared spacing
+  EXPECT_GT(static_cast<double>(plane.size()), 0.68 * 400);  // discs jam at 0.547: 0.696 for each squared spacing
   const CentreBox line{{0, 0, 0}, {0, 0, 100}};
   const auto row = random_packing(line, 1, kAsManyAsFit, 1);
   expect_apart(row, 1, line);

@@ -67,7 +67,7 @@ TEST(RealScenes, TableSixOneIsLiteral) {
   EXPECT_EQ(loaded->scene.time_step, 0.005);
 }
 
-// The commented example of the reference page is a scene, and says something of every key.
+// The commented example of the reference page is a scene, and uses every key.
 TEST(RealScenes, TheExampleOfTheReferenceLoads) {
   const auto loaded = load_scene(HOOKE_SOURCE_DIR "/schema/example.json");
   ASSERT_TRUE(loaded) << loaded.error().text();

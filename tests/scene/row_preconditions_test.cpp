@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 //
-// As preconditions_test.cpp, of what makes particles out of the rows of files.
+// As preconditions_test.cpp, for the code that makes particles from the rows of files.
 
 #include <gtest/gtest.h>
 

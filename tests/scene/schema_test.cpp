@@ -12,7 +12,7 @@
 namespace hooke {
 namespace {
 
-// Calls `look` with every part of the schema that rules a value, and its path.
+// Calls `look` with every part of the schema that constrains a value, and its path.
 template <class Look>
 void walk(const Json& schema, const std::string& path, Look look) {
   look(schema, path);

@@ -12,7 +12,7 @@
 
 namespace hooke {
 
-/// A folder of this test alone, gone with it.
+/// A folder of this test only, removed with this object.
 class ScratchFolder {
  public:
   ScratchFolder() {

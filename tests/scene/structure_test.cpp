@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// What becomes of a scene's springs, cloths and bodies.
+// How a scene's springs, cloths and bodies become a structure.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ LoadedScene load(std::vector<std::string> overrides, const std::filesystem::path
   return {};
 }
 
-// How many springs of each stiffness there are.
+// The number of springs of each stiffness.
 std::map<double, int> counts(const Structure& structure) {
   std::map<double, int> all;
   for (const double k : structure.springs.stiffness) ++all[k];
@@ -89,7 +89,7 @@ TEST(SceneStructure, MakesAGridOfACloth) {
   EXPECT_EQ(p.position[3], (Vec3d{2, 5, 1})) << "row by row along the first edge";
   EXPECT_EQ(p.position.back(), (Vec3d{5, 5, 4}));
   const Structure& s = *loaded.scene.structure;
-  // Sides: 4 x 4 along and 5 x 3 across; two diagonals a cell; 3 x 4 and 5 x 2 over the next but one.
+  // Sides: 4 x 4 along and 5 x 3 across; two diagonals a cell; 3 x 4 and 5 x 2 to the next particle but one.
   EXPECT_EQ(counts(s), (std::map<double, int>{{100, 31}, {30, 24}, {5, 22}}));
   for (std::size_t i = 0; i < s.springs.size(); ++i) {
     const double k = s.springs.stiffness[i];
@@ -97,7 +97,7 @@ TEST(SceneStructure, MakesAGridOfACloth) {
     EXPECT_EQ(s.springs.contact[i], 0);
     EXPECT_EQ(s.springs.damping[i], 0.5);
   }
-  // Particle 0 has id 3: the corner at the end of the first side is 4, the side opposite to it 15 to 19.
+  // Particle 0 has id 3: the corner at the end of the first side is index 4, the opposite side 15 to 19.
   EXPECT_EQ(s.held, (std::vector<std::uint64_t>{7, 9, 18, 19, 20, 21, 22}));
   EXPECT_EQ(p.velocity[2], (Vec3d{0, -1, 0}));
   EXPECT_EQ(p.velocity[p.find(7)], (Vec3d{0, 0, 0}));
@@ -108,7 +108,7 @@ TEST(SceneStructure, MakesAGridOfACloth) {
 
 TEST(SceneStructure, MakesAClothOfAMesh) {
   const ScratchFolder folder;
-  // Two squares side by side, the second one a polygon of four, the first two triangles.
+  // Two squares side by side: the first is two triangles, the second is a polygon of four corners.
   folder.write("m.obj",
                "o sheet\nv 1 1 1\nv 2 1 1\nv 3 1 1\nv 1 1 2\nv 2 1 2\nv 3 1 2\nvt 0 0\nvn 0 1 0\n"
                "f 1/1/1 2/1/1 5/1/1\nf 1//1 5//1 4//1\nf 2 3 6 -2\n");
@@ -117,7 +117,8 @@ TEST(SceneStructure, MakesAClothOfAMesh) {
   ASSERT_EQ(loaded.particles.size(), 2U + 6);
   EXPECT_EQ(loaded.particles.position[4], (Vec3d{3, 1, 1}));
   const Structure& s = *loaded.scene.structure;
-  // Nine edges of four triangles; three of them are shared: of 1-5 the corners 2 and 4, of 2-5 1 and 6, of 2-6 3 and 5.
+  // Four triangles have nine edges. Three edges are shared, opposite corners: 1-5 by 2 and 4, 2-5 by 1 and 6, 2-6 by 3
+  // and 5.
   EXPECT_EQ(counts(s), (std::map<double, int>{{100, 9}, {5, 3}}));
   EXPECT_EQ(s.held, (std::vector<std::uint64_t>{3}));
   EXPECT_EQ(s.surfaces[0].triangles, (std::vector<std::uint32_t>{0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4}));
@@ -130,8 +131,8 @@ TEST(SceneStructure, FillsBodiesWithTwelveNeighboursEach) {
                                      R"("break_strain":0.5,"velocity":[1,2,3],"shape":)" + shape + "}]"});
     const ParticleSet& p = loaded.particles;
     const SpringSet& s = loaded.scene.structure->springs;
-    // A site of a face-centred cubic lattice has d^3/sqrt(2) for itself: the ball of 33.5 m^3 some 740 of them. The box
-    // has both of its faces: every other one of 15 x 11 x 8 points.
+    // A site of a face-centred cubic lattice takes d^3/sqrt(2), so the ball of 33.5 m^3 holds some 740 sites. The box
+    // has sites on both of its faces: every other one of 15 x 11 x 8 points.
     const bool ball = shape[2] == 's';
     EXPECT_NEAR(static_cast<double>(p.size() - 2), ball ? 740 : 660, ball ? 37 : 0);
     std::map<std::uint64_t, int> ties;
@@ -167,10 +168,10 @@ TEST(SceneStructure, FillsMeshesWithBodies) {
                  placed + "}}}]"},
                 folder.path());
   };
-  // 23 planes of sites fit between the faces along each axis; of their crossings every other one is a site.
+  // 23 planes of sites fit between the faces along each axis; every other crossing of planes is a site.
   const LoadedScene upright = fill(R"("scale":4,"translate":[3,3,3])");
   EXPECT_EQ(upright.particles.size(), 2U + (23 * 23 * 23 - 1) / 2);
-  // Its inner parts are four times as deep as the distances from its surface reach.
+  // The body's middle is four times as deep as the field of distances reaches.
   EXPECT_EQ(std::count(upright.particles.position.begin() + 2, upright.particles.position.end(), Vec3d{5, 5, 5}), 1);
   const LoadedScene turned = fill(R"("scale":4,"rotate":[0,1,0,30],"translate":[3,3,5])");
   std::size_t outside = 0;
@@ -183,8 +184,7 @@ TEST(SceneStructure, FillsMeshesWithBodies) {
     }
   }
   EXPECT_EQ(outside, 0U);
-  // Each site has 0.25^3/sqrt(2) for itself; the layer of half a plane's distance under the faces may miss a half of
-  // it.
+  // Each site takes 0.25^3/sqrt(2); half of the layer under the faces, half a plane's distance thick, may be missing.
   EXPECT_NEAR(static_cast<double>(turned.particles.size() - 2), 64 * std::sqrt(2.0) / std::pow(0.25, 3), 300);
 }
 

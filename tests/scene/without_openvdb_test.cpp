@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// A build without OpenVDB: meshes as shapes are findings, where the scene has them.
+// A build without OpenVDB: every mesh that a scene uses as a shape is a finding.
 #include <gtest/gtest.h>
 
 #include "hooke/scene/load_scene.h"

@@ -43,7 +43,7 @@ TEST_F(XyzParticlesTest, ReadsTheFrameThatIsAskedFor) {
   EXPECT_EQ(refusal("p.xyz", kExtended), "p.xyz: has no snapshot 2, counted from 0; it holds 2");
 }
 
-// As LAMMPS's dump style xyz writes them: types in place of names.
+// Rows of LAMMPS's dump style xyz: types instead of names.
 TEST_F(XyzParticlesTest, ReadsPlainRows) {
   const std::string text = "3\nAtoms. Timestep: 0\n1 0.25 1.5 2\n2 3.125 4 1\n1 -0.5 2 3\n";
   const auto p = read("p.xyz", text);

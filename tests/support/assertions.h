@@ -10,9 +10,9 @@
 
 #include "hooke/base/assert.h"
 
-/// Expects that an assertion fails in `statement`, whose text, as in "index < count; index = 7, count = 5", has `part`
-/// in it. The handler of the tests throws, so a statement must be able to let exceptions pass or turn them into errors:
-/// one that does neither (noexcept) wants EXPECT_DEATH. Skips the test where assertions are off.
+/// Expects that an assertion fails in `statement` and that its text, such as "index < count; index = 7, count = 5",
+/// contains `part`. The handler of the tests throws, so the statement must let exceptions pass or turn them into
+/// errors; for a noexcept statement use EXPECT_DEATH. Skips the test where assertions are off.
 #define EXPECT_ASSERTS(statement, part)                                                                         \
   do {                                                                                                          \
     if (HOOKE_ASSERTIONS == 0) GTEST_SKIP() << "built without assertions";                                      \
@@ -26,10 +26,10 @@ struct FailedAssertion : std::exception {
   const char* what() const noexcept override { return "an assertion failed"; }
 };
 
-/// The text of the first assertion that fails in statement(); empty where none does.
+/// The text of the first assertion that fails in statement(); empty where none fails.
 template <class Statement>
 std::string failed_assertion(const Statement& statement) {
-  static std::mutex mutex;  // around the text: other threads may fail, too
+  static std::mutex mutex;  // guards the text: other threads may fail, too
   static std::string text;
   text.clear();
   const AssertHandler before = set_assert_handler([](const AssertionFailure& failure) {

@@ -17,7 +17,7 @@ namespace hooke::test {
 /// The folder of the scenes that come with Hooke, for tests that are told where the sources are.
 inline std::filesystem::path bundled_folder() { return HOOKE_SOURCE_DIR "/scenes"; }
 
-/// Their names, ascending: of the big siblings or of all others.
+/// The scenes' names, ascending: only the big siblings, or all others.
 inline std::vector<std::string> bundled_names(bool big) {
   std::vector<std::string> found;
   for (const auto& entry : std::filesystem::directory_iterator(bundled_folder())) {
@@ -28,13 +28,13 @@ inline std::vector<std::string> bundled_names(bool big) {
   return found;
 }
 
-/// Overrides that leave a scene's particles as they are and spare a test seconds: the hourglass's glass takes them.
+/// Overrides that leave a scene's particles unchanged and save a test seconds: the hourglass's glass takes seconds.
 inline std::vector<std::string> bundled_overrides(const std::string& name) {
   if (name == "hourglass") return {"colliders[0].shape.mesh.voxel=0.012"};
   return {};
 }
 
-/// The name of a test of one of them.
+/// The name of a test of a bundled scene.
 inline std::string bundled_test_name(const testing::TestParamInfo<std::string>& test) {
   std::string name = test.param;
   std::replace_if(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');

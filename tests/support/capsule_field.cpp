@@ -17,18 +17,18 @@ namespace {
 constexpr int kCells = DistanceFieldView::kCells, kSamples = DistanceFieldView::kSamples;
 constexpr int kPieces = 16;  // around the axis, of the triangles
 
-// Distance (m) of x, seen from the capsule's middle, from the whole surface (negative inside), or from the shell that
-// is left of it without its upper cap.
+// Distance (m) of x, relative to the capsule's middle, from the whole surface (negative inside), or from the shell
+// without the upper cap.
 double capsule_distance(const Vec3d& x, double radius, bool closed) {
   const double across = std::sqrt(x.x * x.x + x.z * x.z);
-  const double beyond = x.y - std::clamp(x.y, -radius, radius);  // of the axis's ends
+  const double beyond = x.y - std::clamp(x.y, -radius, radius);  // beyond the axis's ends
   const double distance = std::sqrt(across * across + beyond * beyond) - radius;
   if (closed) return distance;
   if (x.y <= radius) return std::abs(distance);
   return std::sqrt((across - radius) * (across - radius) + beyond * beyond);  // from the rim
 }
 
-// The next brick, its first sample at (x0, y0, z0): with its samples where one of them is in the band.
+// Adds the next brick, with its first sample at (x0, y0, z0). It gets samples if any of them is in the band.
 template <class Distance>
 void add_brick(DistanceField& field, int x0, int y0, int z0, const Distance& distance) {
   std::array<float, kSamples * kSamples * kSamples> samples;
@@ -51,7 +51,7 @@ void add_brick(DistanceField& field, int x0, int y0, int z0, const Distance& dis
 
 MeshShape capsule_with_field(const Vec3d& middle, double radius, bool closed, double reach) {
   TriangleMesh mesh = capsule_mesh(radius, -radius, radius, kPieces);
-  const std::ptrdiff_t rings_of_cap = kPieces / 4;  // the first of them are triangles, the others have four corners
+  const std::ptrdiff_t rings_of_cap = kPieces / 4;  // the first ring has triangles, the others have four corners
   if (!closed) mesh.triangles.erase(mesh.triangles.begin(), mesh.triangles.begin() + kPieces * (2 * rings_of_cap - 1));
   for (Vec3d& x : mesh.vertices) x += middle;
 

@@ -6,8 +6,8 @@
 
 namespace hooke::test {
 
-/// Gives `scene` a collider of every shape, meshes among them, hollow and solid, at rest and moving in every way, in a
-/// box of `size` (m) around `middle`; some of a material of their own.
+/// Gives `scene` a collider of every shape, meshes included, hollow and solid, at rest and moving in every way, in a
+/// box of `size` (m) around `middle`; some colliders have a material of their own.
 void add_every_collider(Scene& scene, const Vec3d& middle, double size);
 
 }  // namespace hooke::test

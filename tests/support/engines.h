@@ -10,7 +10,7 @@
 
 namespace hooke {
 
-// How GoogleTest shows a test's parameters.
+// How GoogleTest prints a test's parameters.
 inline void PrintTo(Integrator integrator, std::ostream* os) {
   *os << (integrator == Integrator::velocity_verlet ? "velocity Verlet" : "symplectic Euler");
 }
@@ -41,21 +41,21 @@ inline void PrintTo(const Engine& engine, std::ostream* os) { *os << engine.name
 
 std::unique_ptr<Backend> make_backend(const Engine& engine);
 
-/// A simulation of `particles` on `engine`, the scene's precision set to the engine's. Fails the test, with the
-/// findings, and throws where it can't be had.
+/// A simulation of `particles` on `engine`, with the engine's precision. Where it can't be made, fails the test with
+/// the findings and throws.
 Simulation simulate(Scene scene, const ParticleSet& particles, const Engine& engine);
 
-/// Goes on from `state` likewise.
+/// The same, going on from `state`.
 Simulation resume(Scene scene, const SimulationState& state, const Engine& engine);
 
-/// Takes `steps` steps; false, with the error as a test failure, where the run goes bad.
+/// Takes `steps` steps; false, with the error as a test failure, where a step fails.
 bool advance(Simulation& simulation, std::int64_t steps);
 
 /// The figures of this instant; a test failure where there are none.
 Measurements measured(const Simulation& simulation);
 
-/// Kinetic, potential and elastic energy plus what dashpots and departures took less what walls gave, J: what stays the
-/// same but for the integrator's error.
+/// All energy, plus what damping, broken springs and departures took, less what births, walls, colliders, holds and
+/// fields gave, J: constant up to the integrator's error.
 double accounted_energy(const Simulation& simulation);
 
 }  // namespace hooke::test

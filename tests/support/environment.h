@@ -9,7 +9,7 @@
 
 namespace hooke::test {
 
-/// A variable of the environment, of this process and of those it starts, for as long as this lives.
+/// Sets an environment variable, for this process and processes it starts, during its lifetime.
 class EnvironmentVariable {
  public:
   EnvironmentVariable(const char* name, const std::string& value) : name_(name) {
@@ -31,8 +31,8 @@ class EnvironmentVariable {
   std::optional<std::string> before_;
 };
 
-/// From now on OpenGL is drawn by Mesa's software driver, whatever graphics card the machine has: no vendor's driver
-/// but Mesa's is asked, and of its devices only the processor.
+/// From now on Mesa's software driver draws OpenGL, on a machine with any graphics card: only Mesa's driver is used,
+/// and only its device for the processor.
 inline void use_software_gl() {
   constexpr const char* kMesa = "/usr/share/glvnd/egl_vendor.d/50_mesa.json";
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);

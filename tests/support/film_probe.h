@@ -7,13 +7,13 @@
 
 namespace hooke::test {
 
-/// What ffprobe, which decodes all of it, finds in a film.
+/// What ffprobe finds in a film when it decodes all of it.
 struct FilmProbe {
   int frames = 0;
   int width = 0, height = 0;      ///< pixels
   double frames_per_second = 0;
   double seconds = 0;             ///< 0 where the file does not say
-  std::string problem;            ///< what ffprobe complains of; empty for a sound file
+  std::string problem;            ///< ffprobe's complaints; empty for a sound file
 };
 FilmProbe probe_film(const std::filesystem::path& file);
 

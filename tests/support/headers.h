@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What nearly every test includes, precompiled. A test includes what it uses all the same.
+// Headers of nearly every test, precompiled. A test still includes what it uses.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -20,7 +20,7 @@ using Profile = std::vector<std::array<double, 2>>;  // distance from the y axis
 
 inline constexpr double kPi = std::numbers::pi;
 
-// The profile turned around the y axis in so many pieces; closed where it starts and ends on the axis.
+// The profile turned around the y axis in `pieces` steps; closed where the profile starts and ends on the axis.
 inline TriangleMesh turned(const Profile& profile, int pieces) {
   TriangleMesh mesh;
   std::vector<std::vector<std::uint32_t>> rings;

@@ -13,7 +13,7 @@ std::array<double, 4> random4(std::uint64_t seed, std::uint64_t index) { return 
 
 namespace {
 
-// Those before the ones that only colliders have.
+// The number of materials before the materials that only colliders have.
 std::size_t particle_materials(const Scene& scene) {
   std::size_t count = 0;
   while (count < scene.materials.size() && scene.materials[count].is_of_particles()) ++count;

@@ -29,8 +29,8 @@ void add(ParticleSet& particles, const Vec3d& position, const Vec3d& velocity, s
 /// Two particles on the x axis, overlapping by `overlap` (m), that move with velocities `v_1` and `v_2`.
 ParticleSet pair_on_x(const Scene& scene, double overlap, const Vec3d& v_1, const Vec3d& v_2);
 
-/// `count` particles anywhere in the box from `min` to `max`, speeds up to `speed` an axis, all materials in turn, ids
-/// with gaps.
+/// `count` particles at random positions in the box from `min` to `max`, with speeds up to `speed` along each axis, all
+/// materials in turn, and ids with gaps.
 ParticleSet cloud(const Scene& scene, std::size_t count, const Vec3d& min, const Vec3d& max, double speed,
                   std::uint64_t seed);
 
