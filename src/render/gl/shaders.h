@@ -4,7 +4,8 @@
 
 namespace hooke::gl::shaders {
 
-// The texts of the files of the same name in shaders/. Those that use view.glsl or light.glsl begin with them.
+// The texts of the files of the same name in shaders/. RenderPrograms puts view.glsl and light.glsl before the
+// fragment shaders that use them.
 extern const char* const whole_picture_vert;
 extern const char* const spheres_vert;
 extern const char* const spheres_frag;
