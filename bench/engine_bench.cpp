@@ -130,7 +130,7 @@ void stage(benchmark::State& state, double StageTimes::* part, Integrator integr
   backend.configure(pool->scene);
   backend.assign(pool->particles);
   const Instant start_of_run = place_colliders(run, pool->scene, 0);
-  if (!start_particles(pool->scene, backend, ranks, 0, run).good()) return state.SkipWithError("the pool is bad");
+  if (!start_particles(pool->scene, backend, ranks, run).good()) return state.SkipWithError("the pool is bad");
   const auto before = backend.measure(start_of_run);
   for (auto iteration : state) {
     const StageTimes start = backend.stage_times();
@@ -145,14 +145,17 @@ void stage(benchmark::State& state, double StageTimes::* part, Integrator integr
     if (report.condition.good()) backend.apply_forces(start_of_run, report);
     if (!verlet) backend.finish_motion(left);
     if (!report.condition.good()) return state.SkipWithError("the pool went bad");
-    book_step(run.ledger, report, pool->scene.gravity, pool->scene.time_step, integrator);
+    run.ledger.book_step(report, pool->scene);
     state.SetIterationTime((backend.stage_times() - start).*part);
   }
-  const auto now = backend.measure(start_of_run);
-  if (!before || !now || !momentum_is_kept(*now, run.ledger, before->momentum, pool->scene.precision)) {
+  const auto after = backend.measure(start_of_run);
+  const std::size_t colliders = pool->scene.colliders.size();
+  if (!before || !after ||
+      !momentum_is_kept(after->result(colliders), run.ledger.read(), before->result(colliders).momentum,
+                        pool->scene.precision)) {
     return state.SkipWithError("momentum drifts beyond what gravity and walls account for");
   }
-  report_pool(state, *pool, *now);
+  report_pool(state, *pool, after->result(colliders));
 }
 void stage_arguments(benchmark::internal::Benchmark* benchmark) {
   pool_arguments(benchmark);

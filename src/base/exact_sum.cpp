@@ -8,21 +8,54 @@
 namespace hooke {
 
 void ExactSum::add(const ExactSum& other) {
+  if (other.is_zero()) return;
   add(other.sum_);
   add(other.left_);
-  if (other.pending_ == 0 && !other.not_finite_) return;
-  ExactSum rest = other;
-  rest.carry();
+  not_finite_ = not_finite_ || other.not_finite_;
+  if (other.pending_ == 0) return;
+  const auto add_limbs = [this](const ExactSum& sum) {
+    for (std::size_t i = 0; i < kLimbs; ++i) limbs_[i] += sum.limbs_[i];
+    pending_ += sum.pending_;
+  };
+  if (pending_ + other.pending_ < kMaxPending) return add_limbs(other);
+  ExactSum carried = other;
+  carried.carry();
   carry();
-  for (std::size_t i = 0; i < kLimbs; ++i) limbs_[i] += rest.limbs_[i];
-  not_finite_ = not_finite_ || rest.not_finite_;
-  ++pending_;
+  add_limbs(carried);
+}
+
+void ExactSum::add_product(double a, double b) {
+  const double product = a * b;
+  add(product);
+  add(std::fma(a, b, -product));
+}
+
+void ExactSum::add_scaled(const ExactSum& other, double factor) {
+  for (const double part : other.parts()) add_product(part, factor);
+}
+
+std::vector<double> ExactSum::parts() const {
+  std::vector<double> parts;
+  ExactSum rest = *this;
+  for (double part = rest.value(); part != 0; part = rest.value()) {
+    if (!std::isfinite(part)) return {std::nan("")};
+    parts.push_back(part);
+    rest.add(-part);
+  }
+  return parts;
+}
+
+bool operator==(const ExactSum& a, const ExactSum& b) {
+  ExactSum x = a, y = b;
+  x.normalise();
+  y.normalise();
+  return x.not_finite_ == y.not_finite_ && (x.not_finite_ || x.limbs_ == y.limbs_);
 }
 
 double ExactSum::value() const {
+  if (is_zero()) return 0;  // most often what no one has added to
   ExactSum magnitude = *this;
-  magnitude.put_down();
-  magnitude.carry();
+  magnitude.normalise();
   if (magnitude.not_finite_) return std::nan("");
   const bool negative = magnitude.limbs_[kLimbs - 1] < 0;
   if (negative) {
@@ -39,7 +72,13 @@ double ExactSum::value() const {
   return negative ? -sum : sum;
 }
 
-// Brings every limb except the last into [0, 2^32).
+// Leaves the one way to write the sum with limbs alone.
+void ExactSum::normalise() {
+  put_down();
+  carry();
+}
+
+// Brings every limb but the last into [0, 2^32).
 void ExactSum::carry() {
   std::int64_t over = 0;
   for (std::size_t i = 0; i + 1 < kLimbs; ++i) {
@@ -48,7 +87,7 @@ void ExactSum::carry() {
     limbs_[i] = limb - (over << 32);
   }
   limbs_[kLimbs - 1] += over;
-  pending_ = 0;
+  pending_ = 1;
 }
 
 }  // namespace hooke

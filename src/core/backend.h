@@ -107,8 +107,10 @@ class Backend {
   /// Replaces all particles. The neighbour list is stale after.
   virtual void assign(const ParticleSet& particles) = 0;
 
-  /// All particles, by id. `out.acceleration` is filled under velocity Verlet only.
-  virtual void download(ParticleSet& out) const = 0;
+  /// Copies all particles, in parallel, into columns of particle_count() entries: in double without loss, in float
+  /// rounded where the back end computes in double.
+  virtual void download(const ParticleColumns<double>& out) const = 0;
+  virtual void download(const ParticleColumns<float>& out) const = 0;
 
   virtual std::uint64_t particle_count() const = 0;
 
@@ -122,6 +124,12 @@ class Backend {
   /// Adds particles, their ids above all that there ever were, with no acceleration of a last step: under velocity
   /// Verlet their first half kick is none. What they bring along.
   virtual RemovalSums insert(const ParticleSet& newborn) = 0;
+
+  /// Pushes the particles of these ids, which are unique, from now on, N, and no others: those that are gone later are
+  /// left out, and configure() forgets all. Returns the first id that no particle has, where there is one; then nothing
+  /// changes.
+  virtual std::optional<std::uint64_t> set_external_forces(std::span<const std::uint64_t> ids,
+                                                           std::span<const Vec3d> forces) = 0;
 
   /// Takes away the particles of these ids, which are unique. What they take along: the momentum and energy that they
   /// have; under velocity Verlet those after the half kick to come, whose work is booked ahead.
@@ -151,27 +159,29 @@ class Backend {
   ///   velocity Verlet    v += dt/2 a
   virtual void apply_forces(const Instant& now, StepReport& report) = 0;
 
-  /// Velocity Verlet: evaluates the accelerations a(x, v) at `now` of the particles with an id >= `first_new_id`, which
-  /// have none of a last step. Nothing moves. Reports the sums of the evaluation over all particles. After
-  /// build_neighbours() where the list was stale.
-  virtual void evaluate_accelerations(const Instant& now, std::uint64_t first_new_id, StepReport& report) = 0;
+  /// Velocity Verlet: evaluates the accelerations a(x, v) of all particles at `now`, which have none of a last step.
+  /// Nothing moves. After build_neighbours() where the list was stale.
+  virtual void evaluate_accelerations(const Instant& now, StepReport& report) = 0;
 
   // The observer ----------------------------------------------------------------------------------------------------
 
   /// Appends the particles that touch others (Material::interacts) and whose centres are in a box, in any order.
-  virtual void find_inside(const ShapeBounds& box, std::vector<Occupant>& out) const = 0;
+  virtual void find_inside(const Box3d& box, std::vector<Occupant>& out) const = 0;
 
   /// Sum over the particles of a mix of id and of the bits of position and velocity, modulo 2^64: in the
   /// precision of this back end, in no order.
   virtual std::uint64_t particles_hash() const = 0;
 
-  /// Figures at `now`; makes the neighbour list fresh first if it must.
-  virtual Expected<Measurements> measure(const Instant& now) = 0;
+  /// What figures at `now` are made of; makes the neighbour list fresh first if it must.
+  virtual Expected<MeasurementSums> measure(const Instant& now) = 0;
 
   virtual NeighbourStatistics neighbour_statistics() const = 0;
 
   /// Of everything so far, also of what was not a step.
   virtual StageTimes stage_times() const = 0;
 };
+
+/// All particles of a back end, with accelerations under velocity Verlet.
+void download(const Backend& backend, Integrator integrator, ParticleSet& out);
 
 }  // namespace hooke

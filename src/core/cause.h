@@ -20,8 +20,9 @@ enum class Cause : unsigned char {
   springs,     ///< springs of the scene's structure, their dampers included
   field,  ///< fields: wind, and whatever pushes by place
   attraction,
+  external,  ///< forces that the caller asks for, by id
 };
-inline constexpr std::size_t kCauses = 12;
+inline constexpr std::size_t kCauses = 13;
 /// The first of them are in every pass over the particles; the others, applied causes, only in scenes that have them.
 inline constexpr std::size_t kPassCauses = static_cast<std::size_t>(Cause::hold);
 

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+
 #include "hooke/core/backend.h"
+#include "hooke/core/ledger_sums.h"
 
 namespace hooke {
 
@@ -25,20 +28,23 @@ class Communicator {
   /// After particles have moved: ghosts to where they are now.
   virtual void update(Backend& backend) = 0;
 
-  /// The reports of all ranks become one, the same on each.
-  virtual void sum(StepReport& report) = 0;
-  virtual void sum(RemovalSums& sums) = 0;
+  /// When the figures of the whole scene are read: the sums of all ranks become one, the same on each. Exact sums may
+  /// be added in any order.
+  virtual void sum(LedgerSums& sums) = 0;
+  virtual void sum(MeasurementSums& sums) = 0;
+  virtual void sum(std::uint64_t& count) = 0;  ///< modulo 2^64: of particles, of their hashes
 };
 
-/// A scene on one rank: nobody to talk to.
+/// A scene on one rank, which has no other to talk to.
 class SerialCommunicator final : public Communicator {
  public:
   bool any(bool here) override { return here; }
   Condition first(const Condition& here) override { return here; }
   void migrate(Backend&) override {}
   void update(Backend&) override {}
-  void sum(StepReport&) override {}
-  void sum(RemovalSums&) override {}
+  void sum(LedgerSums&) override {}
+  void sum(MeasurementSums&) override {}
+  void sum(std::uint64_t&) override {}
 };
 
 }  // namespace hooke

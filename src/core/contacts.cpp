@@ -278,7 +278,7 @@ class ContactSearch {
     for (std::size_t n = 0; n < colliders_.all.size(); ++n) {
       const std::uint32_t c = colliders_.of[n];
       const PlacedCollider<double>& collider = colliders_.all[n];
-      if (!is_inside(ShapeBounds{collider.near_from, collider.near_to}, i.x)) continue;
+      if (!collider.near.contains(i.x)) continue;
       const ContactLaw<double>& law = table_.collider(i.material, scene_.colliders[c].material);
       for_each_collider_face(collider, i.x, [&](const ColliderFace<double>& face) {
         const double overlap = i.radius - face.distance;

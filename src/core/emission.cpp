@@ -10,6 +10,7 @@
 
 #include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
+#include "hooke/base/single_precision.h"
 #include "hooke/core/backend.h"
 #include "hooke/core/free_space.h"
 #include "hooke/core/placed_colliders.h"
@@ -19,7 +20,7 @@ namespace {
 
 constexpr std::uint64_t kMostAttempts = 32;  // to find a place for a birth, in a step
 
-Vec3d rounded(const Vec3d& a, bool single) { return single ? vec_cast<double>(vec_cast<float>(a)) : a; }
+Vec3d rounded(const Vec3d& a, bool single) { return single ? to_single_precision(a) : a; }
 
 // Adds what a step makes due; returns how many whole births that is.
 std::uint64_t births_due(const Emitter& emitter, EmitterState& state, std::int64_t step, double dt) {
@@ -111,7 +112,7 @@ void Emission::emit(const Scene& scene, std::uint32_t index, std::int64_t step, 
   const double time = static_cast<double>(step) * scene.time_step;
   const PlacedEmitter placed = place_emitter(emitter, index, time, space.reach(), areas_[index]);
   if (material.interacts) {
-    ShapeBounds box{placed.body.near_from, placed.body.near_to};
+    Box3d box = placed.body.near;
     for (int axis = 0; axis < 3; ++axis) {  // who is near across a periodic face is near
       if (scene.domain.boundary[static_cast<std::size_t>(axis)] != Boundary::periodic) continue;
       component(box.min, axis) = component(scene.domain.min, axis);

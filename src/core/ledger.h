@@ -9,15 +9,6 @@
 
 namespace hooke {
 
-/// Forces of one evaluation and their powers during a kick, summed over all particles.
-struct StepRates {
-  Work power;                     ///< W
-  ByCause<Vec3d> force;           ///< N; 0 for causes that act between particles, but for attraction
-  double spring_dissipation = 0;  ///< by the dampers of the structure's springs, W
-
-  friend bool operator==(const StepRates&, const StepRates&) = default;
-};
-
 /// What became of the energy of the structure's springs.
 struct SpringLedger {
   double dissipated = 0;     ///< by dampers, J; part of the springs' work
@@ -38,8 +29,8 @@ struct PopulationLedger {
   friend bool operator==(const PopulationLedger&, const PopulationLedger&) = default;
 };
 
-/// What steps leave behind beside the particles: sums over all steps so far, the same bits for any number
-/// of threads and across a restart, because each step's sum is exact before it is added.
+/// What steps leave behind beside the particles: sums over all steps so far, each rounded once from an exact sum
+/// (LedgerSums), so that its bits are the same for any number of threads and across a restart.
 struct Ledger {
   Work work;  ///< J
   /// Given to particles, N s. Causes that act between particles give none; what attraction gives is what the tree is
@@ -53,8 +44,6 @@ struct Ledger {
   std::uint64_t removed = 0;  ///< particles that left through open faces
   PopulationLedger population;
   SpringLedger springs;
-  /// Velocity Verlet: the rates of the last evaluation during the kick that is still to come. Else unused.
-  StepRates last;
 
   /// Taken out by the dashpots and the friction of contacts between particles, and by drag, J.
   double dissipated() const {

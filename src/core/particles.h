@@ -35,6 +35,18 @@ struct ParticleSet {
   std::size_t find(std::uint64_t particle_id) const;
 };
 
+/// Columns of the caller's that particles are copied into, in ascending order of id: of as many entries as there are
+/// particles, or null where a column isn't wanted.
+template <class Real>
+struct ParticleColumns {
+  std::uint64_t* id = nullptr;
+  std::uint16_t* material = nullptr;
+  Vec3<Real>* position = nullptr;      ///< m
+  Vec3<Real>* velocity = nullptr;      ///< m/s
+  Vec3<Real>* acceleration =
+      nullptr;  ///< m/s^2 of the last step; left alone where the integrator is not velocity Verlet
+};
+
 /// Whether the columns fit, ids ascend, and materials are the scene's: what all functions rely on that take both a
 /// scene and its particles.
 bool are_particles_of(const ParticleSet& particles, const Scene& scene);

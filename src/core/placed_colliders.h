@@ -9,6 +9,7 @@
 
 #include "hooke/base/assert.h"
 #include "hooke/core/colliders.h"
+#include "hooke/core/rules_view.h"
 #include "hooke/core/scene.h"
 #include "hooke/physics/collider.h"
 
@@ -43,8 +44,8 @@ PlacedCollider<S> place_collider(const Collider& collider, const ColliderPose& p
   placed.velocity = vec_cast<S>(pose.velocity);
   placed.angular_velocity = vec_cast<S>(pose.angular_velocity);
   // The box around the turned box of the shape, a little wider than what rounding takes.
-  const ShapeBounds box = bounds_of(collider.shape);
-  const Vec3d middle = moved_point(collider, pose, 0.5 * (box.min + box.max)), half = 0.5 * (box.max - box.min);
+  const Box3d box = bounds_of(collider.shape);
+  const Vec3d middle = moved_point(collider, pose, box.center()), half = 0.5 * box.extent();
   for (int axis = 0; axis < 3; ++axis) {
     double far = reach;
     for (int own = 0; own < 3; ++own) {
@@ -52,8 +53,8 @@ PlacedCollider<S> place_collider(const Collider& collider, const ColliderPose& p
     }
     const double at = component(middle, axis), slack = 1e-5 * (far + std::abs(at));
     const bool everywhere = !std::isfinite(far);  // a plane
-    component(placed.near_from, axis) = static_cast<S>(everywhere ? -kBeyondReach : at - far - slack);
-    component(placed.near_to, axis) = static_cast<S>(everywhere ? kBeyondReach : at + far + slack);
+    component(placed.near.min, axis) = static_cast<S>(everywhere ? -kBeyondReach : at - far - slack);
+    component(placed.near.max, axis) = static_cast<S>(everywhere ? kBeyondReach : at + far + slack);
   }
   return placed;
 }
@@ -63,6 +64,13 @@ template <class S>
 struct PlacedColliders {
   std::vector<PlacedCollider<S>> all;
   std::vector<std::uint32_t> of;  ///< the index in the scene of each
+
+  /// For loops to read, for as long as this stays as it is.
+  CollidersView<S> view() const {
+    CollidersView<S> view{all.data(), of.data(), all.size(), Box3<S>::none()};
+    for (const PlacedCollider<S>& collider : all) view.near.add(collider.near);
+    return view;
+  }
 };
 
 /// A pose for each collider; `reach` as above. Images are what can be touched inside of the domain: of a collider that
@@ -80,11 +88,11 @@ PlacedColliders<S> place_colliders(const Scene& scene, std::span<const ColliderP
     for (int axis = 0; axis < 3; ++axis) {
       const double length = scene.domain.length(axis);
       const bool periodic = scene.domain.boundary[static_cast<std::size_t>(axis)] == Boundary::periodic;
-      if (!periodic || !(component(body.near_to, axis) - component(body.near_from, axis) < length)) continue;
+      if (!periodic || !(component(body.near.max, axis) - component(body.near.min, axis) < length)) continue;
       from[axis] = static_cast<std::int64_t>(
-          std::ceil((component(scene.domain.min, axis) - component(near.near_to, axis)) / length));
+          std::ceil((component(scene.domain.min, axis) - component(near.near.max, axis)) / length));
       to[axis] = static_cast<std::int64_t>(
-          std::floor((component(scene.domain.max, axis) - component(near.near_from, axis)) / length));
+          std::floor((component(scene.domain.max, axis) - component(near.near.min, axis)) / length));
     }
     for (std::int64_t sx = from[0]; sx <= to[0]; ++sx) {
       for (std::int64_t sy = from[1]; sy <= to[1]; ++sy) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hooke/base/assert.h"
+#include "hooke/base/box3.h"
 #include "hooke/base/sine.h"
 #include "hooke/core/scene.h"
 #include "hooke/physics/field.h"
@@ -20,8 +21,7 @@ class PlacedField {
  public:
   PlacedField(const Scene& scene, const Field& field, double time) : bounded_(field.within.has_value()) {
     if (bounded_) {
-      min_ = vec_cast<Real>(field.within->min);
-      max_ = vec_cast<Real>(field.within->max);
+      within_ = {vec_cast<Real>(field.within->min), vec_cast<Real>(field.within->max)};
     }
     std::vector<char> chosen(scene.materials.size(), field.materials.empty() ? 1 : 0);
     for (const std::size_t m : field.materials) {
@@ -38,8 +38,7 @@ class PlacedField {
   /// Whether it acts on a particle of this material (index) at `x` (m).
   bool acts_on(std::size_t material, const Vec3<Real>& x) const {
     if (!feels_[material].chosen) return false;
-    return !bounded_ ||
-           (x.x >= min_.x && x.x <= max_.x && x.y >= min_.y && x.y <= max_.y && x.z >= min_.z && x.z <= max_.z);
+    return !bounded_ || within_.contains(x);
   }
 
   /// On a particle that it acts on, N; `v` in m/s.
@@ -116,7 +115,7 @@ class PlacedField {
 
   Law law_ = Law::uniform;
   bool bounded_, travels_ = false;
-  Vec3<Real> min_{}, max_{};  // m
+  Box3<Real> within_;  // m
   std::vector<Feeling> feels_;  // by material
   Vec3<Real> vector_{};  // of the wind, m/s; of the push, m/s^2; the point, m
   Vec3<Real> amplitude_{};  // of gusts that travel, m/s

@@ -92,30 +92,29 @@ class Checker {
 
 }  // namespace
 
-ShapeBounds bounds_of(const Shape& shape) {
+Box3d bounds_of(const Shape& shape) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   const auto around = [](const Vec3d& a, const Vec3d& b, const Vec3d& reach) {
-    return ShapeBounds{least(a, b) - reach, most(a, b) + reach};
+    return Box3d{least(a, b) - reach, most(a, b) + reach};
   };
   const auto all_ways = [](double r) { return Vec3d{r, r, r}; };
   return std::visit(
-      Overloaded{[&](const PlaneShape&) { return ShapeBounds{all_ways(-kInfinite), all_ways(kInfinite)}; },
-                 [&](const BoxShape& s) { return ShapeBounds{s.min, s.max}; },
+      Overloaded{[&](const PlaneShape&) { return Box3d{all_ways(-kInfinite), all_ways(kInfinite)}; },
+                 [&](const BoxShape& s) { return Box3d{s.min, s.max}; },
                  [&](const SphereShape& s) { return around(s.center, s.center, all_ways(s.radius)); },
                  [&](const CapsuleShape& s) { return around(s.from, s.to, all_ways(s.radius)); },
                  [&](const CylinderShape& s) { return around(s.from, s.to, reach_of_disc(s.to - s.from, s.radius)); },
                  [&](const DiscShape& s) { return around(s.center, s.center, reach_of_disc(s.normal, s.radius)); },
                  [&](const MeshShape& s) {
                    HOOKE_ASSERT(s.field != nullptr);
-                   return ShapeBounds{s.field->min, s.field->max};
+                   return Box3d{s.field->min, s.field->max};
                  }},
       shape);
 }
 
 Vec3d middle_of(const Shape& shape) {
   if (const auto* plane = std::get_if<PlaneShape>(&shape)) return plane->point;
-  const ShapeBounds box = bounds_of(shape);
-  return 0.5 * (box.min + box.max);
+  return bounds_of(shape).center();
 }
 
 ShapeGeometry<double> geometry_of(const Shape& shape, bool hollow, const Vec3d& origin) {

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "hooke/base/box3.h"
 #include "hooke/base/expected.h"
 #include "hooke/base/vec3.h"
 #include "hooke/core/distance_field.h"
@@ -56,17 +57,8 @@ using Shape = std::variant<PlaneShape, BoxShape, SphereShape, CapsuleShape, Cyli
 /// The middle of a shape, m: of a plane its point, of a mesh the middle of the box around it.
 Vec3d middle_of(const Shape& shape);
 
-/// Corners of a box around a shape, m; of a plane infinite along every axis.
-struct ShapeBounds {
-  Vec3d min, max;
-};
-ShapeBounds bounds_of(const Shape& shape);
-
-/// Whether a point is in a box; its corners and faces are.
-inline bool is_inside(const ShapeBounds& box, const Vec3d& x) {
-  return x.x >= box.min.x && x.y >= box.min.y && x.z >= box.min.z && x.x <= box.max.x && x.y <= box.max.y &&
-         x.z <= box.max.z;
-}
+/// The box around a shape, m; of a plane infinite along every axis.
+Box3d bounds_of(const Shape& shape);
 
 /// The shape's numbers for the laws, m relative to `origin`.
 ShapeGeometry<double> geometry_of(const Shape& shape, bool hollow, const Vec3d& origin);

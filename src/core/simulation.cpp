@@ -108,10 +108,6 @@ struct Simulation::Impl {
   // The particles on the host: filled on the first look after something has changed, null before.
   std::shared_ptr<const Snapshot> host;
   SnapshotPool pool;
-  // Velocity Verlet: particles with ids from here on were added since the last step and have no accelerations.
-  std::uint64_t first_new_id = kNone;
-  static constexpr std::uint64_t kNone = ~std::uint64_t{0};
-
   StageTimes stage_times;  // of steps
 
   bool failed = false;
@@ -121,12 +117,11 @@ struct Simulation::Impl {
   double mass_of(std::size_t material) const { return scene.materials[material].mass; }
 
   const std::shared_ptr<const Snapshot>& snapshot() {
-    (void)flush();  // a failure is the next step's to report
     if (host) return host;
     const std::shared_ptr<Snapshot> now = pool.take();
     now->step = run.step;
     now->time = static_cast<double>(run.step) * scene.time_step;
-    backend->download(now->particles);
+    download(*backend, scene.integrator, now->particles);
     return host = now;
   }
 
@@ -155,16 +150,11 @@ struct Simulation::Impl {
     initial_momentum += mass_of(before.material) * (stored->velocity - before.velocity);
   }
 
-  // Gives particles that were added their accelerations.
-  Expected<void> flush() {
+  template <class Real>
+  Expected<void> copy_particles(const ParticleColumns<Real>& out) {
+    const FloatingPointGuard guard;
     return guarded([&]() -> Expected<void> {
-      const auto is_there = [&](std::uint64_t id) { return backend->find(id).has_value(); };
-      while (first_new_id < run.next_id && !is_there(first_new_id)) ++first_new_id;
-      if (first_new_id < run.next_id) {
-        host.reset();
-        if (auto started = check(start_particles(scene, *backend, ranks, first_new_id, run)); !started) return started;
-      }
-      first_new_id = kNone;
+      backend->download(out);
       return {};
     });
   }
@@ -206,7 +196,7 @@ struct Simulation::Impl {
 
   std::string likely_cause() const {
     ParticleSet now;
-    if (scene.structure) backend->download(now);
+    if (scene.structure) download(*backend, scene.integrator, now);
     const StableStep stable = stable_step(scene, now);
     const double ratio = scene.time_step / stable.seconds;
     if (ratio > 1) {
@@ -227,20 +217,18 @@ struct Simulation::Impl {
                 "the scene asks for double, the back end computes in single precision");
   }
 
-  // Hands all particles to the back end. Those with ids from `first_new` on have no accelerations.
-  Expected<void> start(const ParticleSet& particles, std::uint64_t first_new,
-                       const std::vector<std::uint64_t>& broken_springs) {
+  // Hands all particles to the back end. Under velocity Verlet those that are new get their first accelerations.
+  Expected<void> start(const ParticleSet& particles, bool are_new, const std::vector<std::uint64_t>& broken_springs) {
     if (auto right = check_precision(); !right) return right;
     host.reset();
-    first_new_id = kNone;
     try {
       backend->configure(scene);
       run.emission.configure(scene);
       backend->break_springs(broken_springs);
       place_colliders(run, scene, run.step);
       backend->assign(particles);
-      if (particles.empty() || particles.id.back() < first_new) return {};
-      return check(start_particles(scene, *backend, ranks, first_new, run));
+      if (particles.empty() || !are_new) return {};
+      return check(start_particles(scene, *backend, ranks, run));
     } catch (const std::bad_alloc&) {
       failed = true;
       failure = Error{Error::Kind::bad_input,
@@ -251,7 +239,6 @@ struct Simulation::Impl {
 
   Expected<void> take_steps(std::int64_t count) {
     return guarded([&]() -> Expected<void> {
-      if (auto flushed = flush(); !flushed) return flushed;
       if (count == 0) return {};
       host.reset();
       for (std::int64_t i = 0; i < count; ++i) {
@@ -280,7 +267,7 @@ Expected<Simulation> Simulation::create(Scene scene, ParticleSet particles, std:
   impl->scene = std::move(scene);
   impl->backend = std::move(backend);
   impl->run.next_id = particles.empty() ? 1 : particles.id.back() + 1;
-  if (auto started = impl->start(particles, 0, {}); !started) return fail(started.error());
+  if (auto started = impl->start(particles, true, {}); !started) return fail(started.error());
   particles = ParticleSet{};  // the back end has them now; measuring may need the room
   Simulation simulation(std::move(impl));
   const auto now = simulation.measure();
@@ -325,6 +312,12 @@ NeighbourStatistics Simulation::neighbour_statistics() const { return impl_->bac
 const StageTimes& Simulation::stage_times() const { return impl_->stage_times; }
 
 std::shared_ptr<const Snapshot> Simulation::snapshot() const { return impl_->snapshot(); }
+Expected<void> Simulation::copy_particles(const ParticleColumns<double>& out) const {
+  return impl_->copy_particles(out);
+}
+Expected<void> Simulation::copy_particles(const ParticleColumns<float>& out) const {
+  return impl_->copy_particles(out);
+}
 const ParticleSet& Simulation::particles() const { return impl_->snapshot()->particles; }
 std::span<const std::uint64_t> Simulation::ids() const { return particles().id; }
 std::span<const Vec3d> Simulation::positions() const { return particles().position; }
@@ -352,9 +345,6 @@ Expected<std::vector<std::uint64_t>> Simulation::add_particles(std::span<const N
     }
     s.host.reset();
     s.backend->insert(added);
-    if (s.scene.integrator == Integrator::velocity_verlet) {
-      s.first_new_id = std::min(s.first_new_id, s.run.next_id);
-    }
     s.run.next_id += added.size();
     for (const NewParticle& p : particles) s.initial_momentum += s.mass_of(p.material) * p.velocity;
     return std::move(added.id);
@@ -413,6 +403,34 @@ Expected<void> Simulation::set_particle(std::uint64_t id, const Vec3d& position,
   });
 }
 
+Expected<void> Simulation::set_external_forces(std::span<const std::uint64_t> ids, std::span<const Vec3d> forces) {
+  const FloatingPointGuard guard;
+  Impl& s = *impl_;
+  if (ids.size() != forces.size()) {
+    return fail(Error::Kind::bad_input, "forces", fmt::format("{} forces for {} ids", forces.size(), ids.size()));
+  }
+  std::vector<Finding> findings;
+  const auto add_finding = [&](std::uint64_t id, std::string fault) {
+    if (findings.size() < kMostFindings) findings.push_back({fmt::format("particle {}", id), std::move(fault)});
+  };
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    if (!is_finite(forces[k], s.single())) add_finding(ids[k], "force " + shown(forces[k]) + " is not finite");
+  }
+  return s.guarded([&]() -> Expected<void> {
+    if (!is_ascending(ids)) {
+      std::vector<std::uint64_t> sorted(ids.begin(), ids.end());
+      std::sort(sorted.begin(), sorted.end());
+      const auto twin = std::adjacent_find(sorted.begin(), sorted.end());
+      if (twin != sorted.end()) add_finding(*twin, "has more than one force");
+    }
+    if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});
+    if (const auto unknown = s.backend->set_external_forces(ids, forces)) {
+      return fail(Error::Kind::bad_input, fmt::format("particle {}", *unknown), "there is none of this id");
+    }
+    return {};
+  });
+}
+
 Expected<void> Simulation::set_material(const Material& material) {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
@@ -425,7 +443,6 @@ Expected<void> Simulation::set_material(const Material& material) {
     if (std::vector<Finding> findings = validate(changed); !findings.empty()) {
       return fail(Error{Error::Kind::bad_input, std::move(findings)});
     }
-    if (auto flushed = s.flush(); !flushed) return flushed;
     const std::shared_ptr<const Snapshot> all = s.snapshot();
     const ParticleSet& now = all->particles;
     for (std::size_t i = 0; i < now.size(); ++i) {
@@ -433,7 +450,7 @@ Expected<void> Simulation::set_material(const Material& material) {
     }
     s.scene = std::move(changed);
     // All accelerations anew: those of the last step are of the old material.
-    return s.start(now, 0, s.backend->broken_springs());
+    return s.start(now, true, s.backend->broken_springs());
   }
   return fail(Error::Kind::bad_input, "materials." + material.name, "there is no material of this name");
 }
@@ -492,25 +509,38 @@ Expected<void> Simulation::restore(SimulationState state) {
   s.initial_elastic = state.initial_elastic;
   s.initial_momentum = state.initial_momentum;
   s.failed = false;
-  return s.start(state.particles, state.next_id, state.broken_springs);
+  return s.start(state.particles, false, state.broken_springs);
 }
 
 std::uint64_t Simulation::state_hash() const {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
   const auto clock = combine64(mix64(static_cast<std::uint64_t>(s.run.step)), s.run.next_id);
-  return s.backend->particles_hash() + clock;
+  std::uint64_t particles = s.backend->particles_hash();
+  s.ranks.sum(particles);
+  return particles + clock;
 }
 
 Expected<Measurements> Simulation::measure() const {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
-  if (auto flushed = s.flush(); !flushed) return fail(flushed.error());
-  return s.guarded([&] { return s.backend->measure(place_colliders(s.run, s.scene, s.run.step)); });
+  return s.guarded([&]() -> Expected<Measurements> {
+    auto sums = s.backend->measure(place_colliders(s.run, s.scene, s.run.step));
+    if (!sums) return fail(sums.error());
+    s.ranks.sum(*sums);
+    return sums->result(s.scene.colliders.size());
+  });
 }
 
 std::vector<std::uint64_t> Simulation::broken_springs() const { return impl_->backend->broken_springs(); }
-const Ledger& Simulation::ledger() const { return impl_->run.ledger; }
+Ledger Simulation::ledger() const {
+  const FloatingPointGuard guard;
+  Impl& s = *impl_;
+  LedgerSums sums = s.run.ledger;
+  s.ranks.sum(sums);
+  return sums.read();
+}
+
 double Simulation::initial_energy() const { return impl_->initial_energy; }
 double Simulation::initial_elastic() const { return impl_->initial_elastic; }
 const Vec3d& Simulation::initial_momentum() const { return impl_->initial_momentum; }

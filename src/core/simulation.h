@@ -11,6 +11,7 @@
 #include "hooke/base/expected.h"
 #include "hooke/core/backend.h"
 #include "hooke/core/emission.h"
+#include "hooke/core/ledger_sums.h"
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
 #include "hooke/core/snapshot.h"
@@ -22,7 +23,7 @@ struct SimulationState {
   ParticleSet particles;      ///< with accelerations under velocity Verlet
   std::int64_t step = 0;      ///< steps done
   std::uint64_t next_id = 1;  ///< id of the next particle to be added
-  Ledger ledger;
+  LedgerSums ledger;
   std::shared_ptr<const Structure> structure;  ///< the scene's: where the scene brings none, this one holds
   std::vector<std::uint64_t> broken_springs;   ///< indices of its springs, ascending
   double initial_energy = 0;  ///< kinetic, potential, elastic and of springs at step 0, J
@@ -84,7 +85,13 @@ class Simulation {
   std::span<const Vec3d> positions() const;  ///< m
   std::span<const Vec3d> velocities() const;  ///< m/s
 
-  /// Adds particles; their ids, in order. Materials must exist, values be finite, positions inside the domain.
+  /// Copies the particles into columns of the caller's, of particle_count() entries, in ascending order of id: for one
+  /// who wants some of what a snapshot holds, or floats.
+  Expected<void> copy_particles(const ParticleColumns<double>& out) const;
+  Expected<void> copy_particles(const ParticleColumns<float>& out) const;
+
+  /// Adds particles; their ids, in order. Under velocity Verlet they begin as births do, with no acceleration of a last
+  /// step. Materials must exist, values be finite, positions inside the domain.
   Expected<std::vector<std::uint64_t>> add_particles(std::span<const NewParticle> particles);
   /// Removes particles by id; none of them is removed where one is unknown.
   Expected<void> remove_particles(std::span<const std::uint64_t> ids);
@@ -94,6 +101,11 @@ class Simulation {
   Expected<void> apply_impulse(std::uint64_t id, const Vec3d& impulse);
   /// Moves one particle and sets its velocity (m, m/s): for what is led by hand.
   Expected<void> set_particle(std::uint64_t id, const Vec3d& position, const Vec3d& velocity);
+  /// Pushes each of these particles with its force (N) in every evaluation of the forces from now on (velocity Verlet's
+  /// next first half kick is still by the last one), in place of the forces that were set before; empty ones end it.
+  /// Ids must be there and unique, forces finite. Forces are the caller's, not the state's: a saved state does not have
+  /// them, and set_material() and restore() forget them. What they do is in the ledger (Cause::external).
+  Expected<void> set_external_forces(std::span<const std::uint64_t> ids, std::span<const Vec3d> forces);
   /// Replaces the material of the same name, from the next step on.
   Expected<void> set_material(const Material& material);
 
@@ -114,7 +126,7 @@ class Simulation {
   /// Figures of this instant.
   Expected<Measurements> measure() const;
   /// Sums over all steps so far.
-  const Ledger& ledger() const;
+  Ledger ledger() const;
   /// Which springs of Scene::structure are broken: indices, ascending.
   std::vector<std::uint64_t> broken_springs() const;
   /// Kinetic, potential, elastic and springs' energy at step 0, J, and momentum, kg m/s: what drifts are measured from.

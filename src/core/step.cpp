@@ -14,8 +14,7 @@ Condition take_step(const Scene& scene, Backend& backend, Communicator& ranks, R
     ranks.update(backend);
     RemovalSums left;
     backend.finish_motion(left);
-    ranks.sum(left);
-    left.book(run.ledger);
+    run.ledger.book_left(left);
   };
 
   // 1. Velocity Verlet moves first, with half a kick by the accelerations of the last step. Its forces are those at the
@@ -33,28 +32,22 @@ Condition take_step(const Scene& scene, Backend& backend, Communicator& ranks, R
   //    kick: Verlet's second half, or symplectic Euler's whole one and its drift.
   StepReport report;
   backend.apply_forces(now, report);
-  ranks.sum(report);
-  book_step(run.ledger, report, scene.gravity, scene.time_step, scene.integrator);
+  run.ledger.book_step(report, scene);
   if (!verlet) finish_motion();
-  if (!report.condition.good()) return report.condition;
+  if (const Condition found = ranks.first(report.condition); !found.good()) return found;
 
   // 4. The step is done. Sinks take particles, lives end, emitters give birth.
   run.step = arrival;
   if (!verlet) place_colliders(run, scene, arrival);
   if (!scene.sinks.empty()) {
-    RemovalSums sunk = backend.remove_sunk();
-    ranks.sum(sunk);
-    sunk.book_gone(run.ledger, run.ledger.population.sunk);
+    run.ledger.book_sunk(backend.remove_sunk());
   }
   if (!scene.emitters.empty()) {
-    Removal expired = backend.remove(run.emission.end_lives(arrival));
-    ranks.sum(expired.sums);
-    expired.sums.book_gone(run.ledger, run.ledger.population.expired);
+    const Removal expired = backend.remove(run.emission.end_lives(arrival));
+    run.ledger.book_expired(expired.sums);
     const ParticleSet& newborn =
         run.emission.give_birth(scene, arrival, run.poses, expired.was_there, backend, run.next_id);
-    RemovalSums born = backend.insert(newborn);
-    ranks.sum(born);
-    born.book_born(run.ledger);
+    run.ledger.book_born(backend.insert(newborn));
   }
   return {};
 }
@@ -72,15 +65,13 @@ Condition update_neighbours(Backend& backend, Communicator& ranks) {
   return ranks.first(backend.build_neighbours());
 }
 
-Condition start_particles(const Scene& scene, Backend& backend, Communicator& ranks, std::uint64_t first_new_id,
-                          RunState& run) {
+Condition start_particles(const Scene& scene, Backend& backend, Communicator& ranks, RunState& run) {
   if (scene.integrator != Integrator::velocity_verlet) return {};
   if (const Condition found = update_neighbours(backend, ranks); !found.good()) return found;
   StepReport report;
-  backend.evaluate_accelerations(place_colliders(run, scene, run.step), first_new_id, report);
-  ranks.sum(report);
-  if (!report.condition.good()) return report.condition;
-  run.ledger.last = first_rates(report, scene.gravity);
+  backend.evaluate_accelerations(place_colliders(run, scene, run.step), report);
+  if (const Condition found = ranks.first(report.condition); !found.good()) return found;
+  run.ledger.book_start(report, scene);
   return {};
 }
 

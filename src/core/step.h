@@ -8,7 +8,7 @@
 #include "hooke/core/backend.h"
 #include "hooke/core/communicator.h"
 #include "hooke/core/emission.h"
-#include "hooke/core/ledger.h"
+#include "hooke/core/ledger_sums.h"
 
 namespace hooke {
 
@@ -18,7 +18,7 @@ struct RunState {
   std::uint64_t next_id = 1;        ///< of the next particle to be added
   std::vector<ColliderPose> poses;  ///< of the scene's colliders, by place_colliders()
   Emission emission;                ///< births and deaths to come
-  Ledger ledger;                    ///< sums over all steps so far
+  LedgerSums ledger;                ///< sums over all steps so far, of this rank's particles
 };
 
 /// Puts the colliders of the scene to where they are after `step` steps. The instant of that.
@@ -32,9 +32,8 @@ Condition take_step(const Scene& scene, Backend& backend, Communicator& ranks, R
 /// steps it tells at once what the next would find wrong with the particles.
 Condition update_neighbours(Backend& backend, Communicator& ranks);
 
-/// Velocity Verlet: gives particles with an id >= `first_new_id`, of which there are some, the accelerations that the
-/// next step begins with. Under symplectic Euler there is nothing to do.
-Condition start_particles(const Scene& scene, Backend& backend, Communicator& ranks, std::uint64_t first_new_id,
-                          RunState& run);
+/// Velocity Verlet: gives all particles the accelerations that the first step begins with. Under symplectic Euler there
+/// is nothing to do.
+Condition start_particles(const Scene& scene, Backend& backend, Communicator& ranks, RunState& run);
 
 }  // namespace hooke

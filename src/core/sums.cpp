@@ -45,56 +45,6 @@ void AppliedSums::add(const AppliedSums& other) {
   springs.add(other.springs);
 }
 
-namespace {
-
-enum class Kick { of_the_evaluation, next };
-
-StepRates rates(const StepReport& report, Kick kick, const Vec3d& gravity) {
-  const StepSums& sums = report.sums;
-  StepRates rates;
-  const bool next = kick == Kick::next;
-  const ByCause<ExactSum, kPassCauses>& twice_power = next ? sums.next_power : sums.power;
-  for (std::size_t c = 0; c < kPassCauses; ++c) rates.power.of[c] = 0.5 * twice_power.of[c].value();
-  rates.force[Cause::wall] = sums.wall_force.value();
-  rates.force[Cause::drag] = sums.drag_force.value();
-  rates.force[Cause::collider] = sums.collider_force.value();
-  rates.force[Cause::gravity] = report.mass * gravity;
-  if (!report.applied) return rates;
-  for (std::size_t i = 0; i < report.applied->of.size(); ++i) {
-    const AppliedSums::Rates& of = report.applied->of[i];
-    rates.power.of[kPassCauses + i] = 0.5 * (next ? of.next_power : of.power).value();
-    rates.force.of[kPassCauses + i] = of.force.value();
-  }
-  rates.spring_dissipation = report.applied->springs.dissipation.value();
-  return rates;
-}
-
-}  // namespace
-
-StepRates first_rates(const StepReport& start, const Vec3d& gravity) {
-  return rates(start, Kick::of_the_evaluation, gravity);
-}
-
-void book_step(Ledger& ledger, const StepReport& now, const Vec3d& gravity, double dt, Integrator integrator) {
-  HOOKE_ASSERT(dt > 0 && now.mass >= 0, dt, now.mass);
-  const auto book = [&ledger](const StepRates& rates, double seconds) {
-    for (std::size_t cause = 0; cause < kCauses; ++cause) {
-      ledger.work.of[cause] += seconds * rates.power.of[cause];
-      ledger.impulse.of[cause] += seconds * rates.force.of[cause];
-    }
-    ledger.springs.dissipated += seconds * rates.spring_dissipation;
-  };
-  if (now.applied) {
-    ledger.springs.broken += now.applied->springs.broken;
-    ledger.springs.broken_energy += now.applied->springs.broken_energy.value();
-  }
-  const StepRates this_kick = rates(now, Kick::of_the_evaluation, gravity);
-  if (integrator == Integrator::symplectic_euler) return book(this_kick, dt);
-  book(ledger.last, dt / 2);
-  book(this_kick, dt / 2);
-  ledger.last = rates(now, Kick::next, gravity);
-}
-
 void RemovalSums::add_particle(double mass, const Vec3d& x, const Vec3d& v, const Vec3d& gravity) {
   momentum.add(mass * v);
   energy.add(0.5 * mass * dot(v, v));
@@ -107,22 +57,6 @@ void RemovalSums::add(const RemovalSums& other) {
   energy.add(other.energy);
   elastic.add(other.elastic);
   count += other.count;
-}
-
-void RemovalSums::book(Ledger& ledger) const { book_gone(ledger, ledger.removed); }
-
-void RemovalSums::book_gone(Ledger& ledger, std::uint64_t& tally) const {
-  ledger.removed_momentum += momentum.value();
-  ledger.removed_energy += energy.value();
-  ledger.removed_elastic += elastic.value();
-  tally += count;
-}
-
-void RemovalSums::book_born(Ledger& ledger) const {
-  ledger.population.born_momentum += momentum.value();
-  ledger.population.born_energy += energy.value();
-  ledger.population.born += count;
-  ledger.removed_elastic -= elastic.value();
 }
 
 void ColliderLoadSums::add_contact(std::size_t index, const Vec3d& point, const Vec3d& force) {
@@ -157,13 +91,7 @@ void MeasurementSums::add_particle(double mass, const Vec3d& x, const Vec3d& v, 
   mass_moment_.add(mass * x);
   momentum_scale_.add(mass * speed);
   max_speed_ = std::max(max_speed_, speed);
-  const auto grow = [&](double Vec3d::* c) {
-    min_.*c = particles_ == 0 ? x.*c : std::min(min_.*c, x.*c);
-    max_.*c = particles_ == 0 ? x.*c : std::max(max_.*c, x.*c);
-  };
-  grow(&Vec3d::x);
-  grow(&Vec3d::y);
-  grow(&Vec3d::z);
+  box_.add(x);
   ++particles_;
 }
 
@@ -188,19 +116,17 @@ void MeasurementSums::add_collider_contact(std::size_t index, const Vec3d& point
   collider_loads_.add_contact(index, point, force);
 }
 
+void MeasurementSums::add_springs(std::uint64_t count, const ExactSum& energy) {
+  springs_ += count;
+  spring_energy_.add(energy);
+}
+
 void MeasurementSums::add(const MeasurementSums& other) {
-  if (other.particles_ > 0) {
-    const auto grow = [&](double Vec3d::* c) {
-      min_.*c = particles_ == 0 ? other.min_.*c : std::min(min_.*c, other.min_.*c);
-      max_.*c = particles_ == 0 ? other.max_.*c : std::max(max_.*c, other.max_.*c);
-    };
-    grow(&Vec3d::x);
-    grow(&Vec3d::y);
-    grow(&Vec3d::z);
-  }
+  box_.add(other.box_);
   particles_ += other.particles_;
   contact_sides_ += other.contact_sides_;
   wall_contacts_ += other.wall_contacts_;
+  springs_ += other.springs_;
   mass_.add(other.mass_);
   kinetic_.add(other.kinetic_);
   potential_.add(other.potential_);
@@ -212,6 +138,8 @@ void MeasurementSums::add(const MeasurementSums& other) {
   mass_moment_.add(other.mass_moment_);
   wall_force_.add(other.wall_force_);
   collider_elastic_.add(other.collider_elastic_);
+  spring_energy_.add(other.spring_energy_);
+  attraction_energy_.add(other.attraction_energy_);
   collider_loads_.add(other.collider_loads_);
   max_speed_ = std::max(max_speed_, other.max_speed_);
   max_overlap_ratio_ = std::max(max_overlap_ratio_, other.max_overlap_ratio_);
@@ -232,10 +160,15 @@ Measurements MeasurementSums::result(std::size_t colliders) const {
   m.max_speed = max_speed_;
   m.max_overlap_ratio = max_overlap_ratio_;
   if (contact_sides_ > 0) m.mean_overlap_ratio = overlap_ratio_.value() / static_cast<double>(contact_sides_);
-  m.min = min_;
-  m.max = max_;
+  if (particles_ > 0) {
+    m.min = box_.min;
+    m.max = box_.max;
+  }
   m.wall_force = wall_force_.value();
   m.collider_elastic_energy = collider_elastic_.value();
+  m.springs = springs_;
+  m.spring_energy = spring_energy_.value();
+  m.attraction_energy = attraction_energy_.value();
   m.colliders = collider_loads_.result(colliders);
   return m;
 }

@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "hooke/base/assert.h"
+#include "hooke/base/box3.h"
 #include "hooke/base/exact_sum.h"
 #include "hooke/core/condition.h"
-#include "hooke/core/ledger.h"
 #include "hooke/core/measurements.h"
-#include "hooke/core/scene.h"
+#include "hooke/core/work.h"
+#include "hooke/physics/contact.h"
 
 namespace hooke {
 
@@ -28,7 +29,10 @@ class ExactVectorSum {
     for (std::size_t axis = 0; axis < 3; ++axis) sums_[axis].add(other.sums_[axis]);
   }
   ExactSum& operator[](int axis) { return sums_[static_cast<std::size_t>(axis)]; }
+  const ExactSum& operator[](int axis) const { return sums_[static_cast<std::size_t>(axis)]; }
   Vec3d value() const { return {sums_[0].value(), sums_[1].value(), sums_[2].value()}; }
+
+  friend bool operator==(const ExactVectorSum&, const ExactVectorSum&) = default;
 
  private:
   std::array<ExactSum, 3> sums_;
@@ -86,16 +90,8 @@ struct StepReport {
   Condition condition;
   StepSums sums;
   std::optional<AppliedSums> applied;  ///< nothing where the scene has no such causes
-  double mass = 0;  ///< of all particles, kg
+  ExactSum mass;  ///< of all particles, kg
 };
-
-/// Books what an evaluation did in one step of `dt` (s, > 0); gravity (m/s^2) pulls at the whole mass. Symplectic
-/// Euler kicks once, by dt; velocity Verlet by half a dt with the last evaluation's forces, and by half a dt with
-/// these.
-void book_step(Ledger& ledger, const StepReport& now, const Vec3d& gravity, double dt, Integrator integrator);
-
-/// What the first half of a step of velocity Verlet will book after an evaluation at the start.
-StepRates first_rates(const StepReport& start, const Vec3d& gravity);
 
 /// Particles that leave, or come, as one sums them up.
 struct RemovalSums {
@@ -106,12 +102,8 @@ struct RemovalSums {
 
   void add_particle(double mass, const Vec3d& x, const Vec3d& v, const Vec3d& gravity);
   void add(const RemovalSums& other);
-  /// As left through open faces.
-  void book(Ledger& ledger) const;
-  /// As left for another reason, whose count is `tally`.
-  void book_gone(Ledger& ledger, std::uint64_t& tally) const;
-  /// As born.
-  void book_born(Ledger& ledger) const;
+
+  friend bool operator==(const RemovalSums&, const RemovalSums&) = default;
 };
 
 /// What particles do to each collider, gathered in any order.
@@ -142,18 +134,22 @@ class MeasurementSums {
   /// A particle that touches collider `index` at `point` (m, from the pivot) and gets `force` (N) from it.
   void add_collider_contact(std::size_t index, const Vec3d& point, const ContactLaw<double>& law, double overlap,
                             const Vec3d& force);
+  /// `count` springs of the scene's structure that hold, with this energy, J, in them.
+  void add_springs(std::uint64_t count, const ExactSum& energy);
+  /// Energy of particles in the attraction of all others, J.
+  void add_attraction(double energy) { attraction_energy_.add(energy); }
   void add(const MeasurementSums& other);
   /// `colliders`: how many the scene has.
   Measurements result(std::size_t colliders) const;
 
  private:
-  std::uint64_t particles_ = 0, contact_sides_ = 0, wall_contacts_ = 0;
+  std::uint64_t particles_ = 0, contact_sides_ = 0, wall_contacts_ = 0, springs_ = 0;
   ExactSum mass_, kinetic_, potential_, elastic_, wall_elastic_, overlap_ratio_, momentum_scale_;
   ExactVectorSum momentum_, mass_moment_, wall_force_;
-  ExactSum collider_elastic_;
+  ExactSum collider_elastic_, spring_energy_, attraction_energy_;
   ColliderLoadSums collider_loads_;
   double max_speed_ = 0, max_overlap_ratio_ = 0;
-  Vec3d min_{0, 0, 0}, max_{0, 0, 0};
+  Box3d box_ = Box3d::none();  // around the centres, m
 };
 
 }  // namespace hooke

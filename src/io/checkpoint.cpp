@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <numeric>
 
+#include "hooke/base/floating_point.h"
 #include "hooke/base/hash.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/hdf5.h"
@@ -20,7 +22,7 @@ namespace hooke {
 
 namespace {
 
-constexpr std::int64_t kFormat = 3;
+constexpr std::int64_t kFormat = 4;
 constexpr const char* kType = "hooke checkpoint";
 
 static_assert(sizeof(Vec3d) == 3 * sizeof(double));
@@ -29,8 +31,7 @@ static_assert(sizeof(Vec3d) == 3 * sizeof(double));
 template <class State, class Visit>
 void for_each_integer(State& s, Visit&& visit) {
   visit(s.next_id);
-  visit(s.ledger.removed);
-  visit(s.ledger.springs.broken);
+  LedgerSums::for_each_count(visit, s.ledger);
 }
 
 template <class State, class Visit>
@@ -40,18 +41,8 @@ void for_each_real(State& s, Visit&& visit) {
     visit(v.y);
     visit(v.z);
   };
-  auto& ledger = s.ledger;
-  for (auto& work : ledger.work.of) visit(work);
-  for (auto& power : ledger.last.power.of) visit(power);
-  for (auto& impulse : ledger.impulse.of) vector(impulse);
-  for (auto& force : ledger.last.force.of) vector(force);
-  vector(ledger.removed_momentum);
+  visit(s.ledger.kick);
   vector(s.initial_momentum);
-  visit(ledger.removed_energy);
-  visit(ledger.removed_elastic);
-  visit(ledger.springs.dissipated);
-  visit(ledger.springs.broken_energy);
-  visit(ledger.last.spring_dissipation);
   visit(s.initial_energy);
   visit(s.initial_elastic);
 }
@@ -59,6 +50,8 @@ void for_each_real(State& s, Visit&& visit) {
 struct Numbers {
   std::vector<std::uint64_t> integers;
   std::vector<double> reals;
+  std::vector<double> parts;             // of the ledger's exact sums, one sum after the other
+  std::vector<std::uint16_t> part_count;  // of each sum
 };
 
 Numbers numbers_of(const SimulationState& state) {
@@ -66,6 +59,13 @@ Numbers numbers_of(const SimulationState& state) {
   numbers.integers.push_back(static_cast<std::uint64_t>(state.step));
   for_each_integer(state, [&](std::uint64_t value) { numbers.integers.push_back(value); });
   for_each_real(state, [&](double value) { numbers.reals.push_back(value); });
+  LedgerSums::for_each_sum(
+      [&](const ExactSum& sum) {
+        const std::vector<double> parts = sum.parts();
+        numbers.part_count.push_back(static_cast<std::uint16_t>(parts.size()));
+        numbers.parts.insert(numbers.parts.end(), parts.begin(), parts.end());
+      },
+      state.ledger);
   return numbers;
 }
 
@@ -149,6 +149,8 @@ void write_content(hdf5::File& file, const SimulationState& state, const RunInfo
   hdf5::write_text(root, "run", to_json(info));
   hdf5::write_array(root, "integers", numbers.integers.data(), numbers.integers.size());
   hdf5::write_array(root, "reals", numbers.reals.data(), numbers.reals.size());
+  hdf5::write_array(root, "sums", numbers.parts.data(), numbers.parts.size());
+  hdf5::write_array(root, "sum_parts", numbers.part_count.data(), numbers.part_count.size());
   hdf5::write_array(root, "id", p.id.data(), p.size());
   hdf5::write_array(root, "material", p.material.data(), p.size());
   write_vectors(root, "position", p.position);
@@ -167,7 +169,8 @@ Checkpoint read_content(const std::filesystem::path& path) {
     throw Failure(Error::Kind::bad_input, path,
                   fmt::format("is a checkpoint of format {}; this program reads format {}", format, kFormat));
   }
-  const Numbers numbers{hdf5::read_array<std::uint64_t>(root, "integers"), hdf5::read_array<double>(root, "reals")};
+  const Numbers numbers{hdf5::read_array<std::uint64_t>(root, "integers"), hdf5::read_array<double>(root, "reals"),
+                        hdf5::read_array<double>(root, "sums"), hdf5::read_array<std::uint16_t>(root, "sum_parts")};
   Checkpoint checkpoint;
   SimulationState& state = checkpoint.state;
   ParticleSet& p = state.particles;
@@ -179,6 +182,8 @@ Checkpoint read_content(const std::filesystem::path& path) {
   const Numbers expected = numbers_of(state);
   const std::size_t n = p.size();
   if (numbers.integers.size() != expected.integers.size() || numbers.reals.size() != expected.reals.size() ||
+      numbers.part_count.size() != expected.part_count.size() ||
+      std::accumulate(numbers.part_count.begin(), numbers.part_count.end(), std::size_t{0}) != numbers.parts.size() ||
       p.material.size() != n || p.position.size() != n || p.velocity.size() != n ||
       (p.acceleration.size() != n && !p.acceleration.empty())) {
     throw Failure(Error::Kind::bad_input, path, "is a damaged checkpoint: its tables don't fit together");
@@ -188,6 +193,13 @@ Checkpoint read_content(const std::filesystem::path& path) {
   for_each_integer(state, [&](std::uint64_t& value) { value = *integer++; });
   auto real = numbers.reals.begin();
   for_each_real(state, [&](double& value) { value = *real++; });
+  auto part = numbers.parts.begin();
+  auto count = numbers.part_count.begin();
+  LedgerSums::for_each_sum(
+      [&](ExactSum& sum) {
+        for (std::uint16_t k = *count++; k > 0; --k) sum.add(*part++);
+      },
+      state.ledger);
   read_structure(root, path, state);
   read_population(root, path, state);
   checkpoint.info = parse_run_info(hdf5::read_text(root, "run"), path);
@@ -197,6 +209,7 @@ Checkpoint read_content(const std::filesystem::path& path) {
 }  // namespace
 
 Expected<void> write_checkpoint(const std::filesystem::path& path, const SimulationState& state, const RunInfo& info) {
+  const FloatingPointGuard floating_point;  // exact sums need rounding to nearest
   return guarded(path, [&] {
     const std::filesystem::path unfinished = unfinished_name(path);
     try {
@@ -225,6 +238,7 @@ bool is_checkpoint(const std::filesystem::path& path) {
 }
 
 Expected<Checkpoint> read_checkpoint(const std::filesystem::path& path) {
+  const FloatingPointGuard floating_point;
   return guarded(path, [&] {
     std::error_code ignored;
     return read_content(std::filesystem::is_directory(path, ignored) ? path / kCheckpointFile : path);

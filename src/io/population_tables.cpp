@@ -18,11 +18,7 @@ void write_column(hid_t file, const char* name, const std::vector<T>& column, st
 }  // namespace
 
 void write_population(hid_t file, const SimulationState& state) {
-  const PopulationLedger& l = state.ledger.population;
-  if (state.emission.emitters.empty() && l == PopulationLedger{}) return;
-  const Vec3d& p = l.born_momentum;
-  write_column(file, "population_reals", std::vector<double>{p.x, p.y, p.z, l.born_energy});
-  write_column(file, "population_counts", std::vector<std::uint64_t>{l.born, l.expired, l.sunk});
+  if (state.emission.emitters.empty()) return;
   std::vector<double> due;
   std::vector<std::uint64_t> numbers;
   for (const EmitterState& e : state.emission.emitters) {
@@ -44,19 +40,15 @@ void write_population(hid_t file, const SimulationState& state) {
 }
 
 void read_population(hid_t file, const std::filesystem::path& path, SimulationState& state) {
-  if (!hdf5::exists(file, "population_reals")) return;
-  const auto reals = hdf5::read_array<double>(file, "population_reals");
-  const auto counts = hdf5::read_array<std::uint64_t>(file, "population_counts");
+  if (!hdf5::exists(file, "emitter_due")) return;
   const auto due = hdf5::read_array<double>(file, "emitter_due");
   const auto numbers = hdf5::read_array<std::uint64_t>(file, "emitter_numbers", kEmitterNumbers);
   const auto death = hdf5::read_array<std::uint64_t>(file, "mortal_death");
   const auto id = hdf5::read_array<std::uint64_t>(file, "mortal_id");
   const auto emitter = hdf5::read_array<std::uint32_t>(file, "mortal_emitter");
-  if (reals.size() != 4 || counts.size() != 3 || numbers.size() != kEmitterNumbers * due.size() ||
-      id.size() != death.size() || emitter.size() != death.size()) {
+  if (numbers.size() != kEmitterNumbers * due.size() || id.size() != death.size() || emitter.size() != death.size()) {
     throw Failure(Error::Kind::bad_input, path, "is a damaged checkpoint: its tables of births don't fit together");
   }
-  state.ledger.population = {{reals[0], reals[1], reals[2]}, reals[3], counts[0], counts[1], counts[2]};
   for (std::size_t i = 0; i < due.size(); ++i) {
     const std::uint64_t* n = numbers.data() + kEmitterNumbers * i;
     state.emission.emitters.push_back({due[i], n[0], n[1], n[2], n[3]});

@@ -9,8 +9,8 @@
 
 namespace hooke {
 
-/// Writes the progress of emitters, the ends of lives, and the ledger of births and deaths into an HDF5 file; nothing
-/// where a state has none of these. Throws Failure.
+/// Writes how far emitters have got and when lives end into an HDF5 file; nothing for a scene without emitters. Throws
+/// Failure.
 void write_population(hid_t file, const SimulationState& state);
 
 /// Reads these tables into `state`, which stays as it is where the file has none. Throws Failure.

@@ -38,7 +38,7 @@ double RunReport::energy_balance() const {
   const double now = measurements.kinetic_energy + measurements.potential_energy + measurements.elastic_energy +
                      measurements.spring_energy + measurements.attraction_energy;
   const double given = ledger.work[Cause::wall] + ledger.work[Cause::collider] + ledger.work[Cause::hold] +
-                       ledger.work[Cause::field] + ledger.population.born_energy;
+                       ledger.work[Cause::field] + ledger.work[Cause::external] + ledger.population.born_energy;
   const double lost = ledger.dissipated() + ledger.springs.dissipated + ledger.springs.broken_energy +
                       ledger.removed_energy + ledger.removed_elastic;
   return now - initial_energy - (given - lost);
@@ -66,8 +66,8 @@ RunReport make_report(const Simulation& simulation, const Measurements& measurem
   report.ledger = simulation.ledger();
   for (const Collider& c : simulation.scene().colliders) report.colliders.push_back(c.name);
   report.initial_energy = simulation.initial_energy();
-  report.integration = integration_error(measurements, simulation.ledger(), simulation.initial_elastic());
-  report.momentum_drift = momentum_drift(measurements, simulation.ledger(), simulation.initial_momentum());
+  report.integration = integration_error(measurements, report.ledger, simulation.initial_elastic());
+  report.momentum_drift = momentum_drift(measurements, report.ledger, simulation.initial_momentum());
   report.neighbours = simulation.neighbour_statistics();
   report.stages = simulation.stage_times();
   return report;
@@ -119,6 +119,7 @@ std::string to_json(const RunReport& r) {
                     {"work_by_attraction", r.ledger.work[Cause::attraction]},
                     {"integration", r.integration},
                     {"balance", r.energy_balance()}};
+  if (const double work = r.ledger.work[Cause::external]; work != 0) json["energy"]["work_by_external_forces"] = work;
   json["momentum"] = to_array(m.momentum);
   json["momentum_drift"] = r.momentum_drift;
   json["centre_of_mass"] = to_array(m.centre_of_mass);

@@ -69,11 +69,12 @@ void for_each_column(const SeriesRow& row, Visit&& column) {
 }  // namespace
 
 SeriesRow make_series_row(const Simulation& simulation, const Measurements& measurements) {
+  const Ledger ledger = simulation.ledger();
   return {simulation.step_count(),
           simulation.time(),
           measurements,
-          simulation.ledger(),
-          integration_error(measurements, simulation.ledger(), simulation.initial_elastic()),
+          ledger,
+          integration_error(measurements, ledger, simulation.initial_elastic()),
           simulation.neighbour_statistics().rebuilds};
 }
 

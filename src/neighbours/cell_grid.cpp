@@ -15,7 +15,7 @@ namespace hooke {
 
 void CellGrid::lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic)[3], const Vec3d& reach) {
   for (int i = 0; i < 3; ++i) {
-    Axis& a = axes_[i];
+    Axis& a = axes[i];
     const double length = component(max, i) - component(min, i);
     HOOKE_ASSERT(std::isfinite(length) && length >= 0, i, min, max);
     HOOKE_ASSERT(component(reach, i) > 0, i, reach);
@@ -25,29 +25,27 @@ void CellGrid::lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic
     a.length = length;
     a.count = static_cast<std::int64_t>(std::clamp(cells, 1.0, static_cast<double>(kMaxCells)));
     a.cell = std::max(component(reach, i), length / static_cast<double>(a.count));
-    inverse_cell_[i] = 1 / a.cell;
-    last_cell_[i] = static_cast<double>(a.count - 1);
+    inverse_cell[i] = 1 / a.cell;
+    last_cell[i] = static_cast<double>(a.count - 1);
   }
-  path_ = path_axes(min, max);
-  stride_y_ = axes_[0].count + 2;
-  stride_z_ = stride_y_ * (axes_[1].count + 2);
+  const std::array<int, 3> along = path_axes(min, max);
+  std::copy(along.begin(), along.end(), GridGeometry::path);
+  stride_y = axes[0].count + 2;
+  stride_z = stride_y * (axes[1].count + 2);
 }
 
 std::size_t CellGrid::neighbour_ranges(std::uint64_t key, KeyRange (&out)[kMostRanges], int more) const {
   HOOKE_ASSERT(key < key_end() && more >= 0, key, key_end(), more);
   const auto k = static_cast<std::int64_t>(key);
-  const std::int64_t rows_y = axes_[1].count + 2;
-  const std::int64_t row = k / stride_y_;
-  const std::int64_t at[3] = {k - row * stride_y_, row % rows_y, row / rows_y};
+  const std::int64_t rows_y = axes[1].count + 2;
+  const std::int64_t row = k / stride_y;
+  const std::int64_t at[3] = {k - row * stride_y, row % rows_y, row / rows_y};
 
-  // Indices first to last of an axis as one stretch, or as two where they wrap around a periodic axis.
-  struct Stretch {
-    std::int64_t first, last;
-  };
+  // As of GridGeometry, of cells around one.
   const auto stretches = [&](int i, std::int64_t first, std::int64_t last, Stretch(&to)[2]) {
-    const std::int64_t n = axes_[i].count;
-    if (!axes_[i].periodic || last - first + 1 >= n) {
-      to[0] = axes_[i].periodic ? Stretch{1, n} : Stretch{std::max<std::int64_t>(first, 1), std::min(last, n)};
+    const std::int64_t n = axes[i].count;
+    if (!axes[i].periodic || last - first + 1 >= n) {
+      to[0] = axes[i].periodic ? Stretch{1, n} : Stretch{std::max<std::int64_t>(first, 1), std::min(last, n)};
       return 1;
     }
     to[0] = {std::max<std::int64_t>(first, 1), std::min(last, n)};
@@ -70,7 +68,7 @@ std::size_t CellGrid::neighbour_ranges(std::uint64_t key, KeyRange (&out)[kMostR
     for (std::int64_t z = zs[sz].first; z <= zs[sz].last; ++z) {
       for (int sy = 0; sy < ny; ++sy) {
         for (std::int64_t y = ys[sy].first; y <= ys[sy].last; ++y) {
-          const std::int64_t start = y * stride_y_ + z * stride_z_;
+          const std::int64_t start = y * stride_y + z * stride_z;
           for (int sx = 0; sx < nx; ++sx) {
             out[ranges++] = {static_cast<std::uint64_t>(start + xs[sx].first),
                              static_cast<std::uint64_t>(start + xs[sx].last)};

@@ -8,12 +8,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "hooke/base/assert.h"
 #include "hooke/base/vec3.h"
+#include "hooke/neighbours/grid_geometry.h"
 #include "hooke/neighbours/window_search.h"
 
 namespace hooke {
@@ -22,16 +22,12 @@ namespace hooke {
 /// are numbered along x first, so the cells x-1, x, x+1 of a row are one range of numbers and, after the sort, one
 /// range of points. There is no table of cells: a sparse cloud in a domain of a million cells per axis needs no more
 /// memory than a dense one.
-class CellGrid {
+class CellGrid : private GridGeometry {
  public:
-  /// One axis of the grid.
-  struct Axis {
-    double origin = 0;  // m, lower edge of the first cell
-    double cell = 1;  // m, edge of a cell
-    double length = 1;  // m, of the box
-    std::int64_t count = 1;  // cells
-    bool periodic = false;
-  };
+  using GridGeometry::Axis;
+  using GridGeometry::for_path_ranges;
+  using GridGeometry::key_end;
+  using GridGeometry::KeyRange;
 
   static constexpr std::int64_t kMaxCells = 1 << 20;  ///< per axis; beyond that cells grow
 
@@ -44,10 +40,17 @@ class CellGrid {
   /// The same with one reach per axis.
   void lay_out(const Vec3d& min, const Vec3d& max, const bool (&periodic)[3], const Vec3d& reach);
 
-  /// Number of the cell of a finite point; a point outside the box counts to a cell at its edge.
+  /// Plain numbers, to ask on a device.
+  const GridGeometry& geometry() const { return *this; }
+
+  /// As of GridGeometry; the point is finite.
   std::uint64_t key_of(const Vec3d& x) const {
     HOOKE_ASSERT(is_finite(x), x);
-    return static_cast<std::uint64_t>(index_of(x.x, 0) + stride_y_ * index_of(x.y, 1) + stride_z_ * index_of(x.z, 2));
+    return GridGeometry::key_of(x);
+  }
+  std::uint64_t path_key_of(const Vec3d& x) const {
+    HOOKE_ASSERT(is_finite(x), x);
+    return GridGeometry::path_key_of(x);
   }
 
   /// key_of() of the points first to last - 1, in a grid of less than 2^32 cells. Plain loops that compilers vectorise.
@@ -57,11 +60,11 @@ class CellGrid {
     HOOKE_ASSERT(key_end() <= std::uint64_t{1} << 32U, key_end());
     std::fill(keys, keys + (last - first), 0U);
     const Real* const columns[] = {points.x + first, points.y + first, points.z + first};
-    const std::int64_t strides[] = {1, stride_y_, stride_z_};
-    for (int axis = 0; axis < 3; ++axis) {
-      const Real* const column = columns[axis];
-      const auto stride = static_cast<std::uint32_t>(strides[axis]);
-      const double origin = axes_[axis].origin, inverse = inverse_cell_[axis], end = last_cell_[axis];
+    const std::int64_t strides[] = {1, stride_y, stride_z};
+    for (int a = 0; a < 3; ++a) {
+      const Real* const column = columns[a];
+      const auto stride = static_cast<std::uint32_t>(strides[a]);
+      const double origin = axes[a].origin, inverse = inverse_cell[a], end = last_cell[a];
       for (std::size_t i = 0; i < last - first; ++i) {
         const double cell = (static_cast<double>(column[i]) - origin) * inverse;
         const double inside = cell > 0 ? cell : 0;
@@ -70,15 +73,6 @@ class CellGrid {
     }
   }
 
-  /// The same, numbered along a path: rows along one axis, side by side in layers; every other row and every other
-  /// layer runs backwards, so that cells with consecutive numbers are adjacent. Layers are perpendicular to the longest
-  /// axis, so they are as small as possible, and adjacent layers are close in memory.
-  std::uint64_t path_key_of(const Vec3d& x) const {
-    HOOKE_ASSERT(is_finite(x), x);
-    const auto index = [&](int axis) { return index_of(component(x, axis), axis); };
-    const Row row = row_at(index(path_[1]), index(path_[2]));
-    return static_cast<std::uint64_t>(row.start + mirrored(index(path_[0]), path_[0], row.backwards));
-  }
   /// The axes of the path through the box [min, max]: along rows, across the rows of a layer, across layers.
   static std::array<int, 3> path_axes(const Vec3d& min, const Vec3d& max) {
     std::array<int, 3> axes{0, 1, 2};
@@ -90,99 +84,18 @@ class CellGrid {
     return {axes[1], axes[2], axes[0]};
   }
 
-  /// One past the largest key: the key of points that take no part; they are sorted last.
-  std::uint64_t key_end() const { return static_cast<std::uint64_t>(stride_z_ * (axes_[2].count + 2)); }
-
-  /// Inclusive range of cell numbers.
-  struct KeyRange {
-    std::uint64_t first, last;
-  };
   /// The cells adjacent to `key` (< key_end()) and to up to `more` (>= 0) cells after it in its row, including these
   /// cells themselves, as disjoint ranges of numbers; each cell appears once. At most nine rows, each cut in two where
   /// x is periodic.
   static constexpr std::size_t kMostRanges = 18;
   std::size_t neighbour_ranges(std::uint64_t key, KeyRange (&out)[kMostRanges], int more = 0) const;
 
-  /// Calls body(range) for disjoint ranges of numbers along the path, in no order; together they hold each cell that
-  /// the box [min, max] meets, also around periodic axes, exactly once.
-  template <class Body>
-  void for_path_ranges(const Vec3d& min, const Vec3d& max, const Body& body) const {
-    Stretches along[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-      along[k] = stretches(path_[k], component(min, path_[k]), component(max, path_[k]));
-    }
-    const std::int64_t end = axes_[path_[0]].count + 1;
-    for (int sl = 0; sl < along[2].count; ++sl) {
-      for (std::int64_t layer = along[2].of[sl].first; layer <= along[2].of[sl].last; ++layer) {
-        for (int sr = 0; sr < along[1].count; ++sr) {
-          for (std::int64_t r = along[1].of[sr].first; r <= along[1].of[sr].last; ++r) {
-            const Row row = row_at(r, layer);
-            for (int s = 0; s < along[0].count; ++s) {
-              auto [first, last] = along[0].of[s];
-              if (row.backwards) std::tie(first, last) = std::pair(end - last, end - first);
-              body(KeyRange{static_cast<std::uint64_t>(row.start + first),
-                            static_cast<std::uint64_t>(row.start + last)});
-            }
-          }
-        }
-      }
-    }
-  }
-
-  const Axis& axis(int i) const { return axes_[i]; }
+  const Axis& axis(int i) const { return axes[i]; }
   /// The axes of the path.
-  const std::array<int, 3>& path() const { return path_; }
+  std::array<int, 3> path() const { return {GridGeometry::path[0], GridGeometry::path[1], GridGeometry::path[2]}; }
 
  private:
   static bool is_finite(const Vec3d& x) { return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z); }
-
-  std::int64_t index_of(double x, int i) const {
-    const double cell = (x - axes_[i].origin) * inverse_cell_[i];
-    // Clamped before the conversion, which is undefined for values beyond int64.
-    const double inside = cell > 0 ? cell : 0;
-    return static_cast<std::int64_t>(inside < last_cell_[i] ? inside : last_cell_[i]) + 1;
-  }
-
-  // A row of cells on the path.
-  struct Row {
-    std::int64_t start;  // the key before the row's first
-    bool backwards;
-  };
-  Row row_at(std::int64_t row, std::int64_t layer) const {
-    const std::int64_t rows = axes_[path_[1]].count, stride = axes_[path_[0]].count + 2;
-    const std::int64_t on_path = mirrored(row, path_[1], (layer & 1) != 0);
-    return {(layer * (rows + 2) + on_path) * stride, (((layer & rows) ^ on_path) & 1) != 0};
-  }
-  // The index counted from the other end, if `yes`. Without a branch, which could not be predicted.
-  std::int64_t mirrored(std::int64_t index, int axis, bool yes) const {
-    return index + static_cast<std::int64_t>(yes) * (axes_[axis].count + 1 - 2 * index);
-  }
-
-  // Indices first to last of an axis as one stretch, or as two where they wrap around a periodic axis.
-  struct Stretches {
-    struct {
-      std::int64_t first, last;
-    } of[2];
-    int count;
-  };
-  Stretches stretches(int i, double min, double max) const {
-    const Axis& a = axes_[i];
-    const double end = a.origin + a.length;
-    if (!a.periodic || (min >= a.origin && max < end)) return {{{index_of(min, i), index_of(max, i)}, {}}, 1};
-    if (!(max - min < a.length)) return {{{1, a.count}, {}}, 1};
-    const double before = std::floor((min - a.origin) / a.length) * a.length;
-    const std::int64_t first = index_of(min - before, i);
-    if (max - before < end) return {{{first, index_of(max - before, i)}, {}}, 1};
-    const std::int64_t last = index_of(max - before - a.length, i);
-    if (last >= first) return {{{1, a.count}, {}}, 1};
-    return {{{first, a.count}, {1, last}}, 2};
-  }
-
-  Axis axes_[3];
-  double inverse_cell_[3] = {1, 1, 1};
-  double last_cell_[3] = {0, 0, 0};  // number of cells less one
-  std::array<int, 3> path_{0, 1, 2};  // axes
-  std::int64_t stride_y_ = 3, stride_z_ = 9;  // with one empty cell at both ends of every axis
 };
 
 /// Finds the first point at or after a key. Cells are visited in ascending order, so the answer is usually a few points

@@ -109,17 +109,17 @@ template <class Real>
 std::int64_t MotionBounds<Real>::follow_motions(std::span<Anchor> anchors) {
   HOOKE_ASSERT(anchors.size() >= group_count(), anchors.size(), group_count());
   for (int axis = 0; axis < 3; ++axis) spread(levels_[0], std::span(motions_), axis);
-  for (Level& level : levels_) level.boxes.assign(level.grid.key_end(), Box{});
+  for (Level& level : levels_) level.boxes.assign(level.grid.key_end(), AnchorRange{});
   place(anchors);
   for (std::size_t l = 1; l < kLevels; ++l) bound_wider_blocks(levels_[l - 1], levels_[l]);
-  anywhere_ = Box{};
-  for (const Box& box : levels_.back().boxes) anywhere_.add(box);
+  anywhere_ = AnchorRange{};
+  for (const AnchorRange& box : levels_.back().boxes) anywhere_.add(box);
   double steps = anywhere_.steps_within(levels_.back().apart);
   if (!(anywhere_.furthest() < 1000 * skin_)) steps = -1;  // rounding would take too much of the skin
   for (std::size_t l = 0; l < kLevels; ++l) {
     for (int axis = 0; axis < 3; ++axis) spread(levels_[l], std::span(levels_[l].boxes), axis);
     if (l == 0) continue;
-    for (const Box& box : levels_[l].boxes) steps = std::min(steps, box.steps_within(levels_[l - 1].apart));
+    for (const AnchorRange& box : levels_[l].boxes) steps = std::min(steps, box.steps_within(levels_[l - 1].apart));
   }
   allow(anchors);
   return steps < 0 ? -1 : static_cast<std::int64_t>(std::min(steps, 1e6));
@@ -139,7 +139,7 @@ void MotionBounds<Real>::place(std::span<Anchor> anchors) {
     }
     const std::lock_guard lock(mutex_);
     for (std::size_t g = first; g < last; ++g) {
-      for (const std::uint32_t block : blocks_of(g)) levels_[0].boxes[block].add(Box::around(anchors[g]));
+      for (const std::uint32_t block : blocks_of(g)) levels_[0].boxes[block].add(AnchorRange::around(anchors[g]));
     }
   });
 }
@@ -148,8 +148,8 @@ template <class Real>
 void MotionBounds<Real>::bound_wider_blocks(const Level& narrow, Level& wide) {
   for (std::size_t z = 1; z <= count_of(narrow, 2); ++z) {
     for (std::size_t y = 1; y <= count_of(narrow, 1); ++y) {
-      const Box* from = narrow.boxes.data() + z * stride_of(narrow, 2) + y * stride_of(narrow, 1);
-      Box* to = wide.boxes.data() + wide.block_of[2][z] + wide.block_of[1][y];
+      const AnchorRange* from = narrow.boxes.data() + z * stride_of(narrow, 2) + y * stride_of(narrow, 1);
+      AnchorRange* to = wide.boxes.data() + wide.block_of[2][z] + wide.block_of[1][y];
       for (std::size_t x = 1; x <= count_of(narrow, 0); ++x) to[wide.block_of[0][x]].add(from[x]);
     }
   }

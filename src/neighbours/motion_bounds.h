@@ -93,16 +93,16 @@ class MotionBounds {
 
   // Bounds of offsets (m, 0 to 2) and drifts (m a step, 3 to 5); initially empty. The lower bounds, in front, are
   // stored with the opposite sign, so that all bounds grow.
-  struct Box {
+  struct AnchorRange {
     static constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
     std::array<Real, 12> edge = {-kInfinite, -kInfinite, -kInfinite, -kInfinite, -kInfinite, -kInfinite,
                                  -kInfinite, -kInfinite, -kInfinite, -kInfinite, -kInfinite, -kInfinite};
 
-    static Box around(const Anchor& a) {
+    static AnchorRange around(const Anchor& a) {
       const Vec3<Real>&u = a.offset, &v = a.drift;
       return {{-u.x, -u.y, -u.z, -v.x, -v.y, -v.z, u.x, u.y, u.z, v.x, v.y, v.z}};
     }
-    void add(const Box& box) {
+    void add(const AnchorRange& box) {
       for (std::size_t e = 0; e < 12; ++e) edge[e] = edge[e] < box.edge[e] ? box.edge[e] : edge[e];
     }
     bool empty() const { return edge[0] == -kInfinite; }
@@ -142,7 +142,7 @@ class MotionBounds {
   struct Level {
     CellGrid grid;
     double apart = 0;  // m: how far anchors of blocks that are not adjacent may separate
-    std::vector<Box> boxes;
+    std::vector<AnchorRange> boxes;
     std::array<std::vector<std::size_t>, 3> block_of;  // by index of a narrower block along an axis: a term of a key
   };
 
@@ -176,7 +176,7 @@ class MotionBounds {
 
   std::array<Level, kLevels> levels_;
   double skin_ = 0;  // m
-  Box anywhere_;  // around all anchors
+  AnchorRange anywhere_;  // around all anchors
   std::vector<Motions> motions_;
   std::vector<std::uint32_t> blocks_, first_block_;  // of each group
   std::mutex mutex_;  // guards sums over blocks

@@ -24,7 +24,7 @@ Vec3d rotated(const Vec3d& v, const Vec3d& axis, double angle) {
   return std::cos(angle) * v + std::sin(angle) * cross(axis, v) + ((1 - std::cos(angle)) * dot(axis, v)) * axis;
 }
 
-std::array<Vec3d, 8> corners(const Box& box) {
+std::array<Vec3d, 8> corners(const Box3d& box) {
   std::array<Vec3d, 8> all;
   for (std::size_t i = 0; i < all.size(); ++i) {
     all[i] = {i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z};
@@ -48,16 +48,16 @@ Vec3d up_of(const Scene& scene) {
   return strength > 0 ? (-1 / strength) * scene.gravity : Vec3d{0, 1, 0};
 }
 
-double extent_along(const Box& box, const Vec3d& direction) {
+double extent_along(const Box3d& box, const Vec3d& direction) {
   HOOKE_ASSERT(is_unit(direction), direction);
   const Vec3d size = box.max - box.min;
   return std::abs(size.x * direction.x) + std::abs(size.y * direction.y) + std::abs(size.z * direction.z);
 }
 
-Box action_box(const Scene& scene, const ParticleSet& first) {
+Box3d action_box(const Scene& scene, const ParticleSet& first) {
   HOOKE_ASSERT(are_particles_of(first, scene), first.size(), scene.materials.size());
   constexpr double kHeadroom = 1.15;
-  Box box{scene.domain.min, scene.domain.max};
+  Box3d box{scene.domain.min, scene.domain.max};
   if (first.empty()) return box;
   const Vec3d up = up_of(scene);
   for (int axis = 0; axis < 3; ++axis) {
@@ -76,7 +76,7 @@ Box action_box(const Scene& scene, const ParticleSet& first) {
   return box;
 }
 
-LevelAxes level_axes(const Box& box, const Vec3d& up) {
+LevelAxes level_axes(const Box3d& box, const Vec3d& up) {
   HOOKE_ASSERT(is_unit(up), up);
   Vec3d longest{0, 0, 0};
   double most = -1;
@@ -91,12 +91,12 @@ LevelAxes level_axes(const Box& box, const Vec3d& up) {
   return {across, cross(across, up)};
 }
 
-Vec3d direction_to_sun(const Box& box, const Vec3d& up) {
+Vec3d direction_to_sun(const Box3d& box, const Vec3d& up) {
   const LevelAxes level = level_axes(box, up);
   return normalized(up + 0.4 * level.front + 0.6 * level.across);
 }
 
-Camera default_camera(const Box& box, const Vec3d& up, double field_of_view, double aspect) {
+Camera default_camera(const Box3d& box, const Vec3d& up, double field_of_view, double aspect) {
   HOOKE_ASSERT(aspect > 0, aspect);
   HOOKE_ASSERT(field_of_view > 0 && field_of_view < 180, field_of_view);
   constexpr double kElevation = 20 * kDegree, kAzimuth = -24 * kDegree;
@@ -131,7 +131,7 @@ Camera default_camera(const Box& box, const Vec3d& up, double field_of_view, dou
   return camera;
 }
 
-Camera camera_at(const Scene& scene, const Box& action, double aspect, double time) {
+Camera camera_at(const Scene& scene, const Box3d& action, double aspect, double time) {
   const SceneCamera& wanted = scene.camera;
   Camera camera = default_camera(action, up_of(scene), wanted.field_of_view, aspect);
   if (wanted.target) {

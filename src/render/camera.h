@@ -2,19 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "hooke/base/box3.h"
 #include "hooke/base/vec3.h"
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
 
 namespace hooke {
-
-/// An axis-parallel box, m.
-struct Box {
-  Vec3d min{0, 0, 0};
-  Vec3d max{1, 1, 1};
-
-  Vec3d center() const { return 0.5 * (min + max); }
-};
 
 /// A pinhole camera.
 struct Camera {
@@ -34,27 +27,27 @@ CameraAxes axes(const Camera& camera);
 Vec3d up_of(const Scene& scene);
 
 /// The length of `box` along the unit vector `direction`, m.
-double extent_along(const Box& box, const Vec3d& direction);
+double extent_along(const Box3d& box, const Vec3d& direction);
 
 /// Where a scene's action takes place: the domain, cut a little above the highest particle at the start, `first`.
-Box action_box(const Scene& scene, const ParticleSet& first);
+Box3d action_box(const Scene& scene, const ParticleSet& first);
 
 /// Two level unit vectors at right angles; the unit vector `up` points up. `across` is along the longer level side of
 /// `box`, which pictures show from left to right; `front` points to the viewer.
 struct LevelAxes {
   Vec3d across, front;
 };
-LevelAxes level_axes(const Box& box, const Vec3d& up);
+LevelAxes level_axes(const Box3d& box, const Vec3d& up);
 
 /// Where the sun stands in pictures of `box`, a unit vector: high, over the right shoulder of the default camera.
-Vec3d direction_to_sun(const Box& box, const Vec3d& up);
+Vec3d direction_to_sun(const Box3d& box, const Vec3d& up);
 
 /// A camera that shows all of `box`, from in front and a little above, its long side across the picture.
 /// `field_of_view` in degrees, in (0, 180); `aspect`: width of the picture over its height, > 0.
-Camera default_camera(const Box& box, const Vec3d& up, double field_of_view, double aspect);
+Camera default_camera(const Box3d& box, const Vec3d& up, double field_of_view, double aspect);
 
 /// The camera of a picture at `time` (s): the scene's camera, with the default camera's values where the scene gives
 /// none, carried around the target by the scene's orbit.
-Camera camera_at(const Scene& scene, const Box& action, double aspect, double time);
+Camera camera_at(const Scene& scene, const Box3d& action, double aspect, double time);
 
 }  // namespace hooke

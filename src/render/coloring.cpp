@@ -15,7 +15,7 @@ namespace {
 double norm(const Vec3d& v) { return std::sqrt(dot(v, v)); }
 
 // Height of the action's lowest corner, along `up`, m.
-double floor_height(const Box& action, const Vec3d& up) {
+double floor_height(const Box3d& action, const Vec3d& up) {
   return dot(action.center(), up) - 0.5 * extent_along(action, up);
 }
 
@@ -26,7 +26,7 @@ double fastest(const ParticleSet& particles) {
 }
 
 // Twice the pressure of the weight of all particles, spread over the floor, Pa.
-double weight_pressure(const Scene& scene, const ParticleSet& first, const Box& action) {
+double weight_pressure(const Scene& scene, const ParticleSet& first, const Box3d& action) {
   double mass = 0;
   for (const std::uint16_t material : first.material) mass += scene.materials[material].mass;
   const Vec3d size = action.max - action.min;
@@ -58,7 +58,7 @@ ColorTitle title(ColorBy by) {
 }
 
 ColorScale default_scale(const Scene& scene, const ParticleSet& first, ColorBy by) {
-  const Box action = action_box(scene, first);
+  const Box3d action = action_box(scene, first);
   const double height = extent_along(action, up_of(scene));
   switch (by) {
     case ColorBy::material:
@@ -77,7 +77,7 @@ ColorScale default_scale(const Scene& scene, const ParticleSet& first, ColorBy b
   return {};
 }
 
-std::vector<double> color_values(const Scene& scene, const ParticleSet& particles, double time, const Box& action,
+std::vector<double> color_values(const Scene& scene, const ParticleSet& particles, double time, const Box3d& action,
                                  ColorBy by) {
   HOOKE_ASSERT(are_particles_of(particles, scene), particles.size(), scene.materials.size());
   std::vector<double> values;

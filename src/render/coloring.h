@@ -52,7 +52,7 @@ ColorTitle title(ColorBy by);
 ColorScale default_scale(const Scene& scene, const ParticleSet& first, ColorBy by);
 
 /// The quantity of every particle, in the set's order. Empty for materials.
-std::vector<double> color_values(const Scene& scene, const ParticleSet& particles, double time, const Box& action,
+std::vector<double> color_values(const Scene& scene, const ParticleSet& particles, double time, const Box3d& action,
                                  ColorBy by);
 
 }  // namespace hooke

@@ -49,7 +49,7 @@ std::vector<float> water_aeration(const Scene& scene, const ParticleSet& particl
   return aeration(scene, particles, water->radius);
 }
 
-std::optional<double> ground_of(const Scene& scene, const Box& action, const Vec3d& up) {
+std::optional<double> ground_of(const Scene& scene, const Box3d& action, const Vec3d& up) {
   if (scene.gravity == Vec3d{0, 0, 0}) return {};
   double lowest = 0;
   for (int axis = 0; axis < 3; ++axis) {

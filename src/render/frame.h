@@ -38,7 +38,7 @@ struct Frame {
   std::vector<ShadedMesh> meshes;
   Tank tank;
   Camera camera;  ///< eye and target relative to the origin
-  Box action;     ///< relative to the origin
+  Box3d action;     ///< relative to the origin
   Vec3d up{0, 1, 0};
   Vec3d across{1, 0, 0};  ///< level unit vectors; `across` is along the longer side of the action
   Vec3d along{0, 0, 1};
@@ -51,7 +51,7 @@ struct Frame {
 
 /// What stays the same for all pictures of a run.
 struct Look {
-  Box action;
+  Box3d action;
   ColorScale scale;
   double foam_speed = 1;  ///< speed at which water is white, m/s
 };

@@ -18,7 +18,7 @@ namespace hooke {
 struct BlockSource {
   std::string path;    ///< in the scene: "particles[0].block"
   std::string lattice;  ///< "cubic", "hcp", "random"
-  CentreBox box;
+  Box3d box;
   double spacing = 1;  ///< m, > 0
   std::optional<std::uint64_t> count;
   double jitter = 0;  ///< m, >= 0

@@ -22,7 +22,7 @@ std::uint64_t sites_on(double length, double distance) {
   return steps >= kMostSites ? static_cast<std::uint64_t>(kMostSites) : static_cast<std::uint64_t>(steps) + 1;
 }
 
-double length(const CentreBox& box, int axis) { return component(box.max, axis) - component(box.min, axis); }
+double length(const Box3d& box, int axis) { return component(box.max, axis) - component(box.min, axis); }
 
 // A product of counts, saturated at 2^63 as the counts are.
 std::uint64_t saturated(double count) {
@@ -44,7 +44,7 @@ UpDirection up_against(const Vec3d& gravity) {
   return up;
 }
 
-Lattice::Lattice(LatticeKind kind, const CentreBox& box, double spacing, UpDirection up)
+Lattice::Lattice(LatticeKind kind, const Box3d& box, double spacing, UpDirection up)
     : kind_(kind),
       box_(box),
       spacing_(spacing),

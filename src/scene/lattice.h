@@ -5,15 +5,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "hooke/base/box3.h"
 #include "hooke/base/vec3.h"
 
 namespace hooke {
-
-/// A box that bounds the centres of particles, faces included, m.
-struct CentreBox {
-  Vec3d min{0, 0, 0};
-  Vec3d max{0, 0, 0};
-};
 
 /// The upward direction: against gravity's largest component; +y without gravity.
 struct UpDirection {
@@ -29,7 +24,7 @@ enum class LatticeKind { cubic, hcp };
 class Lattice {
  public:
   /// `spacing`: distance of nearest neighbours, m, > 0.
-  Lattice(LatticeKind kind, const CentreBox& box, double spacing, UpDirection up);
+  Lattice(LatticeKind kind, const Box3d& box, double spacing, UpDirection up);
 
   /// Number of sites; saturates at 2^63.
   std::uint64_t site_count() const;
@@ -49,7 +44,7 @@ class Lattice {
   std::uint64_t sites_in(const Layer& layer) const;
 
   LatticeKind kind_;
-  CentreBox box_;
+  Box3d box_;
   double spacing_;
   UpDirection up_;
   int row_axis_;

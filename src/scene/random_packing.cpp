@@ -22,7 +22,7 @@ using Index3 = std::array<std::uint64_t, 3>;
 // voxels that are not yet wholly covered; when few darts stick, voxels are split in eight and covered ones dropped.
 class Packing {
  public:
-  Packing(const CentreBox& box, double spacing, std::uint64_t count, std::uint64_t seed)
+  Packing(const Box3d& box, double spacing, std::uint64_t count, std::uint64_t seed)
       : box_(box),
         spacing_squared_(spacing * spacing),
         count_(count),
@@ -175,7 +175,7 @@ class Packing {
     voxel_width_in_cells_ = child_width_in_cells;
   }
 
-  CentreBox box_;
+  Box3d box_;
   double spacing_squared_;
   std::uint64_t count_;
   std::uint64_t seed_;
@@ -191,7 +191,7 @@ class Packing {
 
 }  // namespace
 
-double random_packing_bound(const CentreBox& box, double spacing) {
+double random_packing_bound(const Box3d& box, double spacing) {
   HOOKE_ASSERT(spacing > 0, spacing);
   // Spheres with a diameter of one spacing, in the box grown by half a spacing on all sides, fill at most 0.74 of it.
   constexpr double kDensestPacking = 1.4142135623730951;  // centres a cubed spacing
@@ -200,7 +200,7 @@ double random_packing_bound(const CentreBox& box, double spacing) {
   return bound;
 }
 
-std::vector<Vec3d> random_packing(const CentreBox& box, double spacing, std::uint64_t count, std::uint64_t seed) {
+std::vector<Vec3d> random_packing(const Box3d& box, double spacing, std::uint64_t count, std::uint64_t seed) {
   HOOKE_ASSERT(spacing > 0, spacing);
   if (count == 0) return {};
   for (int axis = 0; axis < 3; ++axis) {

@@ -16,9 +16,9 @@ inline constexpr std::uint64_t kAsManyAsFit = std::numeric_limits<std::uint64_t>
 /// Random sequential addition: centres drawn at random in a box, each kept if it is at least `spacing` (m, > 0) from
 /// all centres before. Draws come from the space still free, so the loop ends: with `count` centres, or when next to no
 /// room is left (about 0.7 centres a cubed spacing). The same seed gives the same centres on every machine.
-std::vector<Vec3d> random_packing(const CentreBox& box, double spacing, std::uint64_t count, std::uint64_t seed);
+std::vector<Vec3d> random_packing(const Box3d& box, double spacing, std::uint64_t count, std::uint64_t seed);
 
 /// Upper bound of the number of centres that random_packing can place.
-double random_packing_bound(const CentreBox& box, double spacing);
+double random_packing_bound(const Box3d& box, double spacing);
 
 }  // namespace hooke

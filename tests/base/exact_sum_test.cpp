@@ -200,5 +200,51 @@ TEST(ExactSum, OfFloatsThatAreNotFiniteIsNotANumber) {
   }
 }
 
+TEST(ExactSum, IsTheSumOfItsParts) {
+  for (const int powers : {10, 200, 1500}) {
+    std::vector<double> values = spread_numbers(2000, -3, powers, 5);
+    ExactSum sum, shuffled, rebuilt;
+    for (const double v : values) sum.add(v);
+    shuffle(values, 9);
+    for (const double v : values) shuffled.add(v);
+    const std::vector<double> parts = sum.parts();
+    EXPECT_EQ(parts, shuffled.parts()) << "the same ones in any order";
+    EXPECT_EQ(parts.front(), sum.value());
+    for (std::size_t k = 1; k < parts.size(); ++k) EXPECT_LT(std::abs(parts[k]), std::abs(parts[k - 1]));
+    for (const double part : parts) rebuilt.add(part);
+    EXPECT_EQ(rebuilt, sum);
+    rebuilt.add(std::ldexp(1.0, -1074));
+    EXPECT_FALSE(rebuilt == sum);
+  }
+  EXPECT_TRUE(ExactSum{}.parts().empty());
+  ExactSum cancelled;
+  for (const double v : {1e300, 1.0, -1e300, -1.0}) cancelled.add(v);
+  EXPECT_TRUE(cancelled.parts().empty());
+  EXPECT_EQ(cancelled, ExactSum{});
+  ExactSum not_finite;
+  not_finite.add(Limits::infinity());
+  ASSERT_EQ(not_finite.parts().size(), 1U);
+  EXPECT_TRUE(std::isnan(not_finite.parts().front()));
+}
+
+TEST(ExactSum, OfProductsKeepsWhatTheirRoundingLeaves) {
+  const double a = 1 + 0x1p-30, b = 1 - 0x1p-30;  // a b = 1 - 2^-60
+  ExactSum sum;
+  sum.add_product(a, b);
+  sum.add(-1);
+  EXPECT_EQ(sum.value(), -0x1p-60);
+  ExactSum thrice, added;
+  thrice.add_product(3, 0.1);
+  for (int i = 0; i < 3; ++i) added.add(0.1);
+  EXPECT_EQ(thrice, added);
+  ExactSum scaled;
+  sum.add(1e10);
+  scaled.add_scaled(sum, 0.1);
+  sum = {};
+  sum.add_product(1e10, 0.1);
+  sum.add_product(-0x1p-60, 0.1);
+  EXPECT_EQ(scaled, sum);
+}
+
 }  // namespace
 }  // namespace hooke

@@ -6,6 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "support/engines.h"
 #include "support/particles.h"
@@ -95,6 +99,73 @@ TEST_P(Edits, SetAParticle) {
   EXPECT_FALSE(s.set_particle(1, {0, 0, 200}, {0, 0, 0})) << "outside the domain";
   EXPECT_FALSE(s.set_particle(1, {0, 0, 0}, {0, INFINITY, 0}));
   EXPECT_LT(momentum_drift(measured(s), s.ledger(), s.initial_momentum()), 1e-7);
+}
+
+TEST_P(Edits, PushParticlesWithForces) {
+  Simulation s = start();
+  const std::uint64_t ids[] = {2, 1};
+  const Vec3d forces[] = {{4, 0, -2}, {0, 0, 0}};
+  ASSERT_TRUE(s.set_external_forces(ids, forces));
+  ASSERT_TRUE(advance(s, 10));
+  const double dt = s.scene().time_step;
+  // Velocity Verlet's first half kick is by the forces of the step before.
+  const double kicks = s.scene().integrator == Integrator::velocity_verlet ? 9.5 : 10;
+  EXPECT_NEAR(s.velocities()[1].x, 2 * kicks * dt, 1e-6) << "of mass 2";
+  EXPECT_NEAR(s.velocities()[1].z, -1 * kicks * dt, 1e-6);
+  EXPECT_EQ(s.velocities()[0], (Vec3d{1, 0, 0})) << "whose force is none";
+  ASSERT_TRUE(s.set_external_forces({}, {}));
+  ASSERT_TRUE(advance(s, 10));
+  EXPECT_NEAR(s.velocities()[1].x, 20 * dt, 1e-6);
+  const Ledger ledger = s.ledger();
+  EXPECT_NEAR(ledger.impulse[Cause::external].x, 40 * dt, 1e-6);
+  EXPECT_NEAR(ledger.work[Cause::external], 0.5 * 2 * (400 + 100) * dt * dt, 1e-6) << "its kinetic energy";
+  EXPECT_LT(momentum_drift(measured(s), ledger, s.initial_momentum()), 1e-7);
+  // Particles that are added in between change nothing of what is booked.
+  ASSERT_TRUE(s.set_external_forces(ids, forces));
+  ASSERT_TRUE(advance(s, 3));
+  const NewParticle added[] = {{0, {0, 5, 0}, {0, 1, 0}}};
+  ASSERT_TRUE(s.add_particles(added));
+  ASSERT_TRUE(advance(s, 3));
+  EXPECT_LT(momentum_drift(measured(s), s.ledger(), s.initial_momentum()), 1e-7);
+}
+
+TEST_P(Edits, RefuseBadForcesAltogether) {
+  Simulation s = start();
+  const std::uint64_t ids[] = {1, 2}, unknown[] = {1, 99}, twice[] = {2, 2};
+  const Vec3d forces[] = {{0, 2, 0}, {0, 0, 0}}, bad[] = {{0, NAN, 0}, {INFINITY, 0, 0}};
+  ASSERT_TRUE(s.set_external_forces(ids, forces));
+  const auto first_fault = [&](std::span<const std::uint64_t> of, std::span<const Vec3d> by) {
+    const auto set = s.set_external_forces(of, by);
+    return set ? std::string("none") : set.error().text();
+  };
+  EXPECT_NE(first_fault(unknown, forces).find("particle 99: there is none of this id"), std::string::npos);
+  EXPECT_NE(first_fault(twice, forces).find("particle 2: has more than one force"), std::string::npos);
+  EXPECT_NE(first_fault(ids, bad).find("particle 2: force"), std::string::npos) << "both are named";
+  EXPECT_NE(first_fault(ids, {forces, 1}).find("1 forces for 2 ids"), std::string::npos);
+  ASSERT_TRUE(advance(s, 10));
+  EXPECT_GT(s.velocities()[0].y, 0) << "the old ones still push";
+}
+
+TEST_P(Edits, CopyTheColumnsThatAreWanted) {
+  Simulation s = start();
+  ASSERT_TRUE(s.apply_impulse(2, {1.0 / 3, 0, 0}));
+  ASSERT_TRUE(advance(s, 3));
+  std::vector<Vec3f> positions(2), accelerations(2, {7, 7, 7});
+  ASSERT_TRUE(
+      s.copy_particles(ParticleColumns<float>{nullptr, nullptr, positions.data(), nullptr, accelerations.data()}));
+  const bool verlet = s.scene().integrator == Integrator::velocity_verlet;
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(positions[i], vec_cast<float>(s.positions()[i]));
+    EXPECT_EQ(accelerations[i], verlet ? vec_cast<float>(s.particles().acceleration[i]) : Vec3f(7, 7, 7));
+  }
+  std::vector<std::uint64_t> ids(2);
+  std::vector<std::uint16_t> materials(2);
+  std::vector<Vec3d> velocities(2);
+  ASSERT_TRUE(
+      s.copy_particles(ParticleColumns<double>{ids.data(), materials.data(), nullptr, velocities.data(), nullptr}));
+  EXPECT_EQ(ids, s.particles().id);
+  EXPECT_EQ(materials, s.particles().material);
+  EXPECT_EQ(velocities, s.particles().velocity);
 }
 
 TEST_P(Edits, ReplaceAMaterial) {

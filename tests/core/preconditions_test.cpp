@@ -145,8 +145,10 @@ TEST(CorePreconditions, CausesHaveAnEntry) {
 }
 
 TEST(CorePreconditions, SumsAreOfSteps) {
-  Ledger ledger;
-  EXPECT_ASSERTS(book_step(ledger, {}, {0, 0, 0}, 0, Integrator::symplectic_euler), "dt = 0, now.mass = 0");
+  Scene still;
+  still.time_step = 0;
+  LedgerSums ledger;
+  EXPECT_ASSERTS(ledger.book_step({}, still), "next_kick = 0");
   AppliedSums applied;
   EXPECT_ASSERTS(applied.add_held(0, {0, 0, 0}, {0, 0, 0}, 1), "mass = 0, seconds = 1");
   ColliderLoadSums loads;

@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Every law, in both precisions, as code for a GPU: compiled, never run. See CMakeLists.txt.
+// Every law, the rules' tables and the grid's questions, in both precisions, as code for a GPU: compiled, never run. See
+// CMakeLists.txt.
 
+#include "hooke/core/rules_view.h"
+#include "hooke/neighbours/grid_geometry.h"
 #include "hooke/neighbours/group_anchor.h"
 #include "hooke/neighbours/layout.h"
 #include "hooke/physics/attraction.h"
@@ -61,5 +64,20 @@ template __global__ void laws(Particle<float>*, const ContactLaw<float>*, const 
                               const GroupAnchor<float>*, Vec3<float>, float);
 template __global__ void laws(Particle<double>*, const ContactLaw<double>*, const PlacedCollider<double>*,
                               const GroupAnchor<double>*, Vec3<double>, double);
+
+// Which cell a particle is in, how many cells its surroundings meet, and what it has with its own kind.
+template <class Real>
+__global__ void grid(const Particle<Real>* particles, const GridGeometry geometry, const RulesView<Real> rules,
+                     std::uint64_t* keys) {
+  const unsigned i = blockIdx.x * blockDim.x + threadIdx.x;
+  const Vec3d x = vec_cast<double>(particles[i].x), around{rules.pairs[0].reach, rules.pairs[0].reach, 0};
+  std::uint64_t cells = 0;
+  geometry.for_path_ranges(x - around, x + around,
+                           [&](const GridGeometry::KeyRange& range) { cells += range.last - range.first + 1; });
+  keys[i] = geometry.path_key_of(x) + geometry.key_of(x) + cells + geometry.key_end();
+}
+
+template __global__ void grid(const Particle<float>*, GridGeometry, RulesView<float>, std::uint64_t*);
+template __global__ void grid(const Particle<double>*, GridGeometry, RulesView<double>, std::uint64_t*);
 
 }  // namespace hooke

@@ -131,6 +131,18 @@ TEST_P(Grids, KeysEndBeforeTheirEnd) {
 INSTANTIATE_TEST_SUITE_P(Boxes, Grids, testing::ValuesIn(kBoxes),
                          [](const auto& instance) { return instance.param.name; });
 
+TEST(CellGrid, GeometryAnswersAsTheGridDoes) {
+  CellGrid grid;
+  grid.lay_out({-1, 0, 2}, {5, 3, 4}, {true, false, true}, 0.3);
+  const GridGeometry geometry = grid.geometry();
+  EXPECT_EQ(geometry.key_end(), grid.key_end());
+  for (int i = 0; i < 200; ++i) {
+    const Vec3d x{-1.5 + 0.035 * i, 0.016 * i, 2 + 0.01 * i};
+    EXPECT_EQ(geometry.key_of(x), grid.key_of(x));
+    EXPECT_EQ(geometry.path_key_of(x), grid.path_key_of(x));
+  }
+}
+
 TEST(CellGrid, CellsOfARowAreConsecutive) {
   CellGrid grid;
   grid.lay_out({0, 0, 0}, {10, 10, 10}, {false, false, false}, 1);

@@ -35,7 +35,7 @@ Place place(const Camera& camera, double aspect, const Vec3d& point) {
 struct Extent {
   double left = 2, right = -2, bottom = 2, top = -2;
 };
-Extent extent(const Camera& camera, double aspect, const Box& box) {
+Extent extent(const Camera& camera, double aspect, const Box3d& box) {
   Extent all;
   for (int i = 0; i < 8; ++i) {
     const Place p = place(
@@ -47,14 +47,14 @@ Extent extent(const Camera& camera, double aspect, const Box& box) {
 }
 
 TEST(DefaultCamera, ShowsAllOfABoxAndFillsThePictureWithIt) {
-  const Box boxes[] = {{{0, 0, 0}, {64, 24, 16}},
-                       {{-1, -1, -1}, {1, 1, 1}},
-                       {{5, 0, -9}, {6, 0.1, 40}},
-                       {{0, 0, 0}, {1, 50, 1}},
-                       {{1e6, 2e6, 0}, {1e6 + 3, 2e6 + 1, 2}},
-                       {{0, 0, 0}, {1e-4, 2e-4, 1e-4}}};
+  const Box3d boxes[] = {{{0, 0, 0}, {64, 24, 16}},
+                         {{-1, -1, -1}, {1, 1, 1}},
+                         {{5, 0, -9}, {6, 0.1, 40}},
+                         {{0, 0, 0}, {1, 50, 1}},
+                         {{1e6, 2e6, 0}, {1e6 + 3, 2e6 + 1, 2}},
+                         {{0, 0, 0}, {1e-4, 2e-4, 1e-4}}};
   const Vec3d ups[] = {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {0, -1, 0}, normalized({1, 2, 3}), normalized({0.1, 1, 0})};
-  for (const Box& box : boxes) {
+  for (const Box3d& box : boxes) {
     for (const Vec3d& up : ups) {
       for (const double aspect : {16.0 / 9, 1.0, 0.4, 4.0}) {
         for (const double field_of_view : {10.0, 35.0, 100.0}) {
@@ -74,7 +74,7 @@ TEST(DefaultCamera, ShowsAllOfABoxAndFillsThePictureWithIt) {
 }
 
 TEST(DefaultCamera, LooksFromALittleAboveWithTheLongSideAcross) {
-  const Box box{{0, 0, 0}, {64, 24, 16}};
+  const Box3d box{{0, 0, 0}, {64, 24, 16}};
   const Camera camera = default_camera(box, {0, 1, 0}, 35, 16.0 / 9);
   EXPECT_GT(camera.eye.y, box.max.y);
   EXPECT_GT(std::abs(axes(camera).right.x), 0.8);
@@ -106,7 +106,7 @@ Scene tank() {
 
 TEST(CameraAt, IsTheScenesWhereThatSays) {
   Scene scene = tank();
-  const Box box{scene.domain.min, scene.domain.max};
+  const Box3d box{scene.domain.min, scene.domain.max};
   const Camera own = camera_at(scene, box, 1.5, 0);
   expect_near(own.eye, default_camera(box, {0, 1, 0}, 35, 1.5).eye);
 
@@ -132,7 +132,7 @@ TEST(CameraAt, OrbitTurnsAroundWhatPointsUp) {
     Scene scene = tank();
     scene.gravity = gravity;
     scene.camera.orbit = 12;
-    const Box box{scene.domain.min, scene.domain.max};
+    const Box3d box{scene.domain.min, scene.domain.max};
     const Vec3d up = up_of(scene);
     const Camera first = camera_at(scene, box, 1.5, 0), later = camera_at(scene, box, 1.5, 2.5),
                  whole = camera_at(scene, box, 1.5, 30);
@@ -184,7 +184,7 @@ ParticleSet at(const std::vector<Vec3d>& positions) {
 TEST(ActionBox, IsAsHighAsTheParticlesReachAndABit) {
   Scene scene = tank();
   scene.domain.max.y = 100;
-  Box box = action_box(scene, at({{1, 1, 1}, {2, 3.5, 1}}));
+  Box3d box = action_box(scene, at({{1, 1, 1}, {2, 3.5, 1}}));
   expect_near(box.min, {0, 0, 0});
   expect_near(box.max, {8, 1.15 * 4, 4});
   // Gravity the other way: from the ceiling down.
@@ -202,7 +202,7 @@ TEST(ActionBox, IsTheDomainWhereThatIsAllThereIs) {
 
 TEST(DirectionToSun, IsHighAndOnTheSideOfTheDefaultCamera) {
   for (const Vec3d& up : {Vec3d{0, 1, 0}, Vec3d{0, 0, 1}, normalized({1, 2, 3})}) {
-    const Box box{{0, 0, 0}, {8, 6, 4}};
+    const Box3d box{{0, 0, 0}, {8, 6, 4}};
     const Vec3d sun = direction_to_sun(box, up);
     EXPECT_NEAR(norm(sun), 1, 1e-12);
     EXPECT_GT(dot(sun, up), 0.5);

@@ -30,7 +30,7 @@ struct Sample {
 
 TEST(ColorValues, AreTheQuantities) {
   const Sample s;
-  const Box action = action_box(s.scene, s.particles);
+  const Box3d action = action_box(s.scene, s.particles);
   const auto values = [&](ColorBy by) { return color_values(s.scene, s.particles, 0, action, by); };
   EXPECT_TRUE(values(ColorBy::material).empty());
   EXPECT_EQ(values(ColorBy::speed), (std::vector<double>{0, 0, 7}));

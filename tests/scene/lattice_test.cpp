@@ -50,7 +50,7 @@ TEST(Lattice, CubicFillsTheBoxWithBothFaces) {
 
 TEST(Lattice, CountsDespiteRounding) {
   // 9.999999 spacings hold eleven sites; the last one is drawn back to the face.
-  const CentreBox box{{0, 0, 0}, {9.999999, 0, 0}};
+  const Box3d box{{0, 0, 0}, {9.999999, 0, 0}};
   const Lattice lattice(LatticeKind::cubic, box, 1, {});
   EXPECT_EQ(lattice.site_count(), 11U);
   for (const Vec3d& x : sites(lattice)) EXPECT_LE(x.x, box.max.x);

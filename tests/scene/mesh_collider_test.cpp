@@ -159,7 +159,7 @@ TEST(MeshFile, IsReadInEveryFormatWithItsPlace) {
                               R"(", "scale": 2, "rotate": [0, 0, 3, 90], "translate": [5, 1, 1] } } } ] })";
     const auto loaded = parse_scene(scene, "scene.json", folder.path());
     ASSERT_TRUE(loaded) << loaded.error().text();
-    const ShapeBounds bounds = bounds_of(loaded->scene.colliders.at(0).shape);
+    const Box3d bounds = bounds_of(loaded->scene.colliders.at(0).shape);
     // 2 x 4 x 6 m; a quarter of a turn about z brings x to y and y to -x.
     EXPECT_NEAR(bounds.min.x, 1, 1e-6) << name;
     EXPECT_NEAR(bounds.max.x, 5, 1e-6);

@@ -16,7 +16,7 @@
 namespace hooke {
 namespace {
 
-const CentreBox kBox{{0, 0, 0}, {1, 1, 1}};
+const Box3d kBox{{0, 0, 0}, {1, 1, 1}};
 
 TEST(ScenePreconditions, CentresAreApart) {
   EXPECT_ASSERTS(Lattice(LatticeKind::cubic, kBox, 0, {}), "spacing = 0");

@@ -10,7 +10,7 @@
 namespace hooke {
 namespace {
 
-void expect_apart(const std::vector<Vec3d>& points, double spacing, const CentreBox& box) {
+void expect_apart(const std::vector<Vec3d>& points, double spacing, const Box3d& box) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis) {
       ASSERT_GE(component(points[i], axis), component(box.min, axis));
@@ -24,7 +24,7 @@ void expect_apart(const std::vector<Vec3d>& points, double spacing, const Centre
 }
 
 TEST(RandomPacking, KeepsCentresApart) {
-  const CentreBox box{{-1, 2, 0}, {4, 7, 5}};
+  const Box3d box{{-1, 2, 0}, {4, 7, 5}};
   const auto points = random_packing(box, 0.5, 300, 7);
   EXPECT_EQ(points.size(), 300U);
   expect_apart(points, 0.5, box);
@@ -33,7 +33,7 @@ TEST(RandomPacking, KeepsCentresApart) {
 TEST(RandomPacking, FillsUpToJamming) {
   // Saturated random sequential addition covers 0.384 of space: 0.733 centres for each cubed spacing. Centres may lie
   // on the box's faces, so there is room for a few more.
-  const CentreBox box{{0, 0, 0}, {12, 12, 12}};
+  const Box3d box{{0, 0, 0}, {12, 12, 12}};
   const auto points = random_packing(box, 1, kAsManyAsFit, 1);
   expect_apart(points, 1, box);
   EXPECT_GT(static_cast<double>(points.size()), 0.72 * 12 * 12 * 12);
@@ -41,7 +41,7 @@ TEST(RandomPacking, FillsUpToJamming) {
 }
 
 TEST(RandomPacking, IsTheSameForTheSameSeed) {
-  const CentreBox box{{0, 0, 0}, {5, 5, 5}};
+  const Box3d box{{0, 0, 0}, {5, 5, 5}};
   EXPECT_EQ(random_packing(box, 1, 50, 3), random_packing(box, 1, 50, 3));
   EXPECT_NE(random_packing(box, 1, 50, 3), random_packing(box, 1, 50, 4));
 }
@@ -54,18 +54,18 @@ TEST(RandomPacking, EndsWhereNothingMoreFits) {
 }
 
 TEST(RandomPacking, FillsFlatAndThinBoxes) {
-  const CentreBox flat{{0, 3, 0}, {20, 3, 20}};
+  const Box3d flat{{0, 3, 0}, {20, 3, 20}};
   const auto plane = random_packing(flat, 1, kAsManyAsFit, 1);
   expect_apart(plane, 1, flat);
   EXPECT_GT(static_cast<double>(plane.size()), 0.68 * 400);  // discs jam at 0.547: 0.696 for each squared spacing
-  const CentreBox line{{0, 0, 0}, {0, 0, 100}};
+  const Box3d line{{0, 0, 0}, {0, 0, 100}};
   const auto row = random_packing(line, 1, kAsManyAsFit, 1);
   expect_apart(row, 1, line);
   EXPECT_GT(static_cast<double>(row.size()), 72.0);  // Renyi's car parking: 0.7476
 }
 
 TEST(RandomPacking, NeedsLittleForAFewInAVastBox) {
-  const CentreBox box{{0, 0, 0}, {1e9, 1e9, 1e9}};
+  const Box3d box{{0, 0, 0}, {1e9, 1e9, 1e9}};
   EXPECT_EQ(random_packing(box, 1, 100, 1).size(), 100U);
 }
 

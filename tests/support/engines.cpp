@@ -70,7 +70,8 @@ double accounted_energy(const Simulation& simulation) {
   return now.kinetic_energy + now.potential_energy + now.elastic_energy + now.spring_energy + now.attraction_energy +
          ledger.dissipated() + ledger.springs.dissipated + ledger.springs.broken_energy + ledger.removed_energy +
          ledger.removed_elastic - ledger.population.born_energy - ledger.work[Cause::wall] -
-         ledger.work[Cause::collider] - ledger.work[Cause::hold] - ledger.work[Cause::field];
+         ledger.work[Cause::collider] - ledger.work[Cause::hold] - ledger.work[Cause::field] -
+         ledger.work[Cause::external];
 }
 
 }  // namespace hooke::test

@@ -11,7 +11,7 @@
 namespace hooke {
 
 template <class Real>
-void AppliedForces<Real>::configure(const Scene& scene, const ForcePass<Real>& rules, const Loops<Real>& loops) {
+void AppliedForces<Real>::configure(const Scene& scene, const RulesView<Real>& rules, const Loops<Real>& loops) {
   structure_ = scene.structure;
   kick_ = scene.integrator == Integrator::velocity_verlet ? scene.time_step / 2 : scene.time_step;
   mass_.clear();
@@ -25,11 +25,14 @@ void AppliedForces<Real>::configure(const Scene& scene, const ForcePass<Real>& r
   springs_.configure(scene, rules, loops.spring_pass);
   fields_.configure(scene);
   attraction_.configure(scene, loops.attraction);
+  external_.clear();
+  acting_.clear();
   work_pass_ = loops.work_pass;
 }
 
 template <class Real>
-void AppliedForces<Real>::bind(const IdTable& ids, const Records& records, std::size_t count) {
+void AppliedForces<Real>::bind(const Particles& particles) {
+  const IdTable& ids = particles.ids;
   springs_.bind(ids);
   fields_.bind(ids);
   held_ranks_.clear();
@@ -41,41 +44,43 @@ void AppliedForces<Real>::bind(const IdTable& ids, const Records& records, std::
       if (rank < ids.size()) held.push_back(static_cast<std::uint32_t>(rank));
     }
   }
-  for (std::size_t i = 0; any_fixed_ && i < count; ++i) {
-    const Record& p = records[i];
+  for (std::size_t i = 0; any_fixed_ && i < particles.slots.end(); ++i) {
+    const Record& p = particles.records[i];
     if (!is_vacant(p) && fixed_[static_cast<std::size_t>(p.material)]) {
       held.push_back(static_cast<std::uint32_t>(rank_of(p.rank)));
     }
   }
-  if (!held.empty()) find_places(records, count, ids.size());
-  if (!held.empty()) find_held(count);
+  if (held.empty()) return;
+  particles.find_slots();
+  find_held(particles);
 }
 
 template <class Real>
-void AppliedForces<Real>::add(std::size_t slot, std::size_t ranks, bool fixed, std::size_t room) {
-  if (needs_layout()) {
-    place_.resize(ranks, SpringLists<Real>::kVacant);
-    place_.back() = static_cast<std::uint32_t>(slot);
-  }
+void AppliedForces<Real>::add(const Particles& particles, std::size_t slot, bool fixed) {
+  const std::size_t ranks = particles.ids.size();
   springs_.grow(ranks);
   fields_.grow(ranks);
   if (!fixed) return held_.release(slot);
-  if (held_.none()) held_.clear(room);
+  if (held_.none()) held_.clear(particles.slots.room());
   held_.hold(slot);
   held_ranks_.push_back(static_cast<std::uint32_t>(ranks - 1));
 }
 
 template <class Real>
-void AppliedForces<Real>::lay_out(const Records& records, std::size_t count, std::size_t ranks) {
-  find_places(records, count, ranks);
-  if (!springs_.empty()) springs_.lay_out(records.data(), count, records.size(), place_);
-  if (!held_.none()) find_held(count);
+void AppliedForces<Real>::lay_out(const Particles& particles) {
+  particles.find_slots();
+  const auto& records = particles.records;
+  if (!springs_.empty()) {
+    springs_.lay_out(records.data(), particles.slots.room(), records.size(), particles.slots_by_rank());
+  }
+  if (!held_.none()) find_held(particles);
 }
 
 template <class Real>
-const typename AppliedForces<Real>::Pairs& AppliedForces<Real>::apply(const Records& records, std::size_t count,
-                                                                      std::size_t alive, const IdTable& ids,
-                                                                      bool may_tear, SpringSums& sums) {
+const typename AppliedForces<Real>::Pairs& AppliedForces<Real>::apply(const Particles& particles, bool may_tear,
+                                                                      SpringSums& sums) {
+  const auto& records = particles.records;
+  const std::size_t count = particles.slots.end();
   static const Pairs kNone;
   const Pairs* released = &kNone;
   acting_.clear();
@@ -84,13 +89,14 @@ const typename AppliedForces<Real>::Pairs& AppliedForces<Real>::apply(const Reco
     acting_.push_back({Cause::springs, springs_.forces()});
   }
   if (!fields_.empty()) {
-    fields_.apply(records, count, place_);
+    fields_.apply(records, count, particles.slots_by_rank());
     acting_.push_back({Cause::field, fields_.forces()});
   }
   if (!attraction_.empty()) {
-    attraction_.apply(records, count, alive, ids);
+    attraction_.apply(records, count, particles.count(), particles.ids);
     acting_.push_back({Cause::attraction, attraction_.forces()});
   }
+  if (!external_.empty()) acting_.push_back({Cause::external, external_.column(particles)});
   if (acting_.size() > 1) {
     total_.resize(records.size());
     parallel_ranges(count, kTile, [&](std::size_t first, std::size_t last) {
@@ -112,27 +118,18 @@ void AppliedForces<Real>::finish(std::size_t first, std::size_t last, const Reco
 }
 
 template <class Real>
-void AppliedForces<Real>::measure(const Records& records, std::size_t count, std::size_t alive, const IdTable& ids,
-                                  Measurements& m) {
-  springs_.measure(records.data(), place_, m);
-  if (!attraction_.empty()) m.attraction_energy = attraction_.energy(records, count, alive, ids);
+void AppliedForces<Real>::measure(const Particles& particles, MeasurementSums& sums) {
+  springs_.measure(particles.records.data(), particles.slots_by_rank(), sums);
+  if (attraction_.empty()) return;
+  sums.add_attraction(attraction_.energy(particles.records, particles.slots.end(), particles.count(), particles.ids));
 }
 
 template <class Real>
-void AppliedForces<Real>::find_places(const Records& records, std::size_t count, std::size_t ranks) {
-  place_.assign(ranks, SpringLists<Real>::kVacant);
-  parallel_ranges(count, kTile, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      if (!is_vacant(records[i])) place_[rank_of(records[i].rank)] = static_cast<std::uint32_t>(i);
-    }
-  });
-}
-
-template <class Real>
-void AppliedForces<Real>::find_held(std::size_t count) {
-  held_.clear(count);
+void AppliedForces<Real>::find_held(const Particles& particles) {
+  held_.clear(particles.slots.room());
   for (const std::uint32_t rank : held_ranks_) {
-    if (place_[rank] != SpringLists<Real>::kVacant) held_.hold(place_[rank]);
+    const std::uint32_t slot = particles.slots_by_rank()[rank];
+    if (slot != Particles::kNoSlot) held_.hold(slot);
   }
 }
 
@@ -152,12 +149,12 @@ void AppliedForces<Real>::hold_still(std::size_t first, std::size_t last, const 
 template <class Real>
 void AppliedForces<Real>::add_work(const Acting& acting, std::size_t first, std::size_t last, const Record* before,
                                    const Record* after, const Vec3<Real>* acceleration, AppliedSums& sums) const {
-  const bool external = acting.cause != Cause::springs;  // they give each other what they take
+  const bool has_resultant = acting.cause != Cause::springs;  // they give each other what they take
   std::array<ExactParts, WorkSum::count> parts;
   for (ExactParts& part : parts) part.count = 0;
   work_pass_(
       {before + first, after + first, acting.force + first, acceleration == nullptr ? nullptr : acceleration + first,
-       static_cast<Real>(kick_), last - first, external},
+       static_cast<Real>(kick_), last - first, has_resultant},
       parts.data());
   AppliedSums::Rates& rates = sums[acting.cause];
   const auto add = [&](int sum, ExactSum& to) {

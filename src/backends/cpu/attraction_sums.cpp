@@ -82,12 +82,12 @@ constexpr double kFaint = 0.05;
 using Stack = std::array<std::uint32_t, AttractionTree<float>::kMostLevels + 2>;
 
 // Square of the distance from a point to the nearest of a box.
-template <class Box>
-double distance2(const Box& box, double x, double y, double z) {
-  const double at[3] = {x, y, z};
+template <class Real>
+double distance2(const Box3<Real>& box, const Vec3d& x) {
+  const Vec3d below = vec_cast<double>(box.min) - x, above = x - vec_cast<double>(box.max);
   double sum = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double off = std::max({double(box.min[axis]) - at[axis], at[axis] - double(box.max[axis]), 0.0});
+  for (int axis = 0; axis < 3; ++axis) {
+    const double off = std::max({component(below, axis), component(above, axis), 0.0});
     sum += off * off;
   }
   return sum;
@@ -110,7 +110,7 @@ class AttractionSums<Real>::Walk {
   }
 
   // Sums into the targets; a node may be off by `allowed`, a mass over a length squared.
-  void run(const typename AttractionTree<Real>::Box& box, double allowed) {
+  void run(const Box3<Real>& box, double allowed) {
     const double allowed2 = allowed * allowed;
     Stack stack;
     std::size_t height = 0;
@@ -118,7 +118,7 @@ class AttractionSums<Real>::Walk {
     while (height > 0) {
       const std::uint32_t k = stack[--height];
       const auto& node = tree_.nodes()[k];
-      const double d2 = distance2(box, node.x, node.y, node.z);
+      const double d2 = distance2(box, {node.x, node.y, node.z});
       if (is_far(node, d2, allowed2)) {
         add_cell(tree_.cell(k));
       } else if (node.child == 0) {

@@ -13,28 +13,22 @@ namespace hooke {
 namespace {
 
 template <class Real>
-Real coordinate(const AttractionPoint<Real>& p, std::size_t axis) {
+Real coordinate(const AttractionPoint<Real>& p, int axis) {
   return axis == 0 ? p.source.x : axis == 1 ? p.source.y : p.source.z;
 }
 
-template <class Box, class Real>
-Box box_around(std::span<const AttractionPoint<Real>> points) {
-  Box box;
-  for (std::size_t axis = 0; axis < 3; ++axis) box.min[axis] = box.max[axis] = coordinate(points[0], axis);
-  for (const AttractionPoint<Real>& p : points) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      box.min[axis] = std::min(box.min[axis], coordinate(p, axis));
-      box.max[axis] = std::max(box.max[axis], coordinate(p, axis));
-    }
-  }
+template <class Real>
+Box3<Real> box_around(std::span<const AttractionPoint<Real>> points) {
+  Box3<Real> box = Box3<Real>::none();
+  for (const AttractionPoint<Real>& p : points) box.add(Vec3<Real>{p.source.x, p.source.y, p.source.z});
   return box;
 }
 
-template <class Box>
-std::size_t longest_axis(const Box& box) {
-  std::size_t longest = 0;
-  for (std::size_t axis = 1; axis < 3; ++axis) {
-    if (box.max[axis] - box.min[axis] > box.max[longest] - box.min[longest]) longest = axis;
+template <class Real>
+int longest_axis(const Vec3<Real>& extent) {
+  int longest = 0;
+  for (int axis = 1; axis < 3; ++axis) {
+    if (component(extent, axis) > component(extent, longest)) longest = axis;
   }
   return longest;
 }
@@ -93,10 +87,10 @@ template <class Real>
 std::size_t AttractionTree<Real>::split(std::size_t k) {
   const std::size_t count = nodes_[k].last - nodes_[k].first;
   const auto own = points_.subspan(nodes_[k].first, count);
-  const Box box = boxes_[k] = box_around<Box, Real>(own);
+  const Box3<Real> box = boxes_[k] = box_around<Real>(own);
   if (count <= kMostInLeaf) return 0;
-  const std::size_t axis = longest_axis(box);
-  const Real middle = Real(0.5) * (box.min[axis] + box.max[axis]);
+  const int axis = longest_axis(box.extent());
+  const Real middle = Real(0.5) * (component(box.min, axis) + component(box.max, axis));
   const auto below = static_cast<std::size_t>(
       std::count_if(own.begin(), own.end(), [&](const auto& p) { return coordinate(p, axis) < middle; }));
   const std::size_t least = std::max<std::size_t>(1, count / (8 * kBucket));
@@ -170,10 +164,11 @@ void AttractionTree<Real>::sum_children(std::size_t k) {
     reach = std::max(reach, std::sqrt(dx * dx + dy * dy + dz * dz) + c.reach);
   }
   // The box's furthest corner is nearer than that more often than not.
-  const double centre[3] = {node.x, node.y, node.z};
+  const Vec3d centre{node.x, node.y, node.z};
+  const Vec3d above = vec_cast<double>(boxes_[k].max) - centre, below = centre - vec_cast<double>(boxes_[k].min);
   double corner2 = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double off = std::max(boxes_[k].max[axis] - centre[axis], centre[axis] - boxes_[k].min[axis]);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double off = std::max(component(above, axis), component(below, axis));
     corner2 += off * off;
   }
   finish_node(k, moments, std::min(reach, std::sqrt(corner2)));

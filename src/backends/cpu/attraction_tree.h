@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hooke/backends/cpu/attraction_pass.h"
+#include "hooke/base/box3.h"
 #include "hooke/base/huge_pages.h"
 
 namespace hooke {
@@ -42,17 +43,13 @@ class AttractionTree {
     std::uint32_t first, last;  ///< points
     std::uint32_t child;  ///< the first of two, the other one follows; 0 in leaves
   };
-  struct Box {
-    std::array<Real, 3> min, max;
-  };
-
   /// Sorts `points`, less than 2^32, which must stay until the next build.
   void build(std::span<AttractionPoint<Real>> points);
 
   std::span<const AttractionPoint<Real>> points() const { return points_; }
   /// The root first, each level after the one above. None where there is no point.
   std::span<const Node> nodes() const { return nodes_; }
-  const Box& box(std::size_t k) const { return boxes_[k]; }
+  const Box3<Real>& box(std::size_t k) const { return boxes_[k]; }
   const AttractionCell<Real>& cell(std::size_t k) const { return cells_[k]; }
   /// The largest nodes of at most `most` points (>= kMostInLeaf): they have each point once.
   std::vector<std::uint32_t> largest_nodes(std::size_t most) const;
@@ -66,7 +63,7 @@ class AttractionTree {
 
   std::span<AttractionPoint<Real>> points_;
   LargeVector<Node> nodes_;
-  LargeVector<Box> boxes_;
+  LargeVector<Box3<Real>> boxes_;
   LargeVector<AttractionCell<Real>> cells_;
   LargeVector<std::array<double, 6>> moments_;  // sum m r r^T around each centre of mass: xx, xy, xz, yy, yz, zz
 };

@@ -6,30 +6,29 @@
 
 #include "hooke/backends/cpu/force_pass.h"
 #include "hooke/core/contact_walk.h"
+#include "hooke/core/rules.h"
 #include "hooke/neighbours/neighbour_list.h"
 
 namespace hooke {
 
-/// A row's law.
-template <class Real>
-ContactLaw<double> law_of(const PairRow<Real>& row) {
-  return {{row.stiffness, row.shear, row.damping}, {row.friction, row.tension, row.cohesion, row.range}};
-}
-
-/// Walks the contacts of single particles of a force pass in double precision: for figures, and to look closely at what
-/// the pass noted. Not on the hot path.
+/// Walks the contacts of single particles in double precision: for figures, and to look closely at what the force pass
+/// noted. Not on the hot path.
 template <class Real>
 class ContactScan {
  public:
-  ContactScan(const ForcePass<Real>& pass, const ParticleRecord<Real>* records) : pass_(pass), records_(records) {
-    walls_.min = vec_cast<double>(pass.min);
-    walls_.max = vec_cast<double>(pass.max);
+  /// `rules`, and what `colliders` points to, stay where they are.
+  ContactScan(const Rules<Real>& rules, const CollidersView<Real>& colliders, const ParticleRecord<Real>* records)
+      : rules_(rules),
+        colliders_(colliders),
+        records_(records) {
+    const RulesView<Real>& view = rules.view();
+    walls_.min = vec_cast<double>(view.min);
+    walls_.max = vec_cast<double>(view.max);
+    images_.period = vec_cast<double>(view.period);
     for (int axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<std::size_t>(axis);
-      walls_.across[a] = pass.wall[axis];
-      if (!pass.periodic[axis]) continue;
-      component(images_.period, axis) = component(pass.length, axis);
-      images_.most[a] = pass.periodic_kind == PeriodicKind::images ? pass.images[axis] : 0;
+      walls_.across[a] = view.wall[axis];
+      images_.most[a] = view.periodic_kind == PeriodicKind::images ? view.images[axis] : 0;
     }
   }
 
@@ -63,10 +62,10 @@ class ContactScan {
   template <class Visit>
   void for_each_collider(std::size_t i, const Visit& visit) const {
     const Vec3d x = vec_cast<double>(records_[i].x);
-    for (std::size_t c = 0; c < pass_.collider_count; ++c) {
-      const PlacedCollider<Real>& collider = pass_.colliders[c];
-      if (!is_between(records_[i].x, collider.near_from, collider.near_to)) continue;
-      const std::size_t index = pass_.collider_of[c];
+    for (std::size_t c = 0; c < colliders_.count; ++c) {
+      const PlacedCollider<Real>& collider = colliders_.placed[c];
+      if (!collider.near.contains(records_[i].x)) continue;
+      const std::size_t index = colliders_.index[c];
       const PairRow<Real>& row = this->collider(i, index);
       for_each_collider_face(collider, x, [&](const ColliderFace<double>& face) {
         const double overlap = static_cast<double>(row.reach) - face.distance;
@@ -76,24 +75,13 @@ class ContactScan {
   }
 
   std::size_t material_of(std::size_t i) const { return static_cast<std::size_t>(records_[i].material); }
-  const PairRow<Real>& pair(std::size_t i, std::size_t p) const {
-    return pass_.pairs[material_of(i) * pass_.material_count + material_of(p)];
-  }
-  const PairRow<Real>& wall(std::size_t i) const { return pass_.wall_pairs[material_of(i)]; }
-  const PairRow<Real>& collider(std::size_t i, std::size_t c) const {
-    return pass_.collider_pairs[c * pass_.material_count + material_of(i)];
-  }
+  const PairRow<Real>& pair(std::size_t i, std::size_t p) const { return rules_.pair(material_of(i), material_of(p)); }
+  const PairRow<Real>& wall(std::size_t i) const { return rules_.wall(material_of(i)); }
+  const PairRow<Real>& collider(std::size_t i, std::size_t c) const { return rules_.collider(material_of(i), c); }
 
  private:
-  static bool is_between(const Vec3<Real>& x, const Vec3<Real>& from, const Vec3<Real>& to) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const Real at = component(x, axis);
-      if (!(at > component(from, axis) && at < component(to, axis))) return false;
-    }
-    return true;
-  }
-
-  const ForcePass<Real>& pass_;
+  const Rules<Real>& rules_;
+  CollidersView<Real> colliders_;
   const ParticleRecord<Real>* records_;
   PeriodicImages images_;
   Walls walls_;

@@ -16,12 +16,11 @@ namespace hooke {
 template <class Real>
 void CpuBackend<Real>::configure(const Scene& scene) {
   scene_ = scene;
-  rules_.configure(scene);
-  pass_ = rules_.pass;
+  rules_ = PassRules<Real>(scene);
+  colliders_ = {};
   particles_.configure(scene_, rules_);
-  colliders_.configure(scene, pass_.material_count);
   list_.configure(rules_, loops_.search_window, applied_.springs().exclusions());
-  applied_.configure(scene, rules_.pass, loops_);
+  applied_.configure(scene, rules_.view(), loops_);
   sinks_ = PlacedSinks(scene.sinks);
 }
 
@@ -31,7 +30,7 @@ void CpuBackend<Real>::take(const ParticleSet& particles, std::size_t births) {
   particles_.place(particles, births);
   list_.invalidate();
   leaving_ = {};
-  applied_.bind(particles_.ids, particles_.records, particles_.slots.room());
+  applied_.bind(particles_);
 }
 
 template class CpuBackend<float>;

@@ -12,7 +12,7 @@
 namespace hooke {
 
 template <class Real>
-Expected<Measurements> CpuBackend<Real>::measure(const Instant& now) {
+Expected<MeasurementSums> CpuBackend<Real>::measure(const Instant& now) {
   place_at(now);
   if (neighbours_stale()) {
     if (const Condition found = build_neighbours(); !found.good()) {
@@ -21,7 +21,7 @@ Expected<Measurements> CpuBackend<Real>::measure(const Instant& now) {
   }
   MeasurementSums total;
   for_ranges(particles_.slots.end(), kTile, [&](std::size_t first, std::size_t last) {
-    const ContactScan<Real> scan(pass_, particles_.records.data());
+    const ContactScan<Real> scan = contact_scan();
     MeasurementSums part;
     for (std::size_t i = first; i < last; ++i) {
       if (is_vacant(particles_.records[i])) continue;
@@ -30,11 +30,8 @@ Expected<Measurements> CpuBackend<Real>::measure(const Instant& now) {
     const std::lock_guard lock(mutex_);
     total.add(part);
   });
-  Measurements result = total.result(scene_.colliders.size());
-  threads_.run([&] {
-    applied_.measure(particles_.records, particles_.slots.end(), particles_.count(), particles_.ids, result);
-  });
-  return result;
+  threads_.run([&] { applied_.measure(particles_, total); });
+  return total;
 }
 
 template <class Real>
@@ -50,8 +47,8 @@ NeighbourStatistics CpuBackend<Real>::neighbour_statistics() const {
   return {list_.build_count(), static_cast<double>(list_.entry_count()) / n, missed_contacts_};
 }
 
-template Expected<Measurements> CpuBackend<float>::measure(const Instant& now);
-template Expected<Measurements> CpuBackend<double>::measure(const Instant& now);
+template Expected<MeasurementSums> CpuBackend<float>::measure(const Instant& now);
+template Expected<MeasurementSums> CpuBackend<double>::measure(const Instant& now);
 template std::uint64_t CpuBackend<float>::particles_hash() const;
 template std::uint64_t CpuBackend<double>::particles_hash() const;
 template NeighbourStatistics CpuBackend<float>::neighbour_statistics() const;

@@ -11,8 +11,7 @@
 #include <vector>
 
 #include "hooke/backends/cpu/applied_forces.h"
-#include "hooke/backends/cpu/boundaries.h"
-#include "hooke/backends/cpu/collider_rules.h"
+#include "hooke/backends/cpu/contact_scan.h"
 #include "hooke/backends/cpu/departures.h"
 #include "hooke/backends/cpu/isa.h"
 #include "hooke/backends/cpu/particle_state.h"
@@ -23,6 +22,7 @@
 #include "hooke/backends/cpu/verlet_list.h"
 #include "hooke/base/parallel.h"
 #include "hooke/core/backend.h"
+#include "hooke/core/placed_colliders.h"
 #include "hooke/core/sums.h"
 #include "hooke/neighbours/neighbour_list.h"
 
@@ -56,12 +56,17 @@ class CpuBackend final : public Backend {
   std::vector<std::uint64_t> broken_springs() const override { return applied_.springs().broken(); }
 
   void assign(const ParticleSet& particles) override { take(particles); }
-  void download(ParticleSet& out) const override {
+  void download(const ParticleColumns<double>& out) const override {
+    threads_.run([&] { particles_.download(out); });
+  }
+  void download(const ParticleColumns<float>& out) const override {
     threads_.run([&] { particles_.download(out); });
   }
   std::uint64_t particle_count() const override { return particles_.count(); }
   std::optional<ParticleAt> find(std::uint64_t id) const override;
   void edit(std::span<const ParticleAt> edited) override;
+  std::optional<std::uint64_t> set_external_forces(std::span<const std::uint64_t> ids,
+                                                   std::span<const Vec3d> forces) override;
   RemovalSums insert(const ParticleSet& newborn) override;
   Removal remove(std::span<const std::uint64_t> ids) override;
   RemovalSums remove_sunk() override;
@@ -71,11 +76,11 @@ class CpuBackend final : public Backend {
   bool neighbours_stale() override;
   Condition build_neighbours() override;
   void apply_forces(const Instant& now, StepReport& report) override;
-  void evaluate_accelerations(const Instant& now, std::uint64_t first_new_id, StepReport& report) override;
+  void evaluate_accelerations(const Instant& now, StepReport& report) override;
 
-  void find_inside(const ShapeBounds& box, std::vector<Occupant>& out) const override;
+  void find_inside(const Box3d& box, std::vector<Occupant>& out) const override;
   std::uint64_t particles_hash() const override;
-  Expected<Measurements> measure(const Instant& now) override;
+  Expected<MeasurementSums> measure(const Instant& now) override;
   NeighbourStatistics neighbour_statistics() const override;
   StageTimes stage_times() const override { return times_; }
 
@@ -100,16 +105,17 @@ class CpuBackend final : public Backend {
 
   void lay_out_structure();
   void apply_others(bool may_tear, StepReport& report);
-  void finish_tile(std::size_t s, AppliedSums& sums);
+  void finish_tile(std::size_t s, Vec3<Real>* acceleration, AppliedSums& sums);
 
   // The force pass and what it reports -------------------------------------------------------------------------------
 
   void place_at(const Instant& now);
-  void aim_pass(Vec3<Real>* acceleration);
+  ForcePass<Real> make_pass(Vec3<Real>* acceleration);
+  ContactScan<Real> contact_scan() const { return {rules_, colliders_.view(), particles_.records.data()}; }
   template <class Look>
-  void run_pass(StepReport& sums, const Look& look);
-  void run_tile(std::size_t s, TileReport& report) const;
-  void run_groups(std::size_t s, std::size_t g, std::size_t end, const std::uint32_t* rows,
+  void run_pass(const ForcePass<Real>& pass, StepReport& sums, const Look& look);
+  void run_tile(const ForcePass<Real>& pass, std::size_t s, TileReport& report) const;
+  void run_groups(const ForcePass<Real>& pass, std::size_t s, std::size_t g, std::size_t end, const std::uint32_t* rows,
                   const std::uint32_t* first_row, TileReport& report) const;
 
   // Of a group in the neighbour list; loose ones have none.
@@ -123,8 +129,8 @@ class CpuBackend final : public Backend {
 
   // Wraps periodic coordinates; a particle outside an open face leaves.
   void apply_boundaries(Record& p, std::size_t slot, Departures& left) const {
-    wrap_periodic(pass_, p);
-    if (is_outside_open_face(pass_, p)) leave(p, slot, p.v, left);
+    wrap_periodic(rules_.view(), p.x);
+    if (is_outside_open_face(rules_.view(), p.x)) leave(p, slot, p.v, left);
   }
 
   void apply_boundaries_to_group(std::size_t s, std::size_t g, Departures& left);
@@ -148,8 +154,7 @@ class CpuBackend final : public Backend {
 
   Scene scene_;
   PassRules<Real> rules_;
-  ColliderRules<Real> colliders_;
-  ForcePass<Real> pass_;  // the rules', aimed at the buffers of the moment
+  PlacedColliders<Real> colliders_;  // at the last instant
 
   ParticleState<Real> particles_;
   Departures leaving_;  // through open faces, until finish_motion()

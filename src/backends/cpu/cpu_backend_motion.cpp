@@ -13,6 +13,7 @@ namespace hooke {
 template <class Real>
 void CpuBackend<Real>::half_kick_and_drift() {
   const Stopwatch drifting(times_.drift);
+  const Real dt = rules_.view().dt;
   for_ranges(particles_.slots.end(), kTile, [&](std::size_t first, std::size_t last) {
     Departures left;
     for (std::size_t start = first; start < last; start += kLanes) {
@@ -22,8 +23,8 @@ void CpuBackend<Real>::half_kick_and_drift() {
         if (is_vacant(p)) continue;
         const bool held = applied_.held().holds(i);
         if (!held) {
-          p.v = kick(p.v, particles_.acceleration[i], Real(0.5) * pass_.dt);
-          p.x = drift(p.x, p.v, pass_.dt);
+          p.v = kick(p.v, particles_.acceleration[i], Real(0.5) * dt);
+          p.x = drift(p.x, p.v, dt);
         }
         if (list_.is_valid() && !particles_.slots.is_loose(i) && list_.is_far(p, i))
           far |= 1U << i % kLanes;  // asked of all: a removal must not hide a NaN
@@ -63,17 +64,16 @@ Condition CpuBackend<Real>::build_neighbours() {
 template <class Real>
 Condition CpuBackend<Real>::sort_by_cell() {
   const Stopwatch sorting(times_.sort);
-  Vec3d min, max;
+  Box3d box;
   const Condition condition =
-      bounding_box(particles_.records.data(), particles_.slots.listed_end(), particles_.ids, min, max);
+      bounding_box(particles_.records.data(), particles_.slots.listed_end(), particles_.ids, box);
   if (!condition.good()) return condition;
   for (int axis = 0; axis < 3; ++axis) {
-    if (particles_.count() > particles_.loose_count() && !pass_.periodic[axis]) continue;
-    component(min, axis) = component(pass_.min, axis);
-    component(max, axis) = component(pass_.max, axis);
+    if (particles_.count() > particles_.loose_count() && !rules_.view().periodic[axis]) continue;
+    component(box.min, axis) = component(rules_.view().min, axis);
+    component(box.max, axis) = component(rules_.view().max, axis);
   }
-  particles_.reorder(
-      list_.sort(particles_.records.data(), particles_.slots.listed_end(), min, max, particles_.scratch()));
+  particles_.reorder(list_.sort(particles_.records.data(), particles_.slots.listed_end(), box, particles_.scratch()));
   return {};
 }
 
@@ -99,7 +99,7 @@ void CpuBackend<Real>::lay_out_structure() {
   particles_.slots.recycle();
   if (!applied_.needs_layout()) return;
   const Stopwatch sorting(times_.sort);
-  applied_.lay_out(particles_.records, particles_.slots.room(), particles_.ids.size());
+  applied_.lay_out(particles_);
 }
 
 template void CpuBackend<float>::half_kick_and_drift();

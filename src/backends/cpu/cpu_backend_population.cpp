@@ -34,6 +34,18 @@ void CpuBackend<Real>::edit(std::span<const ParticleAt> edited) {
 }
 
 template <class Real>
+std::optional<std::uint64_t> CpuBackend<Real>::set_external_forces(std::span<const std::uint64_t> ids,
+                                                                   std::span<const Vec3d> forces) {
+  HOOKE_ASSERT(ids.size() == forces.size(), ids.size(), forces.size());
+  std::optional<std::uint64_t> unknown;
+  threads_.run([&] {
+    particles_.find_slots();
+    unknown = applied_.set_external(particles_, ids, forces);
+  });
+  return unknown;
+}
+
+template <class Real>
 RemovalSums CpuBackend<Real>::insert(const ParticleSet& newborn) {
   RemovalSums born;
   if (newborn.empty()) return born;
@@ -44,7 +56,7 @@ RemovalSums CpuBackend<Real>::insert(const ParticleSet& newborn) {
     const std::size_t slot = !m.interacts ? particles_.slots.take_loose()
                                           : particles_.slots.take_listed(list_.is_valid() ? list_.first_free() : 0);
     const std::size_t rank = particles_.add(slot, newborn, k);
-    applied_.add(slot, particles_.ids.size(), m.fixed, particles_.slots.room());
+    applied_.add(particles_, slot, m.fixed);
     if (m.interacts) {
       list_.add(slot, static_cast<std::uint32_t>(rank));
       touching.push_back(static_cast<std::uint32_t>(slot));
@@ -54,7 +66,7 @@ RemovalSums CpuBackend<Real>::insert(const ParticleSet& newborn) {
   }
   particles_.recount();
   // Those that are born find room without an overlap, but perhaps where cohesion reaches.
-  if (rules_.widest_range > 0) add_elastic(touching, born.elastic);
+  if (rules_.widest_range() > 0) add_elastic(touching, born.elastic);
   return born;
 }
 
@@ -94,13 +106,13 @@ RemovalSums CpuBackend<Real>::remove_sunk() {
 }
 
 template <class Real>
-void CpuBackend<Real>::find_inside(const ShapeBounds& box, std::vector<Occupant>& out) const {
+void CpuBackend<Real>::find_inside(const Box3d& box, std::vector<Occupant>& out) const {
   for_ranges(particles_.slots.listed_end(), kTile, [&](std::size_t first, std::size_t last) {
     std::vector<Occupant> found;
     for (std::size_t i = first; i < last; ++i) {
       const Record& p = particles_.records[i];
       const Vec3d x = vec_cast<double>(p.x);
-      if (!is_vacant(p) && is_inside(box, x)) found.push_back({x, particles_.material_of(p).radius});
+      if (!is_vacant(p) && box.contains(x)) found.push_back({x, particles_.material_of(p).radius});
     }
     const std::lock_guard lock(mutex_);
     out.insert(out.end(), found.begin(), found.end());
@@ -110,7 +122,7 @@ void CpuBackend<Real>::find_inside(const ShapeBounds& box, std::vector<Occupant>
 template <class Real>
 void CpuBackend<Real>::make_room(std::size_t births) {
   ParticleSet all;
-  threads_.run([&] { particles_.download(all); });
+  hooke::download(*this, scene_.integrator, all);
   take(all, births);
 }
 
@@ -118,7 +130,7 @@ void CpuBackend<Real>::make_room(std::size_t births) {
 template <class Real>
 void CpuBackend<Real>::leave_at_end_of_step(std::size_t slot, Departures& left) const {
   const Record& p = particles_.records[slot];
-  leave(p, slot, verlet() ? kick(p.v, particles_.acceleration[slot], Real(0.5) * pass_.dt) : p.v, left);
+  leave(p, slot, verlet() ? kick(p.v, particles_.acceleration[slot], Real(0.5) * rules_.view().dt) : p.v, left);
 }
 
 template <class Real>
@@ -147,12 +159,12 @@ void CpuBackend<Real>::add_elastic(std::vector<std::uint32_t>& slots, ExactSum& 
   if (neighbours_stale() && !rebuild_under(slots)) return;
   std::sort(slots.begin(), slots.end());
   for_ranges(slots.size(), 64, [&](std::size_t first, std::size_t last) {
-    const ContactScan<Real> scan(pass_, particles_.records.data());
+    const ContactScan<Real> scan = contact_scan();
     ExactSum part;
     for (std::size_t k = first; k < last; ++k) {
       const std::size_t i = slots[k];
       add_contact_energy(scan, i, rows_of(i / kTile, i % kTile / kLanes), slots, part);
-      applied_.add_spring_energy(particles_.records, i, slots, part);
+      applied_.add_spring_energy(particles_, i, slots, part);
     }
     const std::lock_guard lock(mutex_);
     sum.add(part);
@@ -180,14 +192,18 @@ template std::optional<ParticleAt> CpuBackend<float>::find(std::uint64_t id) con
 template std::optional<ParticleAt> CpuBackend<double>::find(std::uint64_t id) const;
 template void CpuBackend<float>::edit(std::span<const ParticleAt> edited);
 template void CpuBackend<double>::edit(std::span<const ParticleAt> edited);
+template std::optional<std::uint64_t> CpuBackend<float>::set_external_forces(std::span<const std::uint64_t> ids,
+                                                                             std::span<const Vec3d> forces);
+template std::optional<std::uint64_t> CpuBackend<double>::set_external_forces(std::span<const std::uint64_t> ids,
+                                                                              std::span<const Vec3d> forces);
 template RemovalSums CpuBackend<float>::insert(const ParticleSet& newborn);
 template RemovalSums CpuBackend<double>::insert(const ParticleSet& newborn);
 template Removal CpuBackend<float>::remove(std::span<const std::uint64_t> ids);
 template Removal CpuBackend<double>::remove(std::span<const std::uint64_t> ids);
 template RemovalSums CpuBackend<float>::remove_sunk();
 template RemovalSums CpuBackend<double>::remove_sunk();
-template void CpuBackend<float>::find_inside(const ShapeBounds& box, std::vector<Occupant>& out) const;
-template void CpuBackend<double>::find_inside(const ShapeBounds& box, std::vector<Occupant>& out) const;
+template void CpuBackend<float>::find_inside(const Box3d& box, std::vector<Occupant>& out) const;
+template void CpuBackend<double>::find_inside(const Box3d& box, std::vector<Occupant>& out) const;
 template void CpuBackend<float>::collect(Departures& total, const Departures& part) const;
 template void CpuBackend<double>::collect(Departures& total, const Departures& part) const;
 template RemovalSums CpuBackend<float>::let_go(Departures& leaving);

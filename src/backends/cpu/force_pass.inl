@@ -142,21 +142,21 @@ struct ContactLoop {
         if (!periodic) return x_i - x_p;
         return image_displacement(x_i, x_p, nearest_image(x_i, x_p, P(length)), P(length));
       };
-      return -Vec3<P>{displacement(own.x.x, other.x.x, pass.periodic[0], pass.length.x),
-                      displacement(own.x.y, other.x.y, pass.periodic[1], pass.length.y),
-                      displacement(own.x.z, other.x.z, pass.periodic[2], pass.length.z)};
+      return -Vec3<P>{displacement(own.x.x, other.x.x, pass.rules.periodic[0], pass.rules.length.x),
+                      displacement(own.x.y, other.x.y, pass.rules.periodic[1], pass.rules.length.y),
+                      displacement(own.x.z, other.x.z, pass.rules.periodic[2], pass.rules.length.z)};
     }
   }
 
   // All images of a neighbour, and those of the lane's particle itself.
   HOOKE_HD void add_images(const Table& table, const Lanes<Real>& other, Acting<Real, kMaterials>& acting) const {
     const Mask<Real> itself = own.rank == other.rank;
-    for (int sx = -pass.images[0]; sx <= pass.images[0]; ++sx) {
-      for (int sy = -pass.images[1]; sy <= pass.images[1]; ++sy) {
-        for (int sz = -pass.images[2]; sz <= pass.images[2]; ++sz) {
-          const Vec3<P> x_ip{image_displacement(own.x.x, other.x.x, P(static_cast<Real>(sx)), P(pass.length.x)),
-                             image_displacement(own.x.y, other.x.y, P(static_cast<Real>(sy)), P(pass.length.y)),
-                             image_displacement(own.x.z, other.x.z, P(static_cast<Real>(sz)), P(pass.length.z))};
+    for (int sx = -pass.rules.images[0]; sx <= pass.rules.images[0]; ++sx) {
+      for (int sy = -pass.rules.images[1]; sy <= pass.rules.images[1]; ++sy) {
+        for (int sz = -pass.rules.images[2]; sz <= pass.rules.images[2]; ++sz) {
+          const Vec3<P> x_ip{image_displacement(own.x.x, other.x.x, P(static_cast<Real>(sx)), P(pass.rules.length.x)),
+                             image_displacement(own.x.y, other.x.y, P(static_cast<Real>(sy)), P(pass.rules.length.y)),
+                             image_displacement(own.x.z, other.x.z, P(static_cast<Real>(sz)), P(pass.rules.length.z))};
           Met met;
           meet(table, other, -x_ip, met);
           // Too far from itself for any contact.
@@ -181,20 +181,20 @@ struct ContactLoop {
       acting.contacts.add(contact_vectors(overlap, normal, w), met.law);
     }
     // What is not a number, where centres coincide, is not slow. Those that only cohesion holds are looked at, too.
-    acting.slow = acting.slow & (dot(w, normal) <= P(pass.speed_limit));
+    acting.slow = acting.slow & (dot(w, normal) <= P(pass.rules.speed_limit));
   }
 
   // Lanes of a row's neighbours, once those of later rows are asked for.
   HOOKE_HD Lanes<Real> load_row(const std::uint32_t* row) const {
     prefetch_row(row + kRowsAhead * kGroupLanes);
-    return load_neighbours(pass.in, row);
+    return load_neighbours(pass.buffers.in, row);
   }
 
   // Neighbours come in the order of their ids, which no processor foresees: those of about the next group are asked for
   // now, beyond a tile's end those of the next tile, whatever is behind the last one's.
   HOOKE_HD void prefetch_row(const std::uint32_t* row) const {
     for (std::size_t lane = 0; lane < P::kLanes; ++lane) {
-      prefetch(reinterpret_cast<const char*>(pass.in) + std::size_t{row[lane]} * 8);
+      prefetch(reinterpret_cast<const char*>(pass.buffers.in) + std::size_t{row[lane]} * 8);
     }
   }
 };
@@ -219,13 +219,13 @@ struct WallLoop {
       touched = true;
       const Vec3<P> normal = wall_normal(axis, P(sign));
       add_where(here, force, contact_forces(overlap, normal, w, pair.law).total());
-      too_fast = too_fast | (here & (dot(w, normal) > P(pass.speed_limit)));
+      too_fast = too_fast | (here & (dot(w, normal) > P(pass.rules.speed_limit)));
     };
     for (int axis = 0; axis < 3; ++axis) {
-      if (!pass.wall[axis]) continue;
+      if (!pass.rules.wall[axis]) continue;
       const P& x = component(own.x, axis);
-      face(axis, Real(1), lower_wall_overlap(x, P(component(pass.min, axis)), pair.reach));
-      face(axis, Real(-1), upper_wall_overlap(x, P(component(pass.max, axis)), pair.reach));
+      face(axis, Real(1), lower_wall_overlap(x, P(component(pass.rules.min, axis)), pair.reach));
+      face(axis, Real(-1), upper_wall_overlap(x, P(component(pass.rules.max, axis)), pair.reach));
     }
     return force;
   }
@@ -234,7 +234,8 @@ struct WallLoop {
   HOOKE_HD Mask<Real> is_near() const {
     const auto outside = [&](int axis) {
       const P& x = component(own.x, axis);
-      return (x < P(component(pass.clear_of_walls_from, axis))) | (x > P(component(pass.clear_of_walls_to, axis)));
+      return (x < P(component(pass.rules.clear_of_walls_from, axis))) |
+             (x > P(component(pass.rules.clear_of_walls_to, axis)));
     };
     return present & (outside(0) | outside(1) | outside(2));
   }
@@ -248,9 +249,9 @@ HOOKE_HD Mask<Real> left_domain(const ForcePass<Real>& pass, const Vec3<Pack<Rea
   using P = Pack<Real>;
   Mask<Real> out = P(Real(0)) < P(Real(0));
   for (int axis = 0; axis < 3; ++axis) {
-    if (!pass.open_or_periodic[axis]) continue;
+    if (!pass.rules.open_or_periodic[axis]) continue;
     const P& c = component(x, axis);
-    out = out | !((c >= P(component(pass.min, axis))) & (c < P(component(pass.max, axis))));
+    out = out | !((c >= P(component(pass.rules.min, axis))) & (c < P(component(pass.rules.max, axis))));
   }
   return out;
 }
@@ -259,22 +260,22 @@ HOOKE_HD Mask<Real> left_domain(const ForcePass<Real>& pass, const Vec3<Pack<Rea
 template <class Real, PeriodicKind kPeriodic>
 HOOKE_HD Mask<Real> is_far(const ForcePass<Real>& pass, const Vec3<Pack<Real>>& x, std::size_t first) {
   using P = Pack<Real>;
-  const GroupAnchor<Real>& anchor = pass.anchors[first / kWindow];
-  const Vec3<Real> moved = anchor.at(pass.next_step);
-  const Vec3<P> expected{load(pass.position_at_build.x + first) + P(moved.x),
-                         load(pass.position_at_build.y + first) + P(moved.y),
-                         load(pass.position_at_build.z + first) + P(moved.z)};
+  const GroupAnchor<Real>& anchor = pass.buffers.anchors[first / kWindow];
+  const Vec3<Real> moved = anchor.at(pass.buffers.next_step);
+  const Vec3<P> expected{load(pass.buffers.position_at_build.x + first) + P(moved.x),
+                         load(pass.buffers.position_at_build.y + first) + P(moved.y),
+                         load(pass.buffers.position_at_build.z + first) + P(moved.z)};
   Vec3<P> off = x - expected;
   if constexpr (kPeriodic != PeriodicKind::none) {
     const auto displacement = [&](const P& now, const P& then, bool periodic, Real length) {
       if (!periodic) return now - then;
       return image_displacement(now, then, nearest_image(now, then, P(length)), P(length));
     };
-    off = {displacement(x.x, expected.x, pass.periodic[0], pass.length.x),
-           displacement(x.y, expected.y, pass.periodic[1], pass.length.y),
-           displacement(x.z, expected.z, pass.periodic[2], pass.length.z)};
+    off = {displacement(x.x, expected.x, pass.rules.periodic[0], pass.rules.length.x),
+           displacement(x.y, expected.y, pass.rules.periodic[1], pass.rules.length.y),
+           displacement(x.z, expected.z, pass.rules.periodic[2], pass.rules.length.z)};
   }
-  return !(dot(off, off) <= P(anchor.limit2(pass.next_step)));
+  return !(dot(off, off) <= P(anchor.limit2(pass.buffers.next_step)));
 }
 
 // Whether any lane touches a wall, or a collider.
@@ -353,7 +354,7 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
   const std::size_t first = work.first + slot;
   const std::size_t group = slot / kGroupLanes, half = slot % kGroupLanes;
 
-  const Real* own_record = reinterpret_cast<const Real*>(pass.in + first);
+  const Real* own_record = reinterpret_cast<const Real*>(pass.buffers.in + first);
   const Lanes<Real> own = load_lanes<Real>([=](int lane) { return own_record + 8 * lane; });
   const Mask<Real> present = own.x.x < P(static_cast<Real>(kVacantPosition));
 
@@ -377,22 +378,23 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
   forces.colliders = ColliderLoop<Real, kMaterials>{pass, own, present}.run(too_fast, touching.collider);
   const Quad<Real> body = body_of<Real, kMaterials>(pass, own);
   Vec3<P> force = (forces.contacts.total() + forces.walls) + forces.colliders;
-  if (pass.has_drag) {
+  if (pass.rules.has_drag) {
     forces.drag = drag_force(own.v, body.b);
     force += forces.drag;
   }
-  if (pass.applied != nullptr) force += load_vectors(pass.applied + first);
+  if (pass.buffers.applied != nullptr) force += load_vectors(pass.buffers.applied + first);
 
-  const Vec3<P> gravity{P(pass.gravity.x), P(pass.gravity.y), P(pass.gravity.z)};
+  const Vec3<P> gravity{P(pass.rules.gravity.x), P(pass.rules.gravity.y), P(pass.rules.gravity.z)};
   forces.weight = body.c * gravity;
   const Vec3<P> a = body.a * force + gravity;
-  const P dt(pass.dt);
-  const unsigned held = pass.held != nullptr ? static_cast<unsigned>(pass.held[first / kGroupLanes]) >> half : 0;
+  const P dt(pass.rules.dt);
+  const unsigned held =
+      pass.buffers.held != nullptr ? static_cast<unsigned>(pass.buffers.held[first / kGroupLanes]) >> half : 0;
   Vec3<P> v, x = own.x;
-  if (pass.acceleration != nullptr) {  // velocity Verlet
+  if (pass.buffers.acceleration != nullptr) {  // velocity Verlet
     v = kick(own.v, a, P(Real(0.5)) * dt);
     for (std::size_t lane = 0; lane < P::kLanes; ++lane) {
-      pass.acceleration[first + lane] = {a.x.v[lane], a.y.v[lane], a.z.v[lane]};
+      pass.buffers.acceleration[first + lane] = {a.x.v[lane], a.y.v[lane], a.z.v[lane]};
     }
   } else {  // symplectic Euler
     v = kick(own.v, a, dt);
@@ -412,20 +414,20 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
 
   // What is held keeps its velocity after all.
   Vec3<P> after = v, next = v;
-  if (pass.acceleration != nullptr) next = select_vector(present, kick(v, a, P(Real(0.5)) * dt), zero);
+  if (pass.buffers.acceleration != nullptr) next = select_vector(present, kick(v, a, P(Real(0.5)) * dt), zero);
   if (held != 0) {
     after = select_vector(lanes_of<Real>(held), own.v, v);
     next = select_vector(lanes_of<Real>(held), own.v, next);
   }
-  forces.put_powers(0, own.v + after, pass.has_drag, touching, columns);
-  if (pass.acceleration != nullptr) {
-    forces.put_powers(PassSum::kNext, after + next, pass.has_drag, touching, columns);
+  forces.put_powers(0, own.v + after, pass.rules.has_drag, touching, columns);
+  if (pass.buffers.acceleration != nullptr) {
+    forces.put_powers(PassSum::kNext, after + next, pass.rules.has_drag, touching, columns);
   }
   if (touching.wall) columns.put(PassSum::kWallForce, forces.walls);
   if (touching.collider) columns.put(PassSum::kColliderForce, forces.colliders);
-  if (pass.has_drag) columns.put(PassSum::kDragForce, select_vector(present, forces.drag, zero));
+  if (pass.rules.has_drag) columns.put(PassSum::kDragForce, select_vector(present, forces.drag, zero));
   columns.end_pack(touching);
-  Real* out_record = reinterpret_cast<Real*>(pass.out + first);
+  Real* out_record = reinterpret_cast<Real*>(pass.buffers.out + first);
   const TwoQuads<Real> record{{x.x, x.y, x.z, own.material}, {v.x, v.y, v.z, own.rank}};
   store_two_quads(record, [=](int lane) { return out_record + 8 * lane; });
 }
@@ -433,11 +435,11 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
 // Whether the scene has anything for that column.
 template <class Real>
 bool is_summed(const ForcePass<Real>& pass, int sum) {
-  if (sum >= PassSum::kDragForce) return pass.has_drag;
+  if (sum >= PassSum::kDragForce) return pass.rules.has_drag;
   if (sum >= PassSum::kWallForce) return true;
-  if (sum % PassSum::kPowers == power_of(Cause::drag) && !pass.has_drag) return false;
-  if (sum % PassSum::kPowers == power_of(Cause::contact_friction) && pass.linear) return false;
-  return sum < PassSum::kNext || pass.acceleration != nullptr;
+  if (sum % PassSum::kPowers == power_of(Cause::drag) && !pass.rules.has_drag) return false;
+  if (sum % PassSum::kPowers == power_of(Cause::contact_friction) && pass.rules.linear) return false;
+  return sum < PassSum::kNext || pass.buffers.acceleration != nullptr;
 }
 
 template <class Real, Materials kMaterials, PeriodicKind kPeriodic>
@@ -459,7 +461,7 @@ void run_tile(const ForcePass<Real>& pass, const TileWork<Real>& work) {
 
 template <class Real, Materials kMaterials>
 void choose_periodic(const ForcePass<Real>& pass, const TileWork<Real>& work) {
-  switch (pass.periodic_kind) {
+  switch (pass.rules.periodic_kind) {
     case PeriodicKind::none:
       return run_tile<Real, kMaterials, PeriodicKind::none>(pass, work);
     case PeriodicKind::nearest:
@@ -471,10 +473,11 @@ void choose_periodic(const ForcePass<Real>& pass, const TileWork<Real>& work) {
 
 template <class Real>
 void choose_materials(const ForcePass<Real>& pass, const TileWork<Real>& work) {
-  if (!pass.linear && pass.few != nullptr) return choose_periodic<Real, Materials::few_surfaces>(pass, work);
-  if (!pass.linear) return choose_periodic<Real, Materials::many_surfaces>(pass, work);
-  if (pass.material_count == 1) return choose_periodic<Real, Materials::one>(pass, work);
-  if (pass.few != nullptr) return choose_periodic<Real, Materials::few>(pass, work);
+  if (!pass.rules.linear && pass.rules.few != nullptr)
+    return choose_periodic<Real, Materials::few_surfaces>(pass, work);
+  if (!pass.rules.linear) return choose_periodic<Real, Materials::many_surfaces>(pass, work);
+  if (pass.rules.material_count == 1) return choose_periodic<Real, Materials::one>(pass, work);
+  if (pass.rules.few != nullptr) return choose_periodic<Real, Materials::few>(pass, work);
   return choose_periodic<Real, Materials::many>(pass, work);
 }
 

@@ -82,10 +82,10 @@ void OutlierPairs<Real>::add_with_images(std::uint32_t i, const Vec3<Real>& x, i
     return;
   }
   add_with_images(i, x, axis + 1, reach, to);
-  const ForcePass<Real>& pass = rules_.pass;
-  if (!pass.periodic[axis] || component(x, axis) >= component(pass.min, axis) + reach) return;
+  const RulesView<Real>& rules = rules_.view();
+  if (!rules.periodic[axis] || component(x, axis) >= component(rules.min, axis) + reach) return;
   Vec3<Real> image = x;
-  component(image, axis) += component(pass.length, axis);
+  component(image, axis) += component(rules.length, axis);
   add_with_images(i, image, axis + 1, reach, to);
 }
 

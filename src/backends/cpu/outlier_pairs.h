@@ -113,7 +113,7 @@ class OutlierPairs {
 
  private:
   double reach_of(std::size_t i) const { return rules_.reach_of(static_cast<std::size_t>(records_[i].material)); }
-  double margin() const { return 1e-3 * rules_.smallest_radius; }  // what the force pass rounds differently
+  double margin() const { return 1e-3 * rules_.smallest_touching(); }  // what the force pass rounds differently
   static bool is_somewhere(const Record& p) {
     const auto near = [](Real x) { return std::abs(x) < static_cast<Real>(kFurthest); };
     return near(p.x.x) && near(p.x.y) && near(p.x.z);
@@ -122,7 +122,7 @@ class OutlierPairs {
   bool touch(std::size_t i, std::size_t p) const { return are_nearer(i, p, reach_of(i) + reach_of(p) + margin()); }
 
   bool are_nearer(std::size_t i, std::size_t p, double reach) const {
-    const Vec3<Real> d = nearest_displacement(records_[i].x, records_[p].x, rules_.pass.period);
+    const Vec3<Real> d = nearest_displacement(records_[i].x, records_[p].x, rules_.view().period);
     return dot(d, d) < static_cast<Real>(reach) * static_cast<Real>(reach);
   }
 

@@ -65,8 +65,8 @@ template <class Real, Materials kMaterials>
 struct PairTable {
   using P = Pack<Real>;
   HOOKE_HD PairTable(const ForcePass<Real>& pass, const P& material)
-      : pairs(pass.pairs),
-        first(material * P(static_cast<Real>(pass.material_count))) {}
+      : pairs(pass.rules.pairs),
+        first(material * P(static_cast<Real>(pass.rules.material_count))) {}
   using Pair = std::conditional_t<have_surfaces(kMaterials), SurfacePair<Real>, LinearPair<Real>>;
   HOOKE_HD Pair lookup(const P& material) const { return load_pairs<Real, kMaterials>(pairs, first + material); }
   const PairRow<Real>* pairs;
@@ -76,7 +76,7 @@ template <class Real>
 struct PairTable<Real, Materials::one> {
   using P = Pack<Real>;
   using Pair = OnlyPair<Real>;
-  HOOKE_HD PairTable(const ForcePass<Real>& pass, const P&) : only(*pass.pairs) {}
+  HOOKE_HD PairTable(const ForcePass<Real>& pass, const P&) : only(*pass.rules.pairs) {}
   HOOKE_HD Pair lookup(const P&) const { return {{}, P(only.reach)}; }
   const PairRow<Real>& only;
 };
@@ -85,11 +85,11 @@ struct PairTable<Real, Materials::few> {
   using P = Pack<Real>;
   using Pair = LinearPair<Real>;
   HOOKE_HD PairTable(const ForcePass<Real>& pass, const P& material)
-      : first(material * P(static_cast<Real>(pass.material_count))),
-        stiffness(pass.few->stiffness),
-        shear(pass.few->shear),
-        damping(pass.few->damping),
-        reach(pass.few->reach) {}
+      : first(material * P(static_cast<Real>(pass.rules.material_count))),
+        stiffness(pass.rules.few->stiffness),
+        shear(pass.rules.few->shear),
+        damping(pass.rules.few->damping),
+        reach(pass.rules.few->reach) {}
   HOOKE_HD Pair lookup(const P& material) const {
     const P at = first + material;
     return {{stiffness.lookup(at), shear.lookup(at), damping.lookup(at)}, reach.lookup(at)};
@@ -103,10 +103,10 @@ struct PairTable<Real, Materials::few_surfaces> {
   using Pair = SurfacePair<Real>;
   HOOKE_HD PairTable(const ForcePass<Real>& pass, const P& material)
       : linear(pass, material),
-        friction(pass.few->friction),
-        tension(pass.few->tension),
-        cohesion(pass.few->cohesion),
-        range(pass.few->range) {}
+        friction(pass.rules.few->friction),
+        tension(pass.rules.few->tension),
+        cohesion(pass.rules.few->cohesion),
+        range(pass.rules.few->range) {}
   HOOKE_HD Pair lookup(const P& material) const {
     const LinearPair<Real> pair = linear.lookup(material);
     const P at = linear.first + material;
@@ -121,10 +121,10 @@ template <class Real, Materials kMaterials>
 HOOKE_HD auto wall_pairs_of(const ForcePass<Real>& pass, const Lanes<Real>& own) {
   using P = Pack<Real>;
   if constexpr (kMaterials == Materials::one) {
-    const PairRow<Real>& m = *pass.wall_pairs;
+    const PairRow<Real>& m = *pass.rules.wall_pairs;
     return LinearPair<Real>{{P(m.stiffness), P(m.shear), P(m.damping)}, P(m.reach)};
   } else {
-    return load_pairs<Real, kMaterials>(pass.wall_pairs, own.material);
+    return load_pairs<Real, kMaterials>(pass.rules.wall_pairs, own.material);
   }
 }
 
@@ -133,14 +133,15 @@ template <class Real, Materials kMaterials>
 HOOKE_HD Quad<Real> body_of(const ForcePass<Real>& pass, const Lanes<Real>& own) {
   using P = Pack<Real>;
   if constexpr (kMaterials == Materials::one) {
-    const MaterialRow<Real>& m = pass.materials[0];
+    const MaterialRow<Real>& m = pass.rules.materials[0];
     return {P(m.inverse_mass), P(m.drag), P(m.mass), P(Real(0))};
   } else if constexpr (are_few(kMaterials)) {
     const auto column = [&](const Real* of) { return SmallTable<Real>(of).lookup(own.material); };
-    return {column(pass.few->inverse_mass), column(pass.few->drag), column(pass.few->mass), P(Real(0))};
+    return {column(pass.rules.few->inverse_mass), column(pass.rules.few->drag), column(pass.rules.few->mass),
+            P(Real(0))};
   } else {
     return load_quads(Real{}, [&](int lane) {
-      return reinterpret_cast<const Real*>(pass.materials + static_cast<std::size_t>(own.material.v[lane]));
+      return reinterpret_cast<const Real*>(pass.rules.materials + static_cast<std::size_t>(own.material.v[lane]));
     });
   }
 }
@@ -173,7 +174,7 @@ struct Contacts<Real, Materials::one, false> {
 
   HOOKE_HD void add(const ContactVectors<P>& contact, TheLaw) { sum += contact; }
   HOOKE_HD ContactForces<P> forces(const ForcePass<Real>& pass) const {
-    const PairRow<Real>& pair = *pass.pairs;
+    const PairRow<Real>& pair = *pass.rules.pairs;
     return contact_forces(sum, ContactCoefficients<P>{P(pair.stiffness), P(pair.shear), P(pair.damping)});
   }
 };

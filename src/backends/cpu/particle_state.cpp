@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <atomic>
 
-#include "hooke/backends/cpu/boundaries.h"
 #include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
 #include "hooke/core/emitters.h"
@@ -21,6 +20,7 @@ void ParticleState<Real>::place(const ParticleSet& particles, std::size_t births
   count_of_.assign(scene_->materials.size(), 0);
   for (const std::uint16_t m : particles.material) ++count_of_[m];
   recount();
+  ++changes_;
   slot_of_rank_.clear();
   const bool tied = scene_->structure != nullptr;  // to slots, until all are laid out again
   slots.lay_out(count_ - loose_count_, room_for_births(true) + births, loose_count_, room_for_births(false) + births,
@@ -40,12 +40,11 @@ void ParticleState<Real>::place(const ParticleSet& particles, std::size_t births
 }
 
 template <class Real>
-void ParticleState<Real>::download(ParticleSet& out) const {
+template <class Out>
+void ParticleState<Real>::download(const ParticleColumns<Out>& out) const {
+  find_slots();
   constexpr std::size_t kBlock = std::size_t{1} << 14U;  // of ranks
-  std::vector<std::uint32_t> fresh;
-  if (slot_of_rank_.size() != ids.size()) fresh = slots_by_rank();
-  const std::vector<std::uint32_t>& at = fresh.empty() ? slot_of_rank_ : fresh;
-
+  const std::vector<std::uint32_t>& at = slot_of_rank_;
   const std::size_t blocks = (ids.size() + kBlock - 1) / kBlock;
   const auto for_blocks = [&](const auto& visit) {
     parallel_ranges(blocks, 1, [&](std::size_t first, std::size_t last) {
@@ -53,23 +52,24 @@ void ParticleState<Real>::download(ParticleSet& out) const {
     });
   };
   std::vector<std::size_t> start(blocks + 1, 0);  // of each block among the particles
-  for_blocks([&](std::size_t b, std::size_t first, std::size_t last) {
-    for (std::size_t rank = first; rank < last; ++rank) start[b + 1] += is_at(at[rank], rank) ? 1 : 0;
-  });
-  for (std::size_t b = 0; b < blocks; ++b) start[b + 1] += start[b];
+  const bool all_there = count_ == ids.size();
+  if (!all_there) {
+    for_blocks([&](std::size_t b, std::size_t first, std::size_t last) {
+      for (std::size_t rank = first; rank < last; ++rank) start[b + 1] += is_at(at[rank], rank) ? 1 : 0;
+    });
+  }
+  for (std::size_t b = 0; b < blocks; ++b) start[b + 1] = all_there ? (b + 1) * kBlock : start[b] + start[b + 1];
 
-  out.resize(start.back());
-  out.acceleration.resize(verlet() ? start.back() : 0);
   for_blocks([&](std::size_t b, std::size_t first, std::size_t last) {
     std::size_t k = start[b];
     for (std::size_t rank = first; rank < last; ++rank) {
       if (!is_at(at[rank], rank)) continue;
       const Record& record = records[at[rank]];
-      out.id[k] = ids[rank];
-      out.material[k] = static_cast<std::uint16_t>(record.material);
-      out.position[k] = vec_cast<double>(record.x);
-      out.velocity[k] = vec_cast<double>(record.v);
-      if (verlet()) out.acceleration[k] = vec_cast<double>(acceleration[at[rank]]);
+      if (out.id != nullptr) out.id[k] = ids[rank];
+      if (out.material != nullptr) out.material[k] = static_cast<std::uint16_t>(record.material);
+      if (out.position != nullptr) out.position[k] = vec_cast<Out>(record.x);
+      if (out.velocity != nullptr) out.velocity[k] = vec_cast<Out>(record.v);
+      if (verlet() && out.acceleration != nullptr) out.acceleration[k] = vec_cast<Out>(acceleration[at[rank]]);
       ++k;
     }
   });
@@ -79,6 +79,7 @@ template <class Real>
 void ParticleState<Real>::reorder(std::span<const std::uint32_t> order) {
   HOOKE_ASSERT(order.size() >= count_ - loose_count_, order.size(), count_, loose_count_);
   slots.set_listed(count_ - loose_count_);
+  ++changes_;
   slot_of_rank_.clear();
   permute(records, next, order);
   fill_unused(records);
@@ -115,7 +116,13 @@ bool ParticleState<Real>::has_room_for(const ParticleSet& newborn) const {
 
 template <class Real>
 void ParticleState<Real>::find_slots() const {
-  if (slot_of_rank_.size() != ids.size()) slot_of_rank_ = slots_by_rank();
+  if (slot_of_rank_.size() == ids.size()) return;
+  slot_of_rank_.assign(ids.size(), kNoSlot);
+  parallel_ranges(slots.end(), kTile, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      if (!is_vacant(records[i])) slot_of_rank_[rank_of(records[i].rank)] = static_cast<std::uint32_t>(i);
+    }
+  });
 }
 
 template <class Real>
@@ -126,23 +133,12 @@ std::size_t ParticleState<Real>::slot_of(std::uint64_t id) const {
 }
 
 template <class Real>
-std::vector<std::uint32_t> ParticleState<Real>::slots_by_rank() const {
-  std::vector<std::uint32_t> at(ids.size(), kNoSlot);
-  parallel_ranges(slots.end(), kTile, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      if (!is_vacant(records[i])) at[rank_of(records[i].rank)] = static_cast<std::uint32_t>(i);
-    }
-  });
-  return at;
-}
-
-template <class Real>
 void ParticleState<Real>::set(std::size_t slot, const Vec3d& position, const Vec3d& velocity) {
   Record& p = records[slot];
   HOOKE_ASSERT(!is_vacant(p), slot);
   p.x = vec_cast<Real>(position);
   p.v = vec_cast<Real>(velocity);
-  wrap_periodic(rules_->pass, p);
+  wrap_periodic(rules_->view(), p.x);
 }
 
 template <class Real>
@@ -161,6 +157,7 @@ void ParticleState<Real>::remove(std::size_t slot) {
   Record& p = records[slot];
   HOOKE_ASSERT(!is_vacant(p), slot);
   --count_of_[static_cast<std::size_t>(p.material)];
+  ++changes_;
   p = vacant_record<Real>(p.rank);
   slots.leave(slot);
 }
@@ -168,11 +165,11 @@ void ParticleState<Real>::remove(std::size_t slot) {
 template <class Real>
 void ParticleState<Real>::recount() {
   count_ = loose_count_ = 0;
-  mass_ = 0;
+  mass_ = {};
   for (std::size_t m = 0; m < count_of_.size(); ++m) {
     count_ += count_of_[m];
     if (!scene_->materials[m].interacts) loose_count_ += count_of_[m];
-    mass_ += static_cast<double>(count_of_[m]) * scene_->materials[m].mass;
+    mass_.add_product(static_cast<double>(count_of_[m]), scene_->materials[m].mass);
   }
 }
 
@@ -194,7 +191,7 @@ template <class Real>
 void ParticleState<Real>::put(std::size_t slot, std::size_t rank, const ParticleSet& particles, std::size_t k) {
   records[slot] = {vec_cast<Real>(particles.position[k]), static_cast<Real>(particles.material[k]),
                    vec_cast<Real>(particles.velocity[k]), rank_code<Real>(static_cast<std::uint32_t>(rank))};
-  wrap_periodic(rules_->pass, records[slot]);  // a coordinate may have been rounded up to the upper face
+  wrap_periodic(rules_->view(), records[slot].x);  // a coordinate may have been rounded up to the upper face
 }
 
 template <class Real>
@@ -226,5 +223,9 @@ void ParticleState<Real>::permute(LargeVector<T>& column, LargeVector<T>& scratc
 
 template class ParticleState<float>;
 template class ParticleState<double>;
+template void ParticleState<float>::download(const ParticleColumns<float>& out) const;
+template void ParticleState<float>::download(const ParticleColumns<double>& out) const;
+template void ParticleState<double>::download(const ParticleColumns<float>& out) const;
+template void ParticleState<double>::download(const ParticleColumns<double>& out) const;
 
 }  // namespace hooke

@@ -11,6 +11,7 @@
 #include "hooke/backends/cpu/particle_record.h"
 #include "hooke/backends/cpu/particle_slots.h"
 #include "hooke/backends/cpu/pass_rules.h"
+#include "hooke/base/exact_sum.h"
 #include "hooke/base/huge_pages.h"
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
@@ -41,7 +42,7 @@ class ParticleState {
 
   std::size_t count() const { return count_; }  ///< particles
   std::size_t loose_count() const { return loose_count_; }  ///< of those, the ones that touch none
-  double mass() const { return mass_; }  ///< of all, kg
+  const ExactSum& mass() const { return mass_; }  ///< of all, kg
 
   /// Lays out these, of the scene, and no others, in order of their ids, with room for those that may be born, for
   /// `births` at least.
@@ -52,8 +53,9 @@ class ParticleState {
   std::span<std::byte> scratch() { return std::as_writable_bytes(std::span(next)); }
   void end_scratch() { fill_unused(next); }
 
-  /// All particles, by id.
-  void download(ParticleSet& out) const;
+  /// Backend::download().
+  template <class Out>
+  void download(const ParticleColumns<Out>& out) const;
 
   /// Puts into listed slot k what was in slot order[k], those that are nowhere last. Loose ones stay.
   void reorder(std::span<const std::uint32_t> order);
@@ -63,9 +65,15 @@ class ParticleState {
   std::size_t room_for_births(bool listed) const;
   bool has_room_for(const ParticleSet& newborn) const;
 
+  /// Counts how often particles have left the slots that they were in.
+  std::uint64_t changes() const { return changes_; }
+
   static constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};
   /// Finds out which slot each id has. A pass over all particles where slots have changed since; else nothing.
   void find_slots() const;
+  /// The slots, by rank, of find_slots() and of particles that were added since; kNoSlot where there was none. One that
+  /// was removed since has left its slot vacant, or to another one.
+  const std::vector<std::uint32_t>& slots_by_rank() const { return slot_of_rank_; }
   /// The slot of a particle by its id, after find_slots(); kNoSlot where there is none.
   std::size_t slot_of(std::uint64_t id) const;
 
@@ -82,7 +90,6 @@ class ParticleState {
   std::uint64_t hash() const;
 
  private:
-  std::vector<std::uint32_t> slots_by_rank() const;
   // Whether the particle of a rank is in a slot that it had once.
   bool is_at(std::uint32_t slot, std::size_t rank) const {
     return slot != kNoSlot && !is_vacant(records[slot]) && rank_of(records[slot].rank) == rank;
@@ -97,7 +104,8 @@ class ParticleState {
   const PassRules<Real>* rules_ = nullptr;
   std::vector<std::uint64_t> count_of_;  // particles by material
   std::size_t count_ = 0, loose_count_ = 0;
-  double mass_ = 0;  // kg
+  std::uint64_t changes_ = 0;
+  ExactSum mass_;  // kg
   mutable std::vector<std::uint32_t> slot_of_rank_;  // by find_slots(); empty where slots have changed since
 };
 

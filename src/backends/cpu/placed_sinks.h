@@ -19,12 +19,12 @@ class PlacedSinks {
   /// Whether a particle with its centre at x (m) is taken away.
   bool take(const Vec3d& x) const {
     return std::any_of(sinks_.begin(), sinks_.end(),
-                       [&](const Placed& sink) { return is_inside(sink.box, x) && encloses(sink, x); });
+                       [&](const Placed& sink) { return sink.box.contains(x) && encloses(sink, x); });
   }
 
  private:
   struct Placed {
-    ShapeBounds box;
+    Box3d box;
     ShapeGeometry<double> shape;
   };
   static bool encloses(const Placed& sink, const Vec3d& x);

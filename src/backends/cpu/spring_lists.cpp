@@ -19,7 +19,7 @@
 namespace hooke {
 
 template <class Real>
-void SpringLists<Real>::configure(const Scene& scene, const ForcePass<Real>& rules, SpringPassFunction<Real> run) {
+void SpringLists<Real>::configure(const Scene& scene, const RulesView<Real>& rules, SpringPassFunction<Real> run) {
   run_ = run;
   pass_.length = rules.length;
   period_ = rules.period;
@@ -161,7 +161,8 @@ const std::vector<std::pair<std::uint32_t, std::uint32_t>>& SpringLists<Real>::a
 }
 
 template <class Real>
-void SpringLists<Real>::measure(const Record* records, const std::vector<std::uint32_t>& place, Measurements& m) const {
+void SpringLists<Real>::measure(const Record* records, const std::vector<std::uint32_t>& place,
+                                MeasurementSums& sums) const {
   if (empty()) return;
   ExactSum energy;
   std::atomic<std::uint64_t> holding{0};
@@ -179,8 +180,7 @@ void SpringLists<Real>::measure(const Record* records, const std::vector<std::ui
     const std::lock_guard lock(mutex_);
     energy.add(part);
   });
-  m.springs = holding;
-  m.spring_energy = energy.value();
+  sums.add_springs(holding, energy);
 }
 
 template <class Real>

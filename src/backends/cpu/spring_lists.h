@@ -13,6 +13,7 @@
 #include "hooke/backends/cpu/exclusions.h"
 #include "hooke/backends/cpu/force_pass.h"
 #include "hooke/backends/cpu/id_table.h"
+#include "hooke/backends/cpu/particle_state.h"
 #include "hooke/backends/cpu/spring_pass.h"
 #include "hooke/base/huge_pages.h"
 #include "hooke/core/scene.h"
@@ -29,9 +30,9 @@ class SpringLists {
   static constexpr std::size_t kLanes = kGroupLanes, kGroups = kTile / kLanes;
 
  public:
-  static constexpr std::uint32_t kVacant = ~std::uint32_t{0};
+  static constexpr std::uint32_t kVacant = ParticleState<Real>::kNoSlot;
 
-  void configure(const Scene& scene, const ForcePass<Real>& rules, SpringPassFunction<Real> run);
+  void configure(const Scene& scene, const RulesView<Real>& rules, SpringPassFunction<Real> run);
 
   bool empty() const { return kind_.empty(); }
 
@@ -61,7 +62,7 @@ class SpringLists {
                                                                     SpringSums& sums);
 
   /// Counts the springs that hold, and their energy.
-  void measure(const Record* records, const std::vector<std::uint32_t>& place, Measurements& m) const;
+  void measure(const Record* records, const std::vector<std::uint32_t>& place, MeasurementSums& sums) const;
 
   /// Adds the energy (J) of the springs that tie the particle of a rank; half of it where the other end is one of
   /// `among` (indices, ascending).

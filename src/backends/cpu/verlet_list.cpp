@@ -16,7 +16,7 @@ namespace hooke {
 
 template <class Real>
 auto VerletList<Real>::key_of(const CellList& cells, const Record* records) const {
-  return [&cells, records, &level_of = rules_->level_of](std::size_t i) {
+  return [&cells, records, &level_of = rules_->level_of()](std::size_t i) {
     const Record& p = records[i];
     if (is_vacant(p)) return cells.key_end();
     return cells.key_of(vec_cast<double>(p.x), level_of[static_cast<std::size_t>(p.material)]);
@@ -24,11 +24,11 @@ auto VerletList<Real>::key_of(const CellList& cells, const Record* records) cons
 }
 
 template <class Real>
-std::span<const std::uint32_t> VerletList<Real>::sort(const Record* records, std::size_t count, Vec3d min, Vec3d max,
+std::span<const std::uint32_t> VerletList<Real>::sort(const Record* records, std::size_t count, const Box3d& box,
                                                       std::span<std::byte> scratch) {
   choose_skin();
-  limits_.min = min;
-  limits_.max = max;
+  limits_.min = box.min;
+  limits_.max = box.max;
   lay_out_cells(cells_, skin_, count);
   cells_.sort(count, key_of(cells_, records), order_, scratch);
   slots_.lay_out(std::span(order_).first(cells_.point_count()));
@@ -48,7 +48,7 @@ void VerletList<Real>::build(const Record* records, std::size_t count, std::size
   std::vector<std::uint32_t>& ranks = order_;  // of no use any more as the order of the sort
   ranks.reserve(room);  // a growing vector would take twice that
   ranks.resize(room);
-  const SearchColumns columns(scratch, count + kLanes, rules_->largest_touching > rules_->smallest_radius);
+  const SearchColumns columns(scratch, count + kLanes, rules_->largest_touching() > rules_->smallest_touching());
   parallel_ranges(count, NeighbourList::kTile, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       position_at_build_.put(i, records[i].x);
@@ -67,8 +67,8 @@ void VerletList<Real>::build(const Record* records, std::size_t count, std::size
   limits_.diameter = 2 * rules_->largest_reach();
   find_coarseness();
   // A thousandth covers what rounding takes of displacements.
-  limits_.skin = std::max(0.0, 0.999 * skin_ - 2 * rules_->rounding - coarseness_);
-  std::copy(std::begin(rules_->pass.periodic), std::end(rules_->pass.periodic), limits_.periodic);
+  limits_.skin = std::max(0.0, 0.999 * skin_ - 2 * rules_->rounding() - coarseness_);
+  std::copy(std::begin(rules_->view().periodic), std::end(rules_->view().periodic), limits_.periodic);
   // Within a window it does not matter in which order.
   motion_.lay_out({columns.x, columns.y, columns.z}, count, kWindow, limits_);
   // Those without a place are always far from it.
@@ -110,7 +110,7 @@ void VerletList<Real>::moved(const Record* records) {
   if (!listed_) return;
   ++steps_;
   ++age_;
-  if (rules_->pass.periodic_kind == PeriodicKind::images && !outliers_.empty()) return invalidate();
+  if (rules_->view().periodic_kind == PeriodicKind::images && !outliers_.empty()) return invalidate();
   since_followed_ += kOutlierCost * outliers_.size();
   if (steps_ > horizon_ || (follow_helps_ && since_followed_ * kFollowShare > count_)) {
     const std::size_t before = outliers_.size();
@@ -175,14 +175,14 @@ void VerletList<Real>::choose_skin() {
     skin_ratio_ = 0.5 * (skin_ratio_ + best_skin());
     age_ = 0;
   }
-  skin_ = skin_ratio_ * 2 * rules_->smallest_radius;
+  skin_ = skin_ratio_ * 2 * rules_->smallest_touching();
 }
 
 template <class Real>
 void VerletList<Real>::lay_out_cells(CellList& cells, double skin, std::size_t count) const {
   std::vector<CellList::Level> levels;
-  for (const double radius : rules_->level_radius) levels.push_back({radius, 2 * radius + skin});
-  cells.lay_out(limits_.min, limits_.max, rules_->pass.periodic, levels, count);
+  for (const double radius : rules_->level_radius()) levels.push_back({radius, 2 * radius + skin});
+  cells.lay_out(limits_.min, limits_.max, rules_->view().periodic, levels, count);
 }
 
 template <class Real>
@@ -194,11 +194,11 @@ NeighbourRule<Real> VerletList<Real>::neighbour_rule(const SearchColumns& column
   rule.rank = columns.rank;
   rule.place = slots_.places();
   rule.neighbour_count = slots_.neighbour_counts();
-  rule.reach = static_cast<Real>(kRounding * rules_->smallest_radius +
+  rule.reach = static_cast<Real>(kRounding * rules_->smallest_touching() +
                                  (columns.radius == nullptr ? 2 * rules_->largest_reach() : 0) + skin_);
-  std::copy(std::begin(rules_->pass.periodic), std::end(rules_->pass.periodic), rule.periodic);
-  rule.length = rules_->pass.length;
-  rule.list_self = rules_->pass.periodic_kind == PeriodicKind::images;
+  std::copy(std::begin(rules_->view().periodic), std::end(rules_->view().periodic), rule.periodic);
+  rule.length = rules_->view().length;
+  rule.list_self = rules_->view().periodic_kind == PeriodicKind::images;
   rule.stride = record_offset<Real>(1);
   rule.filler = filler_ / rule.stride;
   return rule;
@@ -219,11 +219,11 @@ void VerletList<Real>::find_coarseness() {
 template <class Real>
 void VerletList<Real>::follow(const Record* records) {
   using GroupMotion = typename MotionBounds<Real>::GroupMotion;
-  const Real dt = rules_->pass.dt;
+  const Real dt = rules_->view().dt;
   horizon_ = motion_.follow(
       [&](std::size_t w) {
         GroupMotion motion;
-        Extent extent;
+        Box3<Real> extent = Box3<Real>::none();
         for (std::size_t i = w * kWindow; i < std::min((w + 1) * kWindow, count_); ++i) {
           if (is_vacant(records[i])) continue;
           const Vec3<Real> u = displacement(records[i], i, {Real(0), Real(0), Real(0)});
@@ -255,7 +255,7 @@ unsigned VerletList<Real>::outliers_of_group(const Record* records, std::size_t 
   const Anchor& anchor = anchors_[window];
   const bool born = g * kLanes >= first_free();
   unsigned far = 0;
-  if (!born && moved_[window].furthest2(anchor.offset) <= anchor.limit2(Real(0))) return far;
+  if (!born && furthest2(moved_[window], anchor.offset) <= anchor.limit2(Real(0))) return far;
   const std::size_t end = born ? (g + 1) * kLanes : std::min((g + 1) * kLanes, count_);
   for (std::size_t i = g * kLanes; i < end; ++i) {
     if (!is_vacant(records[i]) && (born || is_off(records[i], i, anchor, Real(0)))) far |= 1U << i % kLanes;

@@ -17,6 +17,7 @@
 #include "hooke/backends/cpu/pass_rules.h"
 #include "hooke/backends/cpu/patched_rows.h"
 #include "hooke/base/assert.h"
+#include "hooke/base/box3.h"
 #include "hooke/neighbours/cell_list.h"
 #include "hooke/neighbours/motion_bounds.h"
 #include "hooke/neighbours/neighbour_list.h"
@@ -54,9 +55,9 @@ class VerletList {
   bool is_valid() const { return listed_; }
   void invalidate() { listed_ = false; }
 
-  /// Sorts `count` particles inside the box [min, max] (m) into cells; those that are nowhere come last. Returns the
-  /// order: which particle is to be the k-th. Works in `scratch`.
-  std::span<const std::uint32_t> sort(const Record* records, std::size_t count, Vec3d min, Vec3d max,
+  /// Sorts `count` particles inside of a box (m) into cells; vacant slots come last. Returns the order: which particle
+  /// is to be the k-th. Works in `scratch`.
+  std::span<const std::uint32_t> sort(const Record* records, std::size_t count, const Box3d& box,
                                       std::span<std::byte> scratch);
 
   /// Lists the neighbours of the first `count` particles, which lie in the order that sort() gave. `records` ends with
@@ -80,7 +81,7 @@ class VerletList {
   void add(std::size_t i, std::uint32_t rank) {
     if (!listed_) return;
     HOOKE_ASSERT(i >= first_free(), i, first_free());
-    if (i >= end_ || rules_->pass.periodic_kind == PeriodicKind::images) return invalidate();
+    if (i >= end_ || rules_->view().periodic_kind == PeriodicKind::images) return invalidate();
     order_[i] = rank;
     position_at_build_.put(i, {Real(0), Real(0), Real(0)});
     add_outlier(i);
@@ -89,7 +90,7 @@ class VerletList {
   /// Particle i has been moved by other than a step: an outlier from now on.
   void note_moved(std::size_t i) {
     if (!listed_) return;
-    if (rules_->pass.periodic_kind == PeriodicKind::images) return invalidate();
+    if (rules_->view().periodic_kind == PeriodicKind::images) return invalidate();
     add_outlier(i);
   }
 
@@ -189,7 +190,7 @@ class VerletList {
 
   // How far a record has moved since its neighbours were listed, beyond `expected`, m.
   Vec3<Real> displacement(const Record& p, std::size_t i, const Vec3<Real>& expected) const {
-    return nearest_displacement(p.x, position_at_build_[i] + expected, rules_->pass.period);
+    return nearest_displacement(p.x, position_at_build_[i] + expected, rules_->view().period);
   }
   bool is_off(const Record& p, std::size_t i, const Anchor& anchor, Real steps) const {
     const Vec3<Real> off = displacement(p, i, anchor.at(steps));
@@ -207,24 +208,14 @@ class VerletList {
   void patch(const Record* records);
   void patch_fresh(const Record* records);
 
-  // Bounds of the displacements of a window, m.
-  struct Extent {
-    static constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
-    Vec3<Real> low{kInfinite, kInfinite, kInfinite}, high{-kInfinite, -kInfinite, -kInfinite};
-
-    void add(const Vec3<Real>& u) {
-      low = {std::min(low.x, u.x), std::min(low.y, u.y), std::min(low.z, u.z)};
-      high = {std::max(high.x, u.x), std::max(high.y, u.y), std::max(high.z, u.z)};
-    }
-    // No point of it is further from `from`; NaN where there is doubt.
-    Real furthest2(const Vec3<Real>& from) const {
-      if (low.x > high.x) return Real(0);
-      const auto most = [](Real a, Real b) { return a < b ? b : a; };
-      const Vec3<Real> off{most(high.x - from.x, from.x - low.x), most(high.y - from.y, from.y - low.y),
-                           most(high.z - from.z, from.z - low.z)};
-      return dot(off, off);
-    }
-  };
+  // The furthest point of a box around displacements (m) from `from`, squared; NaN where there is doubt.
+  static Real furthest2(const Box3<Real>& box, const Vec3<Real>& from) {
+    if (box.is_none()) return Real(0);
+    const auto most = [](Real a, Real b) { return a < b ? b : a; };
+    const Vec3<Real> off{most(box.max.x - from.x, from.x - box.min.x), most(box.max.y - from.y, from.y - box.min.y),
+                         most(box.max.z - from.z, from.z - box.min.z)};
+    return dot(off, off);
+  }
 
   const PassRules<Real>* rules_ = nullptr;
   WindowSearchFunction<Real> search_ = nullptr;
@@ -246,7 +237,7 @@ class VerletList {
   typename MotionBounds<Real>::Limits limits_;
   MotionBounds<Real> motion_;
   std::vector<Anchor> anchors_;  // by window
-  std::vector<Extent> moved_;  // likewise
+  std::vector<Box3<Real>> moved_;  // likewise
   std::vector<std::uint16_t> outlying_;  // by group: a bit a lane
   PatchedRows patched_;
   std::vector<std::uint32_t> outliers_;

@@ -22,7 +22,7 @@ struct ForceWork {
   const Vec3<Real>* acceleration = nullptr;      // velocity Verlet: of the kick to come, m/s^2; else null
   Real kick{};                                   // how long that takes, s
   std::size_t count = 0;                         // at most kMost; whole groups of 16 can be read
-  bool external = true;                          // the force itself is summed too
+  bool has_resultant = true;                          // the force itself is summed too
 };
 
 /// Powers are those of twice the mean velocity, W, as in PassSum.

@@ -28,14 +28,14 @@ void add_work(const ForceWork<Real>& work, ExactParts* sums) {
       const Vec3<P> next = kick(after, load_vectors(work.acceleration + end), P(work.kick));
       store(columns[WorkSum::next_power] + end, dot(force, after + next));
     }
-    if (!work.external) continue;
+    if (!work.has_resultant) continue;
     store(columns[WorkSum::force] + end, force.x);
     store(columns[WorkSum::force + 1] + end, force.y);
     store(columns[WorkSum::force + 2] + end, force.z);
   }
   for (int sum = 0; sum < WorkSum::count; ++sum) {
     if (sum == WorkSum::next_power && work.acceleration == nullptr) continue;
-    if (sum >= WorkSum::force && !work.external) continue;
+    if (sum >= WorkSum::force && !work.has_resultant) continue;
     for (std::size_t k = work.count; k < end; ++k) columns[sum][k] = Real(0);
     add_parts(columns[sum], end, sums[sum]);
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -16,12 +17,12 @@
 #include "hooke/base/stopwatch.h"
 #include "hooke/core/contact_walk.h"
 #include "hooke/core/placed_colliders.h"
+#include "hooke/core/rules.h"
 #include "hooke/core/state_hash.h"
 #include "hooke/core/sums.h"
 #include "hooke/physics/drag.h"
 #include "hooke/physics/enclosure.h"
 #include "hooke/physics/integrate.h"
-#include "hooke/physics/periodic.h"
 
 namespace hooke {
 namespace {
@@ -32,20 +33,19 @@ class ReferenceBackend final : public Backend {
 
   void configure(const Scene& scene) override {
     scene_ = scene;
-    table_ = ContactTable(scene.materials, scene.contacts);
+    rules_ = Rules<double>(scene);
     springs_.configure(scene);
     attraction_.configure(scene);
+    external_.clear();
     sinks_.clear();
     for (const Sink& sink : scene.sinks) sinks_.push_back(geometry_of(sink.shape, false, {0, 0, 0}));
-    const double reach = 2 * largest_radius() + table_.widest_range();
     walls_ = scene.domain.walls();
     images_.period = scene.domain.period();
     for (int axis = 0; axis < 3; ++axis) {
-      // Inside the domain, images further away than this can't touch.
-      const bool periodic = scene.domain.boundary[static_cast<std::size_t>(axis)] == Boundary::periodic;
-      images_.most[static_cast<std::size_t>(axis)] =
-          periodic ? static_cast<std::int32_t>(reach / scene.domain.length(axis)) + 1 : 0;
-      component(period_, axis) = periodic ? scene.domain.length(axis) : std::numeric_limits<double>::infinity();
+      const RulesView<double>& rules = rules_.view();
+      images_.most[static_cast<std::size_t>(axis)] = rules.images[axis];
+      component(period_, axis) =
+          rules.periodic[axis] ? component(rules.period, axis) : std::numeric_limits<double>::infinity();
     }
   }
 
@@ -55,11 +55,12 @@ class ReferenceBackend final : public Backend {
   void assign(const ParticleSet& particles) override {
     HOOKE_ASSERT(are_particles_of(particles, scene_), particles.size(), scene_.materials.size());
     p_ = particles;
-    for (Vec3d& x : p_.position) wrap_periodic(x);
+    for (Vec3d& x : p_.position) wrap_periodic(rules_.view(), x);
     p_.acceleration.resize(verlet() ? p_.size() : 0);
   }
 
-  void download(ParticleSet& out) const override { out = p_; }
+  void download(const ParticleColumns<double>& out) const override { copy_to(out); }
+  void download(const ParticleColumns<float>& out) const override { copy_to(out); }
   std::uint64_t particle_count() const override { return p_.size(); }
 
   std::optional<ParticleAt> find(std::uint64_t id) const override {
@@ -74,8 +75,19 @@ class ReferenceBackend final : public Backend {
       HOOKE_ASSERT(i < p_.size(), to.id);
       p_.position[i] = to.position;
       p_.velocity[i] = to.velocity;
-      wrap_periodic(p_.position[i]);
+      wrap_periodic(rules_.view(), p_.position[i]);
     }
+  }
+
+  std::optional<std::uint64_t> set_external_forces(std::span<const std::uint64_t> ids,
+                                                   std::span<const Vec3d> forces) override {
+    HOOKE_ASSERT(ids.size() == forces.size(), ids.size(), forces.size());
+    for (const std::uint64_t id : ids) {
+      if (p_.find(id) == p_.size()) return id;
+    }
+    external_.clear();
+    for (std::size_t k = 0; k < ids.size(); ++k) external_[ids[k]] = forces[k];
+    return std::nullopt;
   }
 
   RemovalSums insert(const ParticleSet& newborn) override {
@@ -88,7 +100,7 @@ class ReferenceBackend final : public Backend {
       p_.position.push_back(newborn.position[k]);
       p_.velocity.push_back(newborn.velocity[k]);
       if (verlet()) p_.acceleration.push_back({0, 0, 0});
-      wrap_periodic(p_.position.back());
+      wrap_periodic(rules_.view(), p_.position.back());
       born.add_particle(material(p_.size() - 1).mass, p_.position.back(), p_.velocity.back(), scene_.gravity);
     }
     const std::size_t first = p_.size() - newborn.size();
@@ -124,8 +136,8 @@ class ReferenceBackend final : public Backend {
   // Wraps periodic coordinates and removes particles outside open faces. Under velocity Verlet they have had their half
   // kick.
   void finish_motion(RemovalSums& left) override {
-    for (Vec3d& x : p_.position) wrap_periodic(x);
-    left.add(remove_where([&](std::size_t i) { return is_outside_open_face(p_.position[i]); }, false));
+    for (Vec3d& x : p_.position) wrap_periodic(rules_.view(), x);
+    left.add(remove_where([&](std::size_t i) { return is_outside_open_face(rules_.view(), p_.position[i]); }, false));
   }
 
   bool neighbours_stale() override { return true; }  // there is no list: every pair is looked at, every step
@@ -161,7 +173,7 @@ class ReferenceBackend final : public Backend {
     springs_.tear(torn);
   }
 
-  void evaluate_accelerations(const Instant& now, std::uint64_t first_new_id, StepReport& report) override {
+  void evaluate_accelerations(const Instant& now, StepReport& report) override {
     HOOKE_ASSERT(verlet());
     Forces forces = accelerations(now, report);
     report.condition = {};  // nothing moves yet: the first step will say so
@@ -171,14 +183,14 @@ class ReferenceBackend final : public Backend {
         report.applied->add_held(material(i).mass, v, kick(v, forces.a[i], scene_.time_step / 2), scene_.time_step / 2);
         forces.a[i] = {0, 0, 0};
       }
-      if (p_.id[i] >= first_new_id) p_.acceleration[i] = forces.a[i];
       add_work(forces, i, p_.velocity[i], kick(p_.velocity[i], forces.a[i], scene_.time_step / 2), *report.applied);
     }
+    p_.acceleration = std::move(forces.a);
   }
 
-  void find_inside(const ShapeBounds& box, std::vector<Occupant>& out) const override {
+  void find_inside(const Box3d& box, std::vector<Occupant>& out) const override {
     for (std::size_t i = 0; i < p_.size(); ++i) {
-      if (material(i).interacts && is_inside(box, p_.position[i])) out.push_back({p_.position[i], material(i).radius});
+      if (material(i).interacts && box.contains(p_.position[i])) out.push_back({p_.position[i], material(i).radius});
     }
   }
 
@@ -188,7 +200,7 @@ class ReferenceBackend final : public Backend {
     return hash;
   }
 
-  Expected<Measurements> measure(const Instant& now) override {
+  Expected<MeasurementSums> measure(const Instant& now) override {
     place_colliders_at(now);
     MeasurementSums sums;
     for (std::size_t i = 0; i < p_.size(); ++i) {
@@ -197,19 +209,18 @@ class ReferenceBackend final : public Backend {
         sums.add_contact_side(pair(i, p), overlap, material(i).radius + material(p).radius);
       });
       for_each_wall(i, [&](const Vec3d& normal, double overlap) {
-        const auto& c = table_.wall(p_.material[i]);
+        const ContactLaw<double> c = wall(i);
         sums.add_wall_contact(c, overlap, contact_force(overlap, normal, -p_.velocity[i], c));
       });
       for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double overlap) {
-        const auto& k = collider_pair(i, c);
+        const ContactLaw<double> k = collider_pair(i, c);
         const Vec3d force = contact_force(overlap, face.normal, face.velocity - p_.velocity[i], k);
         sums.add_collider_contact(c, face.point, k, overlap, force);
       });
     }
-    Measurements result = sums.result(scene_.colliders.size());
-    springs_.measure(p_, result);
-    result.attraction_energy = attraction_.energy(p_);
-    return result;
+    springs_.measure(p_, sums);
+    sums.add_attraction(attraction_.energy(p_));
+    return sums;
   }
 
   NeighbourStatistics neighbour_statistics() const override { return {0, static_cast<double>(p_.size())}; }
@@ -233,7 +244,7 @@ class ReferenceBackend final : public Backend {
     double overlap;  // m
     Vec3d normal;  // to the particle
     Vec3d w;  // m/s, of the partner relative to the particle
-    const ContactLaw<double>* law;
+    ContactLaw<double> law;
     double radius;  // m, the smaller one
   };
 
@@ -246,36 +257,51 @@ class ReferenceBackend final : public Backend {
   bool verlet() const { return scene_.integrator == Integrator::velocity_verlet; }
   bool is_held(std::size_t i) const { return material(i).fixed || springs_.is_held(p_.id[i]); }
   const Material& material(std::size_t i) const { return scene_.materials[p_.material[i]]; }
-  double largest_radius() const {
-    double largest = 0;
-    for (const Material& m : scene_.materials) largest = std::max(largest, m.radius);
-    return largest;
+  ContactLaw<double> pair(std::size_t i, std::size_t p) const {
+    return law_of(rules_.pair(p_.material[i], p_.material[p]));
   }
-  const ContactLaw<double>& pair(std::size_t i, std::size_t p) const {
-    return table_.pair(p_.material[i], p_.material[p]);
-  }
-
-  const ContactLaw<double>& collider_pair(std::size_t i, std::size_t c) const {
-    return table_.collider(p_.material[i], scene_.colliders[c].material);
+  ContactLaw<double> wall(std::size_t i) const { return law_of(rules_.wall(p_.material[i])); }
+  ContactLaw<double> collider_pair(std::size_t i, std::size_t c) const {
+    return law_of(rules_.collider(p_.material[i], c));
   }
 
   // Accelerations of all particles (docs/theory.md eq. 1), and what the report says of them.
   Forces accelerations(const Instant& now, StepReport& report) {
     place_colliders_at(now);
-    report.mass = total_mass();
     report.applied.emplace();
     Forces out;
     out.applied.push_back({Cause::springs, springs_.forces(p_, report.applied->springs)});
     out.applied.push_back({Cause::field, field_forces(scene_, p_, now.time)});
     out.applied.push_back({Cause::attraction, attraction_.forces(p_)});
+    out.applied.push_back({Cause::external, external_forces()});
     for (std::size_t i = 0; i < p_.size(); ++i) {
       const std::vector<Meeting> meetings = meetings_of(i);
       const ParticleForces forces = forces_on(i, meetings, out.applied);
       out.a.push_back((1 / material(i).mass) * total(forces) + scene_.gravity);
       report.condition = Condition::first(report.condition, check_approach(i, meetings));
+      report.mass.add(material(i).mass);
       book(i, forces, out.a[i], report.sums);
     }
     return out;
+  }
+
+  std::vector<Vec3d> external_forces() const {
+    std::vector<Vec3d> forces(external_.empty() ? 0 : p_.size());
+    for (const auto& [id, force] : external_) {
+      if (const std::size_t i = p_.find(id); i < p_.size()) forces[i] = force;
+    }
+    return forces;
+  }
+
+  template <class Out>
+  void copy_to(const ParticleColumns<Out>& out) const {
+    for (std::size_t i = 0; i < p_.size(); ++i) {
+      if (out.id != nullptr) out.id[i] = p_.id[i];
+      if (out.material != nullptr) out.material[i] = p_.material[i];
+      if (out.position != nullptr) out.position[i] = vec_cast<Out>(p_.position[i]);
+      if (out.velocity != nullptr) out.velocity[i] = vec_cast<Out>(p_.velocity[i]);
+      if (verlet() && out.acceleration != nullptr) out.acceleration[i] = vec_cast<Out>(p_.acceleration[i]);
+    }
   }
 
   // In canonical order: other particles by id and image, walls, colliders.
@@ -284,16 +310,15 @@ class ReferenceBackend final : public Backend {
     const double radius = material(i).radius;
     std::vector<Meeting> all;
     for_each_contact(i, [&](std::size_t p, const Vec3d& normal, double overlap) {
-      all.push_back({Condition::Kind::approach_too_fast, p_.id[p], overlap, normal, p_.velocity[p] - v, &pair(i, p),
+      all.push_back({Condition::Kind::approach_too_fast, p_.id[p], overlap, normal, p_.velocity[p] - v, pair(i, p),
                      std::min(radius, material(p).radius)});
     });
     for_each_wall(i, [&](const Vec3d& normal, double overlap) {
-      all.push_back(
-          {Condition::Kind::wall_approach_too_fast, 0, overlap, normal, -v, &table_.wall(p_.material[i]), radius});
+      all.push_back({Condition::Kind::wall_approach_too_fast, 0, overlap, normal, -v, wall(i), radius});
     });
     for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double overlap) {
       all.push_back({Condition::Kind::collider_approach_too_fast, c, overlap, face.normal, face.velocity - v,
-                     &collider_pair(i, c), radius});
+                     collider_pair(i, c), radius});
     });
     return all;
   }
@@ -302,12 +327,12 @@ class ReferenceBackend final : public Backend {
   // coefficients are applied: the definition, not a shortcut (docs/theory.md section 2).
   ParticleForces forces_on(std::size_t i, const std::vector<Meeting>& meetings,
                            const std::vector<Acting>& applied) const {
-    const bool linear = table_.is_linear(), alike = linear && scene_.materials.size() == 1;
+    const bool linear = rules_.view().linear, alike = linear && rules_.material_count() == 1;
     ParticleForces on;
     ContactVectors<double> vectors;
     for (const Meeting& m : meetings) {
-      const auto force = [&] { return contact_forces(m.overlap, m.normal, m.w, *m.law); };
-      const auto linear_force = [&] { return contact_forces(m.overlap, m.normal, m.w, m.law->linear); };
+      const auto force = [&] { return contact_forces(m.overlap, m.normal, m.w, m.law); };
+      const auto linear_force = [&] { return contact_forces(m.overlap, m.normal, m.w, m.law.linear); };
       if (m.kind == Condition::Kind::approach_too_fast) {
         if (alike) {
           vectors += contact_vectors(m.overlap, m.normal, m.w);
@@ -330,7 +355,7 @@ class ReferenceBackend final : public Backend {
   }
 
   Vec3d total(const ParticleForces& on) const {
-    const Vec3d contacts = table_.is_linear() ? on.contacts.linear.total() : on.contacts.total();
+    const Vec3d contacts = rules_.view().linear ? on.contacts.linear.total() : on.contacts.total();
     return (((contacts + on.walls) + on.colliders) + on.drag) + on.applied;
   }
 
@@ -397,14 +422,15 @@ class ReferenceBackend final : public Backend {
   void for_each_contact(std::size_t i, Visit&& visit) const {
     if (!material(i).interacts) return;
     // Looked at no closer beyond this, m: twice as far as contacts reach, so that rounding can't matter.
-    const double far = 2 * (2 * largest_radius() + table_.widest_range());
+    const double far = 2 * (2 * rules_.largest_radius() + rules_.widest_range());
     for (std::size_t p = 0; p < p_.size(); ++p) {
       if (is_farther(far, p_.position[i], p_.position[p]) || !material(p).interacts) continue;
       for_each_image(p_.position[i], p_.position[p], images_, [&](const ImageIndex& image, const Vec3d& x_ip) {
         if (p == i && image == ImageIndex{}) return;
         const auto [overlap, normal] =
             pair_geometry(x_ip, material(i).radius + material(p).radius, p_.id[i] > p_.id[p] ? 1.0 : -1.0);
-        if (!(overlap > -pair(i, p).surface.range) || springs_.excludes(p_.id[i], p_.id[p])) return;
+        if (!(overlap > -rules_.pair(p_.material[i], p_.material[p]).range) || springs_.excludes(p_.id[i], p_.id[p]))
+          return;
         visit(p, normal, overlap);
       });
     }
@@ -413,7 +439,7 @@ class ReferenceBackend final : public Backend {
   // visit(normal, overlap) for every wall that acts on particle i.
   template <class Visit>
   void for_each_wall(std::size_t i, Visit&& visit) const {
-    hooke::for_each_wall(walls_, p_.position[i], material(i).radius, table_.wall(p_.material[i]).surface.range,
+    hooke::for_each_wall(walls_, p_.position[i], material(i).radius, rules_.wall(p_.material[i]).range,
                          [&](int, const Vec3d& normal, double overlap) { visit(normal, overlap); });
   }
 
@@ -426,26 +452,9 @@ class ReferenceBackend final : public Backend {
       const std::size_t c = colliders_.of[k];
       for_each_collider_face(colliders_.all[k], p_.position[i], [&](const ColliderFace<double>& face) {
         const double overlap = radius - face.distance;
-        if (overlap > -collider_pair(i, c).surface.range) visit(c, face, overlap);
+        if (overlap > -rules_.collider(p_.material[i], c).range) visit(c, face, overlap);
       });
     }
-  }
-
-  void wrap_periodic(Vec3d& x) const {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (scene_.domain.boundary[static_cast<std::size_t>(axis)] != Boundary::periodic) continue;
-      component(x, axis) =
-          wrap_coordinate(component(x, axis), component(scene_.domain.min, axis), component(scene_.domain.max, axis));
-    }
-  }
-
-  bool is_outside_open_face(const Vec3d& x) const {
-    for (int axis = 0; axis < 3; ++axis) {
-      const bool outside = component(x, axis) < component(scene_.domain.min, axis) ||
-                           component(x, axis) > component(scene_.domain.max, axis);
-      if (outside && scene_.domain.boundary[static_cast<std::size_t>(axis)] == Boundary::open) return true;
-    }
-    return false;
   }
 
   // Takes particles away for which gone(i); under velocity Verlet with what the half kick to come would have given
@@ -487,18 +496,12 @@ class ReferenceBackend final : public Backend {
     springs_.add_energy(p_, [&](std::size_t i, std::size_t p) { return among(i) || among(p); }, sum);
   }
 
-  double total_mass() const {
-    ExactSum mass;
-    for (std::size_t i = 0; i < p_.size(); ++i) mass.add(material(i).mass);
-    return mass.value();
-  }
-
   void place_colliders_at(const Instant& now) {
-    colliders_ = hooke::place_colliders<double>(scene_, now.poses, largest_radius() + table_.widest_range());
+    colliders_ = hooke::place_colliders<double>(scene_, now.poses, rules_.largest_reach_of_bodies());
   }
 
   Scene scene_;
-  ContactTable table_;
+  Rules<double> rules_;
   ReferenceSprings springs_;
   ReferenceAttraction attraction_;
   Vec3d period_{};  // m; infinite along an axis that isn't periodic
@@ -506,6 +509,7 @@ class ReferenceBackend final : public Backend {
   Walls walls_;
   PlacedColliders<double> colliders_;
   std::vector<ShapeGeometry<double>> sinks_;
+  std::map<std::uint64_t, Vec3d> external_;  // N, by id
   ParticleSet p_;
   StageTimes times_;
 };

@@ -79,10 +79,10 @@ class ReferenceSprings {
     for (const std::size_t s : these) broken_[s] = true;
   }
 
-  void measure(const ParticleSet& p, Measurements& m) const {
+  void measure(const ParticleSet& p, MeasurementSums& sums) const {
     ExactSum energy;
-    m.springs = add_energy(p, [](std::size_t, std::size_t) { return true; }, energy);
-    m.spring_energy = energy.value();
+    const std::uint64_t count = add_energy(p, [](std::size_t, std::size_t) { return true; }, energy);
+    sums.add_springs(count, energy);
   }
 
   /// Adds the energy of the springs between i and j, indices, for which among(i, j). Returns how many there are.
