@@ -149,7 +149,7 @@ void AppliedForces<Real>::hold_still(std::size_t first, std::size_t last, const 
 template <class Real>
 void AppliedForces<Real>::add_work(const Acting& acting, std::size_t first, std::size_t last, const Record* before,
                                    const Record* after, const Vec3<Real>* acceleration, AppliedSums& sums) const {
-  const bool has_resultant = acting.cause != Cause::springs;  // they give each other what they take
+  const bool has_resultant = acting.cause != Cause::springs;  // spring forces sum to 0
   std::array<ExactParts, WorkSum::count> parts;
   for (ExactParts& part : parts) part.count = 0;
   work_pass_(

@@ -25,9 +25,9 @@
 
 namespace hooke {
 
-/// What acts on the particles of a scene beside the force pass: springs, fields, attraction and the caller's forces,
-/// summed before the pass into one column of forces that it adds, and what holds particles still after it. A scene that
-/// has nothing of it pays nothing.
+/// The forces on particles beside those of the force pass: springs, fields, attraction and the caller's forces. They
+/// are summed before the pass into one column, which the pass adds. Held particles are put back after the pass. A scene
+/// without any of this pays nothing.
 template <class Real>
 class AppliedForces {
   using Record = ParticleRecord<Real>;
@@ -42,7 +42,7 @@ class AppliedForces {
   const SpringLists<Real>& springs() const { return springs_; }
   const HeldParticles& held() const { return held_; }
 
-  /// Whether there is nothing of it.
+  /// Whether no such force acts and no particle is held.
   bool none() const {
     return springs_.empty() && fields_.empty() && attraction_.empty() && held_.none() && external_.empty();
   }
@@ -54,10 +54,10 @@ class AppliedForces {
     return external_.set(particles, ids, forces);
   }
 
-  /// Ties and holds particles that have just been laid out.
+  /// After a new layout of all particles: finds the particles of springs and cloths, and those that are held.
   void bind(const Particles& particles);
 
-  /// A particle has come into `slot`, the last by rank: no spring ties it, but it may be fixed.
+  /// A new particle is in `slot`, with the last rank. No spring ties it, but it may be fixed.
   void add(const Particles& particles, std::size_t slot, bool fixed);
 
   bool needs_layout() const { return !springs_.empty() || fields_.needs_places() || !held_.none(); }
@@ -68,8 +68,8 @@ class AppliedForces {
   /// The scene's clock, s.
   void set_time(double seconds) { fields_.set_time(seconds); }
 
-  /// Sums up the forces on the particles. With `may_tear`, springs that are stretched too far break. Returns the pairs
-  /// (indices) that springs kept apart and that may touch from now on.
+  /// Sums the forces on the particles. With `may_tear`, springs that are stretched too far break. Returns the pairs
+  /// (indices) that broken springs kept apart: they may touch from now on.
   const Pairs& apply(const Particles& particles, bool may_tear, SpringSums& sums);
 
   /// N, in the order of the records; null where nothing acts.
@@ -77,14 +77,14 @@ class AppliedForces {
     return acting_.empty() ? nullptr : acting_.size() == 1 ? acting_.front().force : total_.data();
   }
 
-  /// After the pass over particles `first` to `last` - 1, of one tile: puts held ones back to where they were, and
-  /// adds up what all of this did. `acceleration` (velocity Verlet, else null) is that of the half kick to come.
+  /// After the pass over particles `first` to `last` - 1, of one tile: puts held particles back to where they were, and
+  /// adds the work of each force. `acceleration` (velocity Verlet, else null) is that of the coming half kick.
   void finish(std::size_t first, std::size_t last, const Record* before, Record* after, Vec3<Real>* acceleration,
               AppliedSums& sums) const;
   void measure(const Particles& particles, MeasurementSums& sums);
 
-  /// Adds the energy (J) of the springs that tie record i; half of it where the other end is one of `among` (indices,
-  /// ascending). Once laid out.
+  /// Adds the energy (J) of the springs that tie record i; a spring whose other end is one of `among` (indices,
+  /// ascending) counts half. Call after lay_out().
   void add_spring_energy(const Particles& particles, std::size_t i, std::span<const std::uint32_t> among,
                          ExactSum& sum) const {
     if (springs_.empty()) return;
@@ -115,7 +115,7 @@ class AppliedForces {
   ExternalForces<Real> external_;
   WorkPassFunction<Real> work_pass_ = nullptr;
   std::vector<Acting> acting_;  // in the order of their sum
-  LargeVector<Vec3<Real>> total_;  // where several act
+  LargeVector<Vec3<Real>> total_;  // their sum, where several act
   std::vector<std::uint32_t> held_ranks_;
   HeldParticles held_;
 };

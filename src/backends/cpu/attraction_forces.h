@@ -13,7 +13,7 @@
 
 namespace hooke {
 
-/// The attraction of a scene for the CPU back end: forces on its records, and what they do.
+/// The attraction of a scene for the CPU back end: forces on its records, and their energy.
 template <class Real>
 class AttractionForces {
   using Record = ParticleRecord<Real>;
@@ -23,13 +23,13 @@ class AttractionForces {
 
   bool empty() const { return !attracts_; }
 
-  /// Sums the forces on the first `count` records, of which `alive` are somewhere.
+  /// Sums the forces on the first `count` records, of which `alive` are not vacant.
   void apply(const LargeVector<Record>& records, std::size_t count, std::size_t alive, const IdTable& ids);
 
-  /// N, in the order of the records; as many as there are, those in no use included.
+  /// N, in the order of the records; one for each record, unused records included.
   const Vec3<Real>* forces() const { return force_.data(); }
 
-  /// Potential energy of all with each other, J.
+  /// Potential energy of all pairs, J.
   double energy(const LargeVector<Record>& records, std::size_t count, std::size_t alive, const IdTable& ids);
 
  private:

@@ -9,7 +9,7 @@
 
 namespace hooke {
 
-// The sums of attraction as seen from outside: plain data in, plain data out, compiled for every instruction set like
+// Interface of the sums of attraction: plain data in, plain data out, compiled for every instruction set like
 // force_pass.h. Lengths and masses are in units that keep single precision inside its range (core/attraction.h).
 
 /// A particle that pulls.
@@ -18,25 +18,25 @@ struct AttractionSource {
   Real x, y, z, mass;
 };
 
-/// Many particles that pull from afar, around their centre of mass.
+/// Many distant particles that pull together, as a cloud around their centre of mass.
 template <class Real>
 struct AttractionCell {
   Real x, y, z;
   MassCloud<Real> cloud;
 };
 
-/// Particles that are pulled, a column a component, whole packs of them; and the sums.
+/// The particles that are pulled, in whole packs, one column per component; and the sums.
 template <class Real>
 struct AttractionTargets {
   static constexpr std::size_t kMost = 64;
   alignas(64) Real x[kMost], y[kMost], z[kMost];
   alignas(64) Real ax[kMost], ay[kMost], az[kMost];
   alignas(64) Real potential[kMost];
-  std::size_t count = 0;  // filled up to a multiple of kFilling
+  std::size_t count = 0;  // padded to a multiple of kFilling
   static constexpr std::size_t kFilling = 16;
 };
 
-/// Some sources for some targets: what they pull with is summed from 0 in the order of the sources, then added.
+/// Sources and targets. The pull of the sources is summed from 0 in their order, then added to the targets' sums.
 template <class Real>
 struct AttractionWork {
   AttractionTargets<Real>* targets = nullptr;
@@ -54,7 +54,7 @@ struct AttractionLoops {
   using Function = void (*)(const AttractionWork<Real>&);
   Function pull_by_particles;
   Function pull_by_cells;
-  Function potential_of_particles;  // exact always; what is at the very place of a target counts nothing
+  Function potential_of_particles;  // always exact; a source exactly at a target's position adds 0
   Function potential_of_cells;
 };
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// The sums of attraction, written once and compiled once for each instruction set (HOOKE_ISA): one target a lane, the
-// sources one after the other, so that no bit depends on how many lanes there are.
+// The sums of attraction, written once and compiled once for each instruction set (HOOKE_ISA): one target per lane, the
+// sources one after the other, so that no bit depends on the number of lanes.
 
 #include "hooke/backends/cpu/attraction_pass.h"
 #include "hooke/backends/cpu/pack_attraction.h"
@@ -10,7 +10,7 @@
 namespace hooke::HOOKE_ISA {
 namespace {
 
-// Sums over the sources for kPacks packs of targets from `first` on; several packs hide the latency of each.
+// Sums over the sources for kPacks packs of targets from `first` on; several packs hide each other's latency.
 template <class Real, int kPacks, class Law>
 HOOKE_HD void sum_for_packs(AttractionTargets<Real>& targets, std::size_t first, std::size_t source_count,
                             const Law& law) {

@@ -13,7 +13,7 @@
 namespace hooke {
 namespace {
 
-// The targets are some consecutive points. Those that fill up the last pack are copies of the last one.
+// The targets are consecutive points. Copies of the last point fill up the last pack.
 template <class Real>
 void load_targets(std::span<const AttractionPoint<Real>> points, AttractionTargets<Real>& targets) {
   constexpr std::size_t kFilling = AttractionTargets<Real>::kFilling;
@@ -69,19 +69,19 @@ void AttractionSums<Real>::sum_directly(std::span<AttractionPoint<Real>> points,
 
 namespace {
 
-// What a node taken whole may be off by, a part of the group's pull. Errors of many nodes go in all directions and most
-// are far smaller, but the finer they are the more nodes there are: the whole is off by the 0.7th power of it. By
-// measurement it then keeps the accuracy that is asked for, with a third to spare (tests/backends/attraction_test.cpp).
+// The largest error of a node taken whole, as a fraction of the group's pull. The errors of many nodes go in all
+// directions and most are far smaller, but a smaller limit means more nodes: the total error is as the 0.7th power of
+// the limit. Measurements keep the requested accuracy, with a third to spare (tests/backends/attraction_test.cpp).
 double allowed_for_node(double accuracy) { return 0.7 * accuracy * std::min(1.0, std::sqrt(1000 * accuracy)); }
 
-// Groups that hardly feel a pull, as in the middle of a cluster, needn't have it to more than this part of what others
-// feel.
+// A group with hardly any pull, as in the middle of a cluster, gets the error limit of a group with this fraction of
+// the mean pull.
 constexpr double kFaint = 0.05;
 
-// Room for the nodes still to be looked at: one more a level.
+// Room for the nodes still to visit: one more per level.
 using Stack = std::array<std::uint32_t, AttractionTree<float>::kMostLevels + 2>;
 
-// Square of the distance from a point to the nearest of a box.
+// Square of the distance from a point to a box.
 template <class Real>
 double distance2(const Box3<Real>& box, const Vec3d& x) {
   const Vec3d below = vec_cast<double>(box.min) - x, above = x - vec_cast<double>(box.max);
@@ -95,7 +95,7 @@ double distance2(const Box3<Real>& box, const Vec3d& x) {
 
 }  // namespace
 
-// The way down the tree for one group, and what it finds.
+// The walk down the tree for one group, and what it finds.
 template <class Real>
 class AttractionSums<Real>::Walk {
  public:
@@ -109,7 +109,7 @@ class AttractionSums<Real>::Walk {
     work_.cells = cells_.data();
   }
 
-  // Sums into the targets; a node may be off by `allowed`, a mass over a length squared.
+  // Adds to the targets' sums. A node's error may be up to `allowed`, a mass over a length squared.
   void run(const Box3<Real>& box, double allowed) {
     const double allowed2 = allowed * allowed;
     Stack stack;
@@ -133,7 +133,7 @@ class AttractionSums<Real>::Walk {
   }
 
  private:
-  // The first term that a cell leaves out is an octupole, sum m r^3 / d^5 but for a factor.
+  // The first term that a cell leaves out is an octupole, sum m r^3 / d^5 up to a factor.
   static bool is_far(const typename AttractionTree<Real>::Node& node, double d2, double allowed2) {
     if (!(node.reach * node.reach < d2)) return false;  // the expansion holds outside only
     const double octupole = node.spread * node.reach;
@@ -168,7 +168,7 @@ class AttractionSums<Real>::Walk {
   std::array<AttractionCell<Real>, 256> cells_;
 };
 
-// Roughly what pulls each group in its middle, squared: what is seen under a wide angle counts as a point.
+// A rough square of the pull at each group's centre of mass: nodes count as points even at a wide angle.
 template <class Real>
 std::vector<double> AttractionSums<Real>::estimate_pulls(std::span<const std::uint32_t> groups) const {
   std::vector<double> pulls2(groups.size());

@@ -13,19 +13,18 @@
 
 namespace hooke {
 
-/// What all particles pull each with, in parallel: pair by pair, or by the tree. Bits depend on positions, masses and
-/// ids alone. In the scene's units of attraction; G is the caller's.
+/// The pull of all particles on each one, in parallel: pair by pair, or by the tree. Its bits depend on positions,
+/// masses and ids alone. In the scene's units of attraction; the caller multiplies by G.
 template <class Real>
 class AttractionSums {
  public:
   /// `softening2` > 0, a length squared.
   void configure(const Attraction& attraction, double softening2, const AttractionLoops<Real>& loops);
 
-  /// a[p.index] = what pulls p, a mass over a length squared. Reorders `points`; `ids`
-  /// are those of all ranks.
+  /// a[p.index] = the pull on p, a mass over a length squared. Reorders `points`; `ids` has the ids of all ranks.
   void accelerations(std::span<AttractionPoint<Real>> points, const IdTable& ids, Vec3<Real>* a);
 
-  /// potential[p.index] = that of all others where p is, a mass over a length, < 0.
+  /// potential[p.index] = the potential of all other particles at p, a mass over a length, < 0.
   void potentials(std::span<AttractionPoint<Real>> points, const IdTable& ids, double* potential);
 
  private:

@@ -65,7 +65,7 @@ void AttractionTree<Real>::build(std::span<AttractionPoint<Real>> points) {
   }
 }
 
-// Splits the nodes of a level, and makes the next one of their halves.
+// Splits the nodes of a level; their halves are the next level.
 template <class Real>
 void AttractionTree<Real>::split_level(std::size_t first, std::size_t last) {
   boxes_.resize(last);
@@ -82,7 +82,7 @@ void AttractionTree<Real>::split_level(std::size_t first, std::size_t last) {
   }
 }
 
-// Puts a node's points into its halves; where the second one starts. Of a leaf only the box.
+// Sorts a node's points into its halves and returns where the second half starts. A leaf only gets its box.
 template <class Real>
 std::size_t AttractionTree<Real>::split(std::size_t k) {
   const std::size_t count = nodes_[k].last - nodes_[k].first;
@@ -163,7 +163,7 @@ void AttractionTree<Real>::sum_children(std::size_t k) {
     add_spread(moments, c.mass, dx, dy, dz);
     reach = std::max(reach, std::sqrt(dx * dx + dy * dy + dz * dz) + c.reach);
   }
-  // The box's furthest corner is nearer than that more often than not.
+  // The box's furthest corner is usually nearer than that.
   const Vec3d centre{node.x, node.y, node.z};
   const Vec3d above = vec_cast<double>(boxes_[k].max) - centre, below = centre - vec_cast<double>(boxes_[k].min);
   double corner2 = 0;

@@ -19,39 +19,39 @@ template <class Real>
 struct AttractionPoint {
   AttractionSource<Real> source;
   std::uint32_t rank;   ///< unique, the order of ids
-  std::uint32_t index;  ///< where the caller has it
+  std::uint32_t index;  ///< the caller's index of it
 };
 
-/// A binary tree over points. A node's box is halved across its longest side, but so that neither half has less than an
-/// eighth of the points: the tree follows the lumps of matter, and is never deeper than some times log N however the
-/// points lie. Which points are whose follows from their positions, ties from ranks, and nothing else.
+/// A binary tree over points. A node's box is halved across its longest side, but neither half gets less than an eighth
+/// of the points: the tree follows the lumps of matter, and its depth is at most some times log N for any points.
+/// Positions alone, and ranks where coordinates are equal, decide which node has which points.
 template <class Real>
 class AttractionTree {
  public:
-  /// Leaves have at most two buckets of this many points, and every node's points start with a whole one.
+  /// Leaves have at most two buckets of this many points. Each node's points start at the start of a bucket.
   static constexpr std::size_t kBucket = 8;
   static constexpr std::size_t kMostInLeaf = 2 * kBucket;
-  /// Of levels, for any number of points that fits 32 bits: log(2^32 / 8) / log(8 / 7).
+  /// Largest number of levels, for any number of points that fits 32 bits: log(2^32 / 8) / log(8 / 7).
   static constexpr std::size_t kMostLevels = 152;
 
   /// Lengths and masses in double, as single precision has no room for their powers.
   struct Node {
     double x, y, z;  ///< centre of mass
     double mass;
-    double reach;  ///< no point is further from there
-    double spread;  ///< sum m r^2 around it
+    double reach;  ///< no point is further from the centre of mass
+    double spread;  ///< sum m r^2 around the centre of mass
     std::uint32_t first, last;  ///< points
-    std::uint32_t child;  ///< the first of two, the other one follows; 0 in leaves
+    std::uint32_t child;  ///< the first of two consecutive children; 0 in leaves
   };
-  /// Sorts `points`, less than 2^32, which must stay until the next build.
+  /// Sorts `points`, fewer than 2^32, which must stay in place until the next build.
   void build(std::span<AttractionPoint<Real>> points);
 
   std::span<const AttractionPoint<Real>> points() const { return points_; }
-  /// The root first, each level after the one above. None where there is no point.
+  /// The root first, each level after the one above. Empty without points.
   std::span<const Node> nodes() const { return nodes_; }
   const Box3<Real>& box(std::size_t k) const { return boxes_[k]; }
   const AttractionCell<Real>& cell(std::size_t k) const { return cells_[k]; }
-  /// The largest nodes of at most `most` points (>= kMostInLeaf): they have each point once.
+  /// The largest nodes of at most `most` points (>= kMostInLeaf). Each point is in exactly one of them.
   std::vector<std::uint32_t> largest_nodes(std::size_t most) const;
 
  private:

@@ -14,8 +14,8 @@
 
 namespace hooke {
 
-/// The box (m) around the first `count` particles, Box3d::none() where there are none; or the particle that is at no
-/// finite position.
+/// Sets `box` to the box (m) around the first `count` particles, Box3d::none() where there are none. Returns the first
+/// particle whose position is not finite or too far out.
 template <class Real>
 Condition bounding_box(const ParticleRecord<Real>* records, std::size_t count, const IdTable& ids, Box3d& box) {
   constexpr std::size_t kGrain = 1024;

@@ -11,8 +11,8 @@ HOOKE_HD Mask<Real> is_inside(const Vec3<Pack<Real>>& x, const Box3<Real>& box) 
          (x.y < P(box.max.y)) & (x.z < P(box.max.z));
 }
 
-// All colliders near the lanes' particles, in the scene's order, image by image. The first look tells whether any can
-// be touched; what follows is no part of the loop that everybody runs, and so not inlined into it.
+// All colliders near the lanes' particles, in the scene's order, image by image. A first test tells whether any can be
+// touched. The rest is not inlined into the loop that every pack runs.
 template <class Real, Materials kMaterials>
 struct ColliderLoop {
   using P = Pack<Real>;
@@ -20,12 +20,12 @@ struct ColliderLoop {
   const Lanes<Real>& own;
   const Mask<Real>& present;
 
-  // The force of all of them, and whether there is one.
+  // The force of all colliders, and whether one acts.
   HOOKE_HD Vec3<P> run(Mask<Real>& too_fast, bool& touched) const {
     Vec3<P> force{P(Real(0)), P(Real(0)), P(Real(0))};
     if (pass.colliders.count == 0) return force;
     if (any(present & is_inside(own.x, pass.colliders.near))) {
-      // With copies: what a function is given by reference lies in memory from its start, whether it is called or not.
+      // Copies, as data passed by reference lies in memory from its start, whether the function is called or not.
       const Lanes<Real> own_copy = own;
       const Mask<Real> present_copy = present;
       Mask<Real> fast = too_fast;

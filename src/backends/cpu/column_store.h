@@ -10,7 +10,7 @@
 
 namespace hooke {
 
-/// Vectors, a column a component: what searches read in packs.
+/// Vectors, one column per component, for searches that read packs.
 template <class Real>
 class ColumnStore {
  public:

@@ -13,19 +13,19 @@
 
 namespace hooke {
 
-/// The approach of particle i to whatever it touches that is too fast for a step, if one is: in double precision, each
-/// pair by its own limit. `rows` are those of its group in the neighbour list.
+/// The approach of particle i to anything it touches that is too fast for a step, if there is one: in double precision,
+/// with each pair's own limit. `rows` are the rows of its group in the neighbour list.
 template <class Real>
 Condition approach_too_fast(const ContactScan<Real>& scan, std::size_t i, std::span<const std::uint32_t> rows,
                             const ParticleRecord<Real>* records, const Scene& scene, const IdTable& ids);
 
-/// Adds particle i, which is `p`, and its contacts to what is measured.
+/// Adds particle i, whose record is `p`, and its contacts to `sums`.
 template <class Real>
 void measure_particle(const ContactScan<Real>& scan, std::size_t i, std::span<const std::uint32_t> rows,
                       const ParticleRecord<Real>& p, const Scene& scene, MeasurementSums& sums);
 
-/// Adds the energy (J) of the contacts of particle i with others; half of it where the other is one of `among`
-/// (indices, ascending), and adds it too.
+/// Adds the energy (J) of the contacts of particle i with other particles. A contact with one of `among` (indices,
+/// ascending) counts half: that particle adds the other half.
 template <class Real>
 void add_contact_energy(const ContactScan<Real>& scan, std::size_t i, std::span<const std::uint32_t> rows,
                         std::span<const std::uint32_t> among, ExactSum& sum);

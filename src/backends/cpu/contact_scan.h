@@ -11,12 +11,12 @@
 
 namespace hooke {
 
-/// Walks the contacts of single particles in double precision: for figures, and to look closely at what the force pass
+/// Walks the contacts of single particles in double precision: for measurements, and to check what the force pass
 /// noted. Not on the hot path.
 template <class Real>
 class ContactScan {
  public:
-  /// `rules`, and what `colliders` points to, stay where they are.
+  /// `rules` and the data of `colliders` must outlive the scan.
   ContactScan(const Rules<Real>& rules, const CollidersView<Real>& colliders, const ParticleRecord<Real>* records)
       : rules_(rules),
         colliders_(colliders),
@@ -32,8 +32,8 @@ class ContactScan {
     }
   }
 
-  /// visit(p, normal, overlap) for every neighbour p that acts on particle i, by id and image: those touch it, overlap
-  /// > 0, or cohesion reaches from one to the other. `rows` are those of its group in the neighbour list.
+  /// visit(p, normal, overlap) for every neighbour p that acts on particle i, in order of id and image: it touches i,
+  /// overlap > 0, or cohesion reaches across the gap. `rows` are the rows of i's group in the neighbour list.
   template <class Visit>
   void for_each_contact(std::size_t i, std::span<const std::uint32_t> rows, const Visit& visit) const {
     constexpr std::size_t kLanes = NeighbourList::kLanes;

@@ -24,7 +24,7 @@ void CpuBackend<Real>::configure(const Scene& scene) {
   sinks_ = PlacedSinks(scene.sinks);
 }
 
-// Takes these particles and no others, with room for so many births at least.
+// Replaces all particles by these, with room for at least so many births.
 template <class Real>
 void CpuBackend<Real>::take(const ParticleSet& particles, std::size_t births) {
   particles_.place(particles, births);

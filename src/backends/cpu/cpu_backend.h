@@ -14,12 +14,12 @@ struct CpuOptions {
   Precision precision = Precision::single_precision;  ///< must be the scene's
   int threads = 0;                                    ///< 1 to 1024; 0: as many as the machine has
   std::string isa;  ///< "portable", "avx2", "avx512"; empty: the widest that this processor has
-  bool check_list = false;  ///< for tests: after every step, count the contacts that the rows lack, the long way
+  bool check_list = false;  ///< for tests: after every step, count the contacts that the rows lack, by a full search
 };
 
 /// The fast back end: sorted cells, a neighbour list in lanes, forces and integration in one SIMD pass on all threads.
 /// Gives the same bits for every number of threads and every instruction set. Error::Kind::bad_input for an
-/// instruction set that is not to be had, or a number of threads out of range.
+/// instruction set that is not available, or a number of threads out of range.
 Expected<std::unique_ptr<Backend>> make_cpu_backend(const CpuOptions& options = {});
 
 }  // namespace hooke

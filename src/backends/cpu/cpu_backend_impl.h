@@ -28,10 +28,10 @@
 
 namespace hooke {
 
-/// The step of one precision: who does what, in which order. What they do it with is in the files that this one
-/// includes. Members are defined by subject: cpu_backend.cpp (what scene, which particles), cpu_backend_motion.cpp
-/// (motion and neighbours), cpu_backend_pass.cpp (forces), cpu_backend_population.cpp (who comes and goes) and
-/// cpu_backend_figures.cpp (what is measured).
+/// The step of one precision: which part does what, in which order. The parts are in the files that this one includes.
+/// Members are defined by subject: cpu_backend.cpp (scene and particles), cpu_backend_motion.cpp (motion and
+/// neighbours), cpu_backend_pass.cpp (forces), cpu_backend_population.cpp (births and removals) and
+/// cpu_backend_figures.cpp (measurements).
 template <class Real>
 class CpuBackend final : public Backend {
   using Record = ParticleRecord<Real>;
@@ -101,7 +101,7 @@ class CpuBackend final : public Backend {
   void list_neighbours();
   void follow_motion();
 
-  // Springs, fields, attraction, and what is held --------------------------------------------------------------------
+  // Springs, fields, attraction and held particles -------------------------------------------------------------------
 
   void lay_out_structure();
   void apply_others(bool may_tear, StepReport& report);
@@ -118,14 +118,14 @@ class CpuBackend final : public Backend {
   void run_groups(const ForcePass<Real>& pass, std::size_t s, std::size_t g, std::size_t end, const std::uint32_t* rows,
                   const std::uint32_t* first_row, TileReport& report) const;
 
-  // Of a group in the neighbour list; loose ones have none.
+  // The rows of a group in the neighbour list; loose groups have none.
   std::span<const std::uint32_t> rows_of(std::size_t s, std::size_t g) const {
     if (particles_.slots.is_loose(s * kTile)) return {};
     return list_.rows(s, g);
   }
 
   Condition check_approach(std::size_t s, std::size_t g) const;
-  // Who comes and goes ----------------------------------------------------------------------------------------------
+  // Births and removals ---------------------------------------------------------------------------------------------
 
   // Wraps periodic coordinates; a particle outside an open face leaves.
   void apply_boundaries(Record& p, std::size_t slot, Departures& left) const {
@@ -135,7 +135,7 @@ class CpuBackend final : public Backend {
 
   void apply_boundaries_to_group(std::size_t s, std::size_t g, Departures& left);
 
-  // Particle p is to leave, with a velocity v; it is there until let_go().
+  // Notes that particle p leaves, with velocity v; it stays until let_go().
   void leave(const Record& p, std::size_t slot, const Vec3<Real>& v, Departures& left) const {
     left.add(slot, particles_.material_of(p).mass, vec_cast<double>(p.x), vec_cast<double>(v), scene_.gravity);
   }
@@ -150,7 +150,7 @@ class CpuBackend final : public Backend {
   Loops<Real> loops_;
   mutable Threads threads_;
   bool check_list_;
-  mutable std::mutex mutex_;  // around the totals of a pass
+  mutable std::mutex mutex_;  // guards the totals of a pass
 
   Scene scene_;
   PassRules<Real> rules_;

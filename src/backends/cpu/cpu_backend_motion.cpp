@@ -27,7 +27,7 @@ void CpuBackend<Real>::half_kick_and_drift() {
           p.x = drift(p.x, p.v, dt);
         }
         if (list_.is_valid() && !particles_.slots.is_loose(i) && list_.is_far(p, i))
-          far |= 1U << i % kLanes;  // asked of all: a removal must not hide a NaN
+          far |= 1U << i % kLanes;  // checked for all: a removal must not hide a NaN
         if (!held) apply_boundaries(p, i, left);
       }
       if (far != 0) list_.note_far(start / kLanes, far);

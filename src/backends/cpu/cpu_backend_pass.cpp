@@ -18,7 +18,7 @@ void CpuBackend<Real>::apply_forces(const Instant& now, StepReport& report) {
   apply_others(true, report);
   const ForcePass<Real> pass = make_pass(verlet() ? particles_.acceleration.data() : nullptr);
   run_pass(pass, report, [&](std::size_t s, const TileReport& tile) {
-    std::optional<Departures> left;  // large, and seldom of use
+    std::optional<Departures> left;  // large, and seldom needed
     Condition found;
     for (std::size_t g = 0; g < kGroups; ++g) {
       if (tile.far[g] != 0) list_.note_far(s * kGroups + g, tile.far[g]);
@@ -59,7 +59,7 @@ ForcePass<Real> CpuBackend<Real>::make_pass(Vec3<Real>* acceleration) {
            list_.position_at_build(), list_.anchors(), list_.next_step()}};
 }
 
-// Sums the forces that the pass adds. Pairs that springs kept apart and no longer do may touch from the next step on.
+// Sums the forces that the pass adds. Pairs whose spring broke may touch from the next step on.
 template <class Real>
 void CpuBackend<Real>::apply_others(bool may_tear, StepReport& report) {
   if (applied_.none()) return;
@@ -107,7 +107,7 @@ void CpuBackend<Real>::run_groups(const ForcePass<Real>& pass, std::size_t s, st
   loops_.force_pass(pass, work);
 }
 
-// The approach that was too fast, if one was.
+// The group's first approach that was too fast, if there is one.
 template <class Real>
 Condition CpuBackend<Real>::check_approach(std::size_t s, std::size_t g) const {
   const ContactScan<Real> scan = contact_scan();
@@ -131,14 +131,14 @@ void CpuBackend<Real>::apply_boundaries_to_group(std::size_t s, std::size_t g, D
   }
 }
 
-// All tiles, and their sums; then look(s, report of tile s).
+// Runs all tiles and adds their sums; calls look(s, report) after each tile s.
 template <class Real>
 template <class Look>
 void CpuBackend<Real>::run_pass(const ForcePass<Real>& pass, StepReport& total, const Look& look) {
   for_ranges(particles_.slots.tile_count(), 1, [&](std::size_t first, std::size_t last) {
     TileReport report;
     StepSums part;
-    std::optional<AppliedSums> applied_part;  // large, and of no use to most scenes
+    std::optional<AppliedSums> applied_part;  // large, and most scenes need none
     if (total.applied) applied_part.emplace();
     for (std::size_t n = first; n < last; ++n) {
       const std::size_t s = particles_.slots.tile(n);

@@ -65,7 +65,7 @@ RemovalSums CpuBackend<Real>::insert(const ParticleSet& newborn) {
                       vec_cast<double>(particles_.records[slot].v), scene_.gravity);
   }
   particles_.recount();
-  // Those that are born find room without an overlap, but perhaps where cohesion reaches.
+  // Newborn particles overlap no other, but cohesion may reach them.
   if (rules_.widest_range() > 0) add_elastic(touching, born.elastic);
   return born;
 }
@@ -126,7 +126,7 @@ void CpuBackend<Real>::make_room(std::size_t births) {
   take(all, births);
 }
 
-// Under velocity Verlet with what the half kick to come would have given it.
+// Under velocity Verlet, with the velocity after the coming half kick.
 template <class Real>
 void CpuBackend<Real>::leave_at_end_of_step(std::size_t slot, Departures& left) const {
   const Record& p = particles_.records[slot];
@@ -140,7 +140,7 @@ void CpuBackend<Real>::collect(Departures& total, const Departures& part) const 
   total.add(part);
 }
 
-// Those that leave go nowhere. What they take along.
+// Makes the slots of leaving particles vacant, and returns what the particles carry.
 template <class Real>
 RemovalSums CpuBackend<Real>::let_go(Departures& leaving) {
   if (leaving.slots.empty()) return {};
@@ -150,8 +150,8 @@ RemovalSums CpuBackend<Real>::let_go(Departures& leaving) {
   return leaving.sums;
 }
 
-// Energy of the contacts between particles and of the springs that end at one of some particles. It takes a list that
-// is good: where a new one is built for it, `slots` are where they lie then.
+// Adds the energy of the contacts and springs that end at one of these particles. Needs a valid list; if it must
+// rebuild the list, `slots` is updated to the particles' new indices.
 template <class Real>
 void CpuBackend<Real>::add_elastic(std::vector<std::uint32_t>& slots, ExactSum& sum) {
   const auto is_listed = [&](std::uint32_t slot) { return !particles_.slots.is_loose(slot); };
@@ -171,7 +171,7 @@ void CpuBackend<Real>::add_elastic(std::vector<std::uint32_t>& slots, ExactSum& 
   });
 }
 
-// Builds a list, and puts those of `slots` to where it has put their particles. Returns whether there is one.
+// Builds a list, and updates `slots` to the particles' new indices. Returns whether there is a list.
 template <class Real>
 bool CpuBackend<Real>::rebuild_under(std::vector<std::uint32_t>& slots) {
   std::vector<std::uint32_t> ranks;

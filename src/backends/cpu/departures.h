@@ -9,7 +9,7 @@
 
 namespace hooke {
 
-/// Particles that are gone since the last look: what they take along, and the slots that they leave.
+/// Particles that leave: the sums of what they carry, and their slots.
 struct Departures {
   RemovalSums sums;
   std::vector<std::uint32_t> slots;

@@ -16,7 +16,7 @@ namespace hooke {
 class Exclusions {
  public:
   Exclusions() = default;
-  /// Of so many particles, above all of the pairs; each pair counts both ways.
+  /// `ranks` is above all ranks of the pairs; each pair counts both ways.
   Exclusions(std::size_t ranks, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
     if (pairs.empty()) return;
     first_.assign(ranks + 1, 0);
@@ -35,7 +35,7 @@ class Exclusions {
   }
 
   bool empty() const { return partners_.empty(); }
-  /// There are more particles now, who have no pairs.
+  /// There are more particles now; the new ones have no pairs.
   void grow(std::size_t ranks) {
     if (!empty()) first_.resize(ranks + 1, first_.back());
   }
@@ -44,19 +44,19 @@ class Exclusions {
     return !empty() && std::find(begin(a), begin(a + 1), b) != begin(a + 1);
   }
 
-  /// From now on these two, which were kept apart, touch.
+  /// From now on, these two may touch.
   void release(std::uint32_t a, std::uint32_t b) {
     HOOKE_ASSERT(hold(a, b) && hold(b, a), a, b);
     *std::find(begin(a), begin(a + 1), b) = kNobody;
     *std::find(begin(b), begin(b + 1), a) = kNobody;
   }
 
-  /// Takes the particle of this rank's pairs out of its row of a neighbour list, whose `count` entries are `stride`
-  /// apart; `filler` stands for none.
+  /// Removes the partners of this rank's particle from the particle's row of a neighbour list, whose `count` entries
+  /// are `stride` apart; `filler` stands for no entry.
   template <class RankOfEntry>
   void strike(std::uint32_t rank, std::uint32_t* row, std::size_t count, std::size_t stride, std::uint32_t filler,
               const RankOfEntry& rank_of_entry) const {
-    std::uint64_t some = 0;  // a bit for each partner, shared by some
+    std::uint64_t some = 0;  // bit (partner mod 64) is set for each partner
     for (auto p = begin(rank); p != begin(rank + 1); ++p) some |= std::uint64_t{1} << (*p & 63U);
     if (some == 0) return;
     std::size_t kept = 0;
@@ -76,7 +76,7 @@ class Exclusions {
   }
   std::vector<std::uint32_t>::iterator begin(std::uint32_t rank) { return partners_.begin() + first_[rank]; }
 
-  std::vector<std::uint32_t> first_, partners_;  // of rank r: partners_[first_[r]] to partners_[first_[r + 1]]
+  std::vector<std::uint32_t> first_, partners_;  // of rank r: partners_[first_[r]] to partners_[first_[r + 1] - 1]
 };
 
 }  // namespace hooke

@@ -26,8 +26,8 @@ class ExternalForces {
     force_.clear();
   }
 
-  /// Replaces all forces (N), once the slots of `particles` are found. Returns the first id that no particle has, where
-  /// there is one; then nothing changes.
+  /// Replaces all forces (N); call particles.find_slots() before. Returns the first id that no particle has, if there
+  /// is one; then nothing changes.
   std::optional<std::uint64_t> set(const ParticleState<Real>& particles, std::span<const std::uint64_t> ids,
                                    std::span<const Vec3d> forces) {
     const auto unknown =
@@ -40,7 +40,7 @@ class ExternalForces {
     return std::nullopt;
   }
 
-  /// N, in the order of the records; 0 for the others, and for slots in no use.
+  /// N, in the order of the records; 0 for particles without a force and for unused slots.
   const Vec3<Real>* column(const ParticleState<Real>& particles) {
     if (is_laid_out_ && changes_ == particles.changes()) return column_.data();
     particles.find_slots();
@@ -66,7 +66,7 @@ class ExternalForces {
   std::vector<std::uint64_t> ids_;
   std::vector<Vec3<Real>> force_;  // N, of each
   LargeVector<Vec3<Real>> column_;
-  std::uint64_t changes_ = 0;  // of the particles' slots, when the column was laid out
+  std::uint64_t changes_ = 0;  // particles.changes() when the column was laid out
   bool is_laid_out_ = false;
 };
 

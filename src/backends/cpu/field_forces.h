@@ -16,8 +16,8 @@
 
 namespace hooke {
 
-/// The fields of a scene for the CPU back end. Wind on cloths takes two passes: what each triangle feels, then what
-/// each particle gets from its triangles, in their order.
+/// The fields of a scene for the CPU back end. Wind on cloths takes two passes: the force on each triangle, then the
+/// sum over each particle's triangles, in their order.
 template <class Real>
 class FieldForces {
   using Record = ParticleRecord<Real>;
@@ -26,23 +26,23 @@ class FieldForces {
   void configure(const Scene& scene);
 
   bool empty() const { return scene_.fields.empty(); }
-  /// Whether apply() asks where particles are by their rank.
+  /// Whether apply() reads `place`.
   bool needs_places() const { return !triangles_.empty(); }
 
-  /// Finds the triangles that the particles of these ids span; those that lack a corner are none.
+  /// Finds the triangles whose three corners are particles of these ids; the others are left out.
   void bind(const IdTable& ids);
 
-  /// More ids have come, with ranks below `ranks`: no triangle is theirs.
+  /// There are more ids now, with ranks below `ranks`; the new ones belong to no triangle.
   void grow(std::size_t ranks) {
     if (needs_places()) first_.resize(ranks + 1, first_.back());
   }
 
   void set_time(double seconds) { time_ = seconds; }
 
-  /// Sums the forces on the first `count` records; `place` tells where each rank is (needs_places()).
+  /// Sums the forces on the first `count` records; `place` is the slot of each rank (needs_places()).
   void apply(const LargeVector<Record>& records, std::size_t count, const std::vector<std::uint32_t>& place);
 
-  /// N, in the order of the records; as many as there are, those in no use included.
+  /// N, in the order of the records; one for each record, unused records included.
   const Vec3<Real>* forces() const { return force_.data(); }
 
  private:
@@ -51,14 +51,14 @@ class FieldForces {
   void apply_to_triangles(const PlacedField<Real>& field, const LargeVector<Record>& records,
                           const std::vector<std::uint32_t>& place);
 
-  Scene scene_;  // what fields go by
+  Scene scene_;  // the parts that fields need
   Vec3<Real> period_{};  // m
   bool blows_on_sheets_ = false;
   double time_ = 0;                       // s
   std::vector<Triangle> triangles_;       // of cloths, where wind blows on them
   LargeVector<std::uint32_t> own_;        // triangles of rank r: own_[first_[r]] to own_[first_[r + 1] - 1]
   std::vector<std::uint32_t> first_;
-  LargeVector<Vec3<Real>> on_triangle_;   // N on each corner, of one field
+  LargeVector<Vec3<Real>> on_triangle_;   // N on each corner, by one field
   LargeVector<Vec3<Real>> force_;         // N
 };
 

@@ -32,7 +32,7 @@ struct Lanes {
 
 template <class Real, class At>
 HOOKE_HD Lanes<Real> load_lanes(const At& at) {
-  // Register by register: of quads that are copied whole GCC 12 keeps copies in memory, a third of a row's time.
+  // Register by register: GCC 12 keeps quads that are copied whole in memory, which costs a third of a row's time.
   const TwoQuads<Real> quads = load_two_quads(Real{}, at);
   Lanes<Real> lanes;
   lanes.x.x.v = quads.first.a.v;
@@ -46,7 +46,7 @@ HOOKE_HD Lanes<Real> load_lanes(const At& at) {
   return lanes;
 }
 
-// Lanes of the neighbour list's row at `row`.
+// The particles of the neighbour list's row at `row`.
 template <class Real>
 HOOKE_HD Lanes<Real> load_neighbours(const ParticleRecord<Real>* records, const std::uint32_t* row) {
   const char* base = reinterpret_cast<const char*>(records);
@@ -63,20 +63,20 @@ HOOKE_HD Quad<Real> load_rows(const Row* table, const Pack<Real>& index, int par
 
 #include "hooke/backends/cpu/pair_laws.inl"
 
-// What other particles do to the lanes'.
+// What other particles do to the lanes' particles.
 template <class Real, Materials kMaterials>
 struct Acting {
   Contacts<Real, kMaterials> contacts;
-  // Not where a contact closes faster than the limit, or with another on the very same spot.
+  // True where every contact's approach speed is at most the limit; false on NaN, i.e. coincident centres.
   Mask<Real> slow = Pack<Real>(Real(0)) == Pack<Real>(Real(0));
 };
 
-// The lanes' particles and a neighbour of each: what a contact needs, with all that takes the processor long.
+// The lanes' particles and one neighbour of each: what a contact needs, after every slow operation.
 template <class Real, class Law>
 struct Meeting {
   using P = Pack<Real>;
   P overlap;    // m, below 0 where they do not touch
-  Vec3<P> way;  // times `scale` it is the contact's normal
+  Vec3<P> way;  // way * scale is the contact's normal
   P scale;
   Vec3<P> w;  // v_p - v_i, m/s
   Law law;
@@ -92,8 +92,8 @@ struct ContactLoop {
   const ForcePass<Real>& pass;
   const Lanes<Real>& own;
 
-  // Some rows' roots and quotients are begun before the first row's are needed: one row after the other, what waits for
-  // them would keep the processor from looking further ahead.
+  // The roots and quotients of several rows start before the first row's are needed. Row by row, the operations that
+  // wait for them would keep the processor from looking further ahead.
   static constexpr std::size_t kRowsAtOnce = 8;
 
   HOOKE_HD Acting<Real, kMaterials> run(const std::uint32_t* row, const std::uint32_t* end) const {
@@ -117,7 +117,7 @@ struct ContactLoop {
     return acting;
   }
 
-  // Number by number: what is copied whole GCC 12 may copy byte by byte.
+  // Number by number: GCC 12 may copy a whole struct byte by byte.
   HOOKE_HD void meet(const Table& table, const Lanes<Real>& other, const Vec3<P>& x_pi, Met& met) const {
     const typename Table::Pair pair = table.lookup(other.material);
     const P distance = sqrt_of(dot(x_pi, x_pi));
@@ -148,7 +148,7 @@ struct ContactLoop {
     }
   }
 
-  // All images of a neighbour, and those of the lane's particle itself.
+  // Adds all images of a neighbour, which may be the lane's particle itself.
   HOOKE_HD void add_images(const Table& table, const Lanes<Real>& other, Acting<Real, kMaterials>& acting) const {
     const Mask<Real> itself = own.rank == other.rank;
     for (int sx = -pass.rules.images[0]; sx <= pass.rules.images[0]; ++sx) {
@@ -159,7 +159,7 @@ struct ContactLoop {
                              image_displacement(own.x.z, other.x.z, P(static_cast<Real>(sz)), P(pass.rules.length.z))};
           Met met;
           meet(table, other, -x_ip, met);
-          // Too far from itself for any contact.
+          // No particle touches itself.
           if (sx == 0 && sy == 0 && sz == 0)
             met.overlap = select(itself, P(static_cast<Real>(-kVacantPosition)), met.overlap);
           add(met, acting);
@@ -168,8 +168,8 @@ struct ContactLoop {
     }
   }
 
-  // What the law is given is 0 where nothing acts, and so is what the linear law makes of it: fewer masks than for each
-  // of its parts.
+  // The law's inputs are 0 where nothing acts, so the linear law's results are 0: fewer masks than one for each of the
+  // results.
   HOOKE_HD void add(const Met& met, Acting<Real, kMaterials>& acting) const {
     const Mask<Real> here = acts<Real>(met.overlap, met.law);
     const P overlap = only_where(here, met.overlap);
@@ -180,18 +180,18 @@ struct ContactLoop {
     } else {
       acting.contacts.add(contact_vectors(overlap, normal, w), met.law);
     }
-    // What is not a number, where centres coincide, is not slow. Those that only cohesion holds are looked at, too.
+    // NaN, where centres coincide, is not slow. Pairs that only cohesion joins are checked, too.
     acting.slow = acting.slow & (dot(w, normal) <= P(pass.rules.speed_limit));
   }
 
-  // Lanes of a row's neighbours, once those of later rows are asked for.
+  // Loads a row's neighbours, after a prefetch of a later row's.
   HOOKE_HD Lanes<Real> load_row(const std::uint32_t* row) const {
     prefetch_row(row + kRowsAhead * kGroupLanes);
     return load_neighbours(pass.buffers.in, row);
   }
 
-  // Neighbours come in the order of their ids, which no processor foresees: those of about the next group are asked for
-  // now, beyond a tile's end those of the next tile, whatever is behind the last one's.
+  // Neighbours come in the order of their ids, which no processor predicts. This prefetches the neighbours of about the
+  // next group; at a tile's end those of the next tile, or whatever comes after the last tile.
   HOOKE_HD void prefetch_row(const std::uint32_t* row) const {
     for (std::size_t lane = 0; lane < P::kLanes; ++lane) {
       prefetch(reinterpret_cast<const char*>(pass.buffers.in) + std::size_t{row[lane]} * 8);
@@ -207,7 +207,7 @@ struct WallLoop {
   const Lanes<Real>& own;
   const Mask<Real>& present;
 
-  // The force of all of them, and whether there is one.
+  // The force of all walls, and whether one acts.
   HOOKE_HD Vec3<P> run(Mask<Real>& too_fast, bool& touched) const {
     Vec3<P> force{P(Real(0)), P(Real(0)), P(Real(0))};
     if (!any(is_near())) return force;
@@ -256,7 +256,7 @@ HOOKE_HD Mask<Real> left_domain(const ForcePass<Real>& pass, const Vec3<Pack<Rea
   return out;
 }
 
-// Mask of lanes further from where they are expected than their anchor allows; NaN counts as far.
+// Mask of lanes further from their expected position than their anchor allows; NaN counts as far.
 template <class Real, PeriodicKind kPeriodic>
 HOOKE_HD Mask<Real> is_far(const ForcePass<Real>& pass, const Vec3<Pack<Real>>& x, std::size_t first) {
   using P = Pack<Real>;
@@ -278,7 +278,7 @@ HOOKE_HD Mask<Real> is_far(const ForcePass<Real>& pass, const Vec3<Pack<Real>>& 
   return !(dot(off, off) <= P(anchor.limit2(pass.buffers.next_step)));
 }
 
-// Whether any lane touches a wall, or a collider.
+// Whether any lane may touch other particles, or touches a wall or a collider.
 struct Touching {
   bool others = true, wall = false, collider = false;
 };
@@ -286,7 +286,8 @@ struct Touching {
 // The index of a cause's power among the sums of a pass.
 HOOKE_HD constexpr int power_of(Cause cause) { return static_cast<int>(cause); }
 
-// What is summed over a tile's particles, a column each. Packs that touch nothing of a kind are left out of its own.
+// What is summed over a tile's particles, one column each. A pack that touches nothing of a kind is left out of the
+// kind's columns.
 template <class Real>
 struct PassColumns {
   std::size_t count = 0, contact_count = 0, wall_count = 0, collider_count = 0;
@@ -316,14 +317,14 @@ struct PassColumns {
   }
 };
 
-// What acts on the lanes' particles, N.
+// The forces on the lanes' particles, N.
 template <class Real, class ByContacts>
 struct Forces {
   using P = Pack<Real>;
   ByContacts contacts;
   Vec3<P> walls, colliders, drag, weight;
 
-  // Powers at twice a mean velocity, to the columns from `first` on.
+  // Writes the powers at twice a mean velocity to the columns from `first` on.
   HOOKE_HD void put_powers(int first, const Vec3<P>& twice_mean, bool has_drag, const Touching& touching,
                            PassColumns<Real>& to) const {
     if (touching.others) put_contacts(first, contacts, twice_mean, to);
@@ -401,7 +402,7 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
     x = drift(own.x, v, dt);
     if (any(present & left_domain(pass, x))) notes |= kLeftDomain;
     if (!work.alone) {
-      // What is held is put back after the pass.
+      // Held particles are put back after the pass.
       const Vec3<P> to = held != 0 ? select_vector(lanes_of<Real>(held), own.x, x) : x;
       far |= bits(present & is_far<Real, kPeriodic>(pass, to, first)) << half;
     }
@@ -412,7 +413,7 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
   x = select_vector(present, x, own.x);
   v = select_vector(present, v, zero);
 
-  // What is held keeps its velocity after all.
+  // Held particles keep their velocity.
   Vec3<P> after = v, next = v;
   if (pass.buffers.acceleration != nullptr) next = select_vector(present, kick(v, a, P(Real(0.5)) * dt), zero);
   if (held != 0) {
@@ -432,7 +433,7 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
   store_two_quads(record, [=](int lane) { return out_record + 8 * lane; });
 }
 
-// Whether the scene has anything for that column.
+// Whether the scene has anything for column `sum`.
 template <class Real>
 bool is_summed(const ForcePass<Real>& pass, int sum) {
   if (sum >= PassSum::kDragForce) return pass.rules.has_drag;

@@ -11,20 +11,20 @@
 
 namespace hooke {
 
-/// Which particles are held still, by their place in memory. Takes no memory and no time where none is.
+/// Which particles are held still, by their index in memory. Takes no memory and no time where none is held.
 class HeldParticles {
   static constexpr std::size_t kLanes = kGroupLanes;
 
  public:
   /// None of `count` particles is held.
   void clear(std::size_t count) { lanes_.assign((count + kLanes - 1) / kLanes, 0); }
-  /// One of them.
+  /// Holds particle i.
   void hold(std::size_t i) {
     HOOKE_ASSERT(i / kLanes < lanes_.size(), i);
     lanes_[i / kLanes] = static_cast<std::uint16_t>(lanes_[i / kLanes] | 1U << i % kLanes);
   }
 
-  /// Another one is there now, which is not held.
+  /// Index i has another particle now, which is not held.
   void release(std::size_t i) {
     if (none()) return;
     lanes_[i / kLanes] = static_cast<std::uint16_t>(lanes_[i / kLanes] & ~(1U << i % kLanes));

@@ -12,16 +12,16 @@
 
 namespace hooke {
 
-/// The ids of all ranks, ascending. Those at the end of the table that are consecutive, most often all, take no memory,
-/// and are found at once. Where ids come and go, ranks of nobody are allowed among those.
+/// The ids of all ranks, ascending. The consecutive ids at the end of the table, usually all, take no memory and are
+/// found without a search. Where ids come and go, some of these ranks may have no particle.
 class IdTable {
  public:
   IdTable() = default;
-  /// `ids` ascend. With `with_gaps` up to half of the consecutive ones are of nobody; else ranks are places in `ids`.
+  /// `ids` ascend. With `with_gaps`, up to half of the consecutive ids have no particle; else ranks index `ids`.
   explicit IdTable(const std::vector<std::uint64_t>& ids, bool with_gaps = false) {
     if (ids.empty()) return;
     HOOKE_ASSERT(is_ascending(ids), ids.size());
-    const std::uint64_t fewest = with_gaps ? 2 : 1;  // of so many consecutive ones one is somebody's
+    const std::uint64_t fewest = with_gaps ? 2 : 1;  // one in so many consecutive ids has a particle
     std::size_t from = ids.size() - 1;
     for (std::size_t k = from; k-- > 0;) {
       if (ids.back() - ids[k] < fewest * (ids.size() - k)) {
@@ -62,7 +62,7 @@ class IdTable {
 
  private:
   std::vector<std::uint64_t> ids_;
-  std::uint64_t first_ = 0;  // of the consecutive ones
+  std::uint64_t first_ = 0;  // of the consecutive ids
   std::size_t consecutive_ = 0;
 };
 

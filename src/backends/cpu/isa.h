@@ -34,7 +34,7 @@ struct Isa {
 /// The instruction sets that this processor has, the widest first.
 std::vector<Isa> available_isas();
 
-/// The one of this name, or the widest where `name` is empty. Error::Kind::bad_input names those there are.
+/// The instruction set of this name, or the widest where `name` is empty. Error::Kind::bad_input lists the names.
 Expected<Isa> choose_isa(const std::string& name);
 
 }  // namespace hooke

@@ -14,7 +14,7 @@ bool OutlierPairs<Real>::is_listed(std::size_t i, std::size_t p) const {
   return is_in_lane(rows, i % kLanes, record_offset<Real>(static_cast<std::uint32_t>(p)));
 }
 
-// Where one of two lacks the other, so does the other.
+// If one of two particles lacks the other, the other lacks it, too.
 template <class Real>
 void OutlierPairs<Real>::note_missing(std::size_t i, std::size_t p, std::vector<MissingEntry>& missing) const {
   if (is_listed(i, p) || exclusions_.hold(ranks_[i], ranks_[p])) return;
@@ -25,7 +25,7 @@ void OutlierPairs<Real>::note_missing(std::size_t i, std::size_t p, std::vector<
   }
 }
 
-// The particles that touch an outlier and are none themselves.
+// Finds the particles that touch an outlier and are not outliers.
 template <class Real>
 void OutlierPairs<Real>::find_around(std::uint32_t i, const Place& place, std::span<const std::uint16_t> outlying,
                                      std::vector<MissingEntry>& missing) const {
@@ -36,9 +36,9 @@ void OutlierPairs<Real>::find_around(std::uint32_t i, const Place& place, std::s
   });
 }
 
-// Pairs of two outliers: they are sorted into rows along x, as wide as two can touch, and each meets those that follow
-// it in its row and those at its height in half of the rows around. At periodic faces, those behind the lower one
-// follow beyond the upper one once more.
+// Pairs of two outliers. Outliers are sorted into rows along x, as wide as two can touch. Each is compared with the
+// outliers that follow it in its row and with those near its x in half of the rows around. At periodic faces, outliers
+// near the lower face have an image beyond the upper face.
 template <class Real>
 void OutlierPairs<Real>::find_among(std::span<const std::uint32_t> outliers, Room& room) const {
   using Outlier = typename Room::Outlier;
@@ -68,7 +68,7 @@ void OutlierPairs<Real>::find_among(std::span<const std::uint32_t> outliers, Roo
   });
 }
 
-// Adds a place, and its images across periodic faces from `axis` on.
+// Adds a position, and its images across periodic faces from `axis` on.
 template <class Real>
 void OutlierPairs<Real>::add_with_images(std::uint32_t i, const Vec3<Real>& x, int axis, Real reach,
                                          std::vector<typename Room::Outlier>& to) const {

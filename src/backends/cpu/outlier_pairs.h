@@ -21,7 +21,7 @@
 
 namespace hooke {
 
-/// Finds who touches particles that are no longer near where they were listed.
+/// Finds the particles that touch outliers, which are no longer near their expected positions.
 template <class Real>
 class OutlierPairs {
   using Record = ParticleRecord<Real>;
@@ -40,10 +40,10 @@ class OutlierPairs {
         list_(list),
         exclusions_(exclusions) {}
 
-  /// Room that is kept from one search to the next.
+  /// Memory that is kept from one search to the next.
   struct Room {
     struct Outlier {
-      std::uint64_t row;  // of places, along x
+      std::uint64_t row;  // a row along x: y and z
       Vec3<Real> x;       // m
       std::uint32_t i;
 
@@ -54,21 +54,22 @@ class OutlierPairs {
     std::vector<Outlier> sorted;
     std::vector<MissingEntry> missing;
 
-    /// So that searches for so many allocate nothing; memory that is not used is not taken.
+    /// Searches for so many outliers then allocate nothing; unused memory is not committed.
     void reserve(std::size_t outliers) {
       sorted.reserve(2 * outliers);
       missing.reserve(4 * outliers);
     }
   };
 
-  /// Where to look for who may touch an outlier: they were listed within `range` (m) and the two radii of `at` (m).
+  /// Where to search for particles that may touch an outlier: they were listed nearer to `at` (m) than `range` (m) plus
+  /// the two radii.
   struct Place {
     Vec3d at;
     double range;
   };
 
   /// Patches the rows of the particles in `missing`, of outliers, and of the particles that an outlier touches.
-  /// Particles without a bit in `outlying` are found where place_of(i) says. False where an outlier is lost.
+  /// Particles without a bit in `outlying` are searched for around place_of(i). False where an outlier is lost.
   template <class PlaceOf>
   bool find(std::span<const std::uint32_t> outliers, std::span<const std::uint16_t> outlying, const PlaceOf& place_of,
             std::uint32_t filler, const std::vector<MissingEntry>& missing, Room& room, PatchedRows& patched) const {
@@ -90,7 +91,7 @@ class OutlierPairs {
     return true;
   }
 
-  /// Does the same for some that have become outliers since `room` and `patched` were made by find(), all others being
+  /// Does the same for the particles `fresh`, outliers since find() filled `room`; all other particles must still be
   /// where they were then.
   template <class PlaceOf>
   bool add(std::span<const std::uint32_t> fresh, std::span<const std::uint32_t> outliers,
@@ -113,7 +114,7 @@ class OutlierPairs {
 
  private:
   double reach_of(std::size_t i) const { return rules_.reach_of(static_cast<std::size_t>(records_[i].material)); }
-  double margin() const { return 1e-3 * rules_.smallest_touching(); }  // what the force pass rounds differently
+  double margin() const { return 1e-3 * rules_.smallest_touching(); }  // covers the force pass's different rounding
   static bool is_somewhere(const Record& p) {
     const auto near = [](Real x) { return std::abs(x) < static_cast<Real>(kFurthest); };
     return near(p.x.x) && near(p.x.y) && near(p.x.z);
@@ -133,7 +134,7 @@ class OutlierPairs {
                    std::vector<MissingEntry>& missing) const;
   void find_among(std::span<const std::uint32_t> outliers, Room& room) const;
 
-  // From a row to the one beside it along y; along z it is 1.
+  // Difference between row numbers of neighbours along y; along z it is 1.
   static constexpr std::uint64_t kNextY = std::uint64_t{1} << 32U;
 
   void add_with_images(std::uint32_t i, const Vec3<Real>& x, int axis, Real reach,
@@ -146,7 +147,7 @@ class OutlierPairs {
   const std::uint32_t* ranks_;
   const NeighbourList& list_;
   const Exclusions& exclusions_;
-  mutable std::mutex mutex_;  // around what is lacking
+  mutable std::mutex mutex_;  // guards the missing entries
 };
 
 extern template class OutlierPairs<float>;

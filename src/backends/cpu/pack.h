@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// SIMD packs: with pack_records.h and pack_search.h, where the intrinsics are. Included by a file that is compiled for
-// one instruction set and names its namespace HOOKE_ISA.
+// SIMD packs: this file and the other pack_*.h files contain the intrinsics. Included by a file that is compiled for
+// one instruction set and defines HOOKE_ISA as the name of its namespace.
 // Everything is always inlined, so that no function built for a newer processor can be the copy that the linker keeps.
 
 #include <immintrin.h>
@@ -50,7 +50,7 @@ struct Registers<double> {
 #endif
 };
 
-/// One truth value a lane: a bit, or all bits set or none.
+/// One truth value per lane: one bit, or all bits of the lane.
 template <class Real>
 struct Mask {
   using Bits = typename Registers<Real>::Truths;
@@ -152,13 +152,13 @@ template <class Real>
 HOOKE_HD Pack<Real> select(const Mask<Real>& m, const Pack<Real>& a, const Pack<Real>& b) {
 #if defined(__AVX2__)
   return Pack<Real>(m.v ? a.v : b.v);
-#else  // as the processor does it; left to itself GCC 12 fails on some uses
+#else  // bit by bit, as the processor does: GCC 12 fails on some uses of ?:
   using Bits = typename Mask<Real>::Bits;
   return Pack<Real>((typename Pack<Real>::Vector)(((Bits)a.v & m.v) | ((Bits)b.v & ~m.v)));
 #endif
 }
 
-/// a + b where m holds, else a: of what is not -0, so that adding 0 does not alter it.
+/// a + b where m holds, else a. No lane of a may be -0, which adding 0 would change.
 template <class Real>
 HOOKE_HD Pack<Real> add_where(const Mask<Real>& m, const Pack<Real>& a, const Pack<Real>& b) {
   return a + select(m, b, Pack<Real>(Real(0)));
@@ -212,7 +212,7 @@ HOOKE_HD Pack<Real> only_where(const Mask<Real>& m, const Pack<Real>& a) {
 #endif
 }
 
-// bits() has a bit a lane.
+// bits() has one bit per lane.
 template <class Real>
 HOOKE_HD bool any(const Mask<Real>& m) {
   return bits(m) != 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// What the laws of attraction ask of packs beyond arithmetic: rules of inclusion as in pack.h.
+// Pack operations that the laws of attraction need beyond arithmetic. Rules of inclusion as in pack.h.
 
 #include "hooke/backends/cpu/pack.h"
 #include "hooke/physics/attraction.h"
@@ -22,7 +22,7 @@ HOOKE_HD Pack<double> inverse_root(const Pack<double>& a) {
   return inverse_root_next(a, inverse_root_next(a, inverse_root_first(a)));
 }
 
-// The processor's own guess at 1 / sqrt(a), good for 12 bits or more; its bits differ from maker to maker.
+// The processor's estimate of 1 / sqrt(a), good for 12 bits or more; its bits differ between manufacturers.
 #if defined(__AVX512F__)
 HOOKE_HD Pack<float> guess_inverse_root(const Pack<float>& a) { return Pack<float>(_mm512_rsqrt14_ps(a.v)); }
 HOOKE_HD Pack<double> guess_inverse_root(const Pack<double>& a) { return Pack<double>(_mm512_rsqrt14_pd(a.v)); }
@@ -45,13 +45,13 @@ HOOKE_HD Pack<Real> fused(const Pack<Real>& a, const Pack<Real>& b, const Pack<R
 }
 #endif
 
-/// The laws' arithmetic where the bits may differ from machine to machine: fused operations, the processor's guess.
+/// The laws' arithmetic where bits may differ between machines: fused operations, the processor's estimate.
 struct FastMath {
   template <class Real>
   HOOKE_HD static Pack<Real> multiply_add(const Pack<Real>& a, const Pack<Real>& b, const Pack<Real>& c) {
     return fused(a, b, c);
   }
-  // One step of Newton's doubles the right digits of floats; doubles take a step that triples them and one more.
+  // Floats take one step of Newton's, which doubles the correct digits; doubles take two steps that each triple them.
   HOOKE_HD static Pack<float> inverse_root_of(const Pack<float>& a) {
     const Pack<float> y = guess_inverse_root(a);
     return y * fused(Pack<float>(-0.5F) * a, y * y, Pack<float>(1.5F));

@@ -8,7 +8,7 @@
 
 namespace hooke::HOOKE_ISA {
 
-/// Four packs: what a 4 x 4 transpose of quads gives, and takes.
+/// Four packs: the result and the operand of a 4 x 4 transpose of quads.
 template <class Real>
 struct Quad {
   Pack<Real> a, b, c, d;
@@ -133,7 +133,7 @@ HOOKE_HD void store_quads(const Quad<double>& q, const At& at) {
   }
 }
 
-/// Two quads behind each other, e.g. a particle's record: `at(lane)` is the address of the lane's eight numbers.
+/// Two consecutive quads, e.g. a particle's record: `at(lane)` is the address of the lane's eight numbers.
 template <class Real>
 struct TwoQuads {
   Quad<Real> first, second;
@@ -141,8 +141,8 @@ struct TwoQuads {
 
 #if defined(__AVX512F__)
 
-// A register holds the records of lanes k and k + 4: quads first, second, first, second. What four such registers give
-// when transposed is put together with what the other four give.
+// A register holds the records of lanes k and k + 4: quads first, second, first, second. Four such registers are
+// transposed, and combined with the transpose of the other four.
 template <class At>
 HOOKE_HD TwoQuads<float> load_two_quads(float, const At& at) {
   const auto two = [&](int low, int high) {
@@ -187,8 +187,8 @@ HOOKE_HD TwoQuads<double> load_two_quads(double, const At& at) {
 
 #elif defined(__AVX2__)
 
-// A register holds a record: first quad, second. What four such registers give when transposed is put together with
-// what the other four give.
+// A register holds a record: first quad, second. Four such registers are transposed, and combined with the transpose of
+// the other four.
 template <class At>
 HOOKE_HD TwoQuads<float> load_two_quads(float, const At& at) {
   const Quad<float> low =
@@ -236,8 +236,8 @@ HOOKE_HD Vec3<Pack<Real>> load_vectors(const Vec3<Real>* from) {
   return a;
 }
 
-/// The 16 numbers at `from`, which is aligned to all of them, of which each lane asks for one: lookup() takes whole
-/// numbers from 0 to 15. In registers where those can be asked.
+/// A table of the 16 numbers at `from`, which is aligned to the table's size. lookup() gives each lane the number of
+/// its index, a whole number from 0 to 15. The table is in registers where the processor can index them.
 template <class Real>
 struct SmallTable {
   const Real* entries;

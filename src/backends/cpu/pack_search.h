@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What the search does with packs beside arithmetic: keeps those that are near, and sorts keys. Rules of inclusion as
+// Pack operations that the search needs beside arithmetic: to keep near points, and to sort keys. Rules of inclusion as
 // in pack.h.
 
 #include "hooke/backends/cpu/pack.h"
@@ -18,8 +18,8 @@ HOOKE_HD Int32Vector ascending() {
   return numbers;
 }
 
-// append_where_less(to, numbers, a, b): writes those of the numbers where a < b in that lane behind each other and
-// returns how many. May write as many numbers as a register holds.
+// append_where_less(to, numbers, a, b): writes the numbers of the lanes where a < b one after another and returns how
+// many. May write as many numbers as a register holds.
 
 #if defined(__AVX512F__)
 
@@ -28,7 +28,7 @@ HOOKE_HD std::size_t append_where_less(std::int32_t* to, const Int32Vector& numb
   const __mmask16 set = _mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ);
   const auto count = static_cast<std::size_t>(__builtin_popcount(set));
   const __m512i packed = _mm512_maskz_compress_epi32(set, (__m512i)numbers);
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm512_castsi512_si256(packed));  // most often all there is
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm512_castsi512_si256(packed));  // usually all of them
   if (count > 8) _mm512_storeu_si512(to, packed);
   return count;
 }
@@ -41,7 +41,7 @@ HOOKE_HD std::size_t append_where_less(std::int32_t* to, const Int32Vector& numb
 
 #elif defined(__AVX2__)
 
-// For each set of eight lanes: which lanes are in it, as bytes.
+// For each set of eight lanes: the lanes in it, as bytes.
 struct LaneTable {
   std::uint64_t lanes[256];
 };
@@ -72,7 +72,7 @@ HOOKE_HD std::size_t append_where_less(std::int32_t* to, const Int32Vector& numb
 
 #else
 
-// Each is written, the next one over it if its lane is not set.
+// Every number is written; the next one overwrites it if its lane is not set.
 template <class Real>
 HOOKE_HD std::size_t append_where_less(std::int32_t* to, const Int32Vector& numbers, const Pack<Real>& a,
                                        const Pack<Real>& b) {
@@ -87,7 +87,7 @@ HOOKE_HD std::size_t append_where_less(std::int32_t* to, const Int32Vector& numb
 
 #endif
 
-// min_of(a, b), max_of(a, b): lane by lane the smaller one, and the larger one, of numbers.
+// min_of(a, b), max_of(a, b): the smaller and the larger number, lane by lane. Neither may be NaN.
 
 #if defined(__AVX512F__)
 
@@ -140,7 +140,7 @@ HOOKE_HD WordVector load_words(const std::uint32_t* from) {
   __builtin_memcpy(&a, from, sizeof(a));
   return a;
 }
-/// As many bytes, as words.
+/// As many bytes, widened to words.
 HOOKE_HD WordVector load_bytes(const std::uint8_t* from) {
   typedef std::uint8_t ByteVector __attribute__((vector_size(kPackBytes / 8)));
   ByteVector a;

@@ -36,7 +36,7 @@ HOOKE_HD Widened widen(const Pack<float>& a) {
 
 #endif
 
-// The processor remembers whether anything was rounded. Nothing that reads or writes memory is moved across these.
+// The processor's flag of rounding. The compiler moves no access to memory across these functions.
 HOOKE_HD void forget_rounding() {
   _mm_setcsr(_mm_getcsr() & ~_MM_EXCEPT_INEXACT);
   asm volatile("" ::: "memory");
@@ -46,10 +46,10 @@ HOOKE_HD bool has_rounded() {
   return (_mm_getcsr() & _MM_EXCEPT_INEXACT) != 0;
 }
 
-// sum_lanes(values, count, to): writes the sums of whole packs of numbers, a lane each, and returns how many those are;
-// 0 where they would not be exact.
+// sum_lanes(values, count, to): sums whole packs of numbers lane by lane, writes the sums and returns how many; 0 where
+// they would not be exact.
 
-// Doubles hold the sums of floats of not too different size.
+// Doubles hold the exact sums of floats that do not differ too much in size.
 HOOKE_HD std::size_t sum_lanes(const float* values, std::size_t count, double* to) {
   constexpr std::size_t kLanes = Pack<float>::kLanes;
   forget_rounding();
@@ -64,13 +64,13 @@ HOOKE_HD std::size_t sum_lanes(const float* values, std::size_t count, double* t
   return has_rounded() ? 0 : kLanes;
 }
 
-// What a + b leaves when it is rounded to `sum` (Knuth, The Art of Computer Programming, 4.2.2, theorem B).
+// a + b minus the rounded `sum`, exactly (Knuth, The Art of Computer Programming, 4.2.2, theorem B).
 HOOKE_HD Pack<double> rounded_off(const Pack<double>& a, const Pack<double>& b, const Pack<double>& sum) {
   const Pack<double> of_b = sum - a;
   return (a - (sum - of_b)) + (b - of_b);
 }
 
-// Sums of doubles, and of what they left.
+// Sums of doubles, and of their rounding errors.
 HOOKE_HD std::size_t sum_lanes(const double* values, std::size_t count, double* to) {
   constexpr std::size_t kLanes = Pack<double>::kLanes;
   Pack<double> sum(0.0), left(0.0);
@@ -91,7 +91,7 @@ HOOKE_HD std::size_t sum_lanes(const double* values, std::size_t count, double* 
   return 2 * kLanes;
 }
 
-/// Adds `count` numbers, whole packs.
+/// Adds `count` numbers, in whole packs.
 template <class Real>
 HOOKE_HD void add_parts(const Real* values, std::size_t count, ExactParts& parts) {
   constexpr std::size_t kFew = 8 * Pack<Real>::kLanes;

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// The laws of the lanes' pairs, with each other, with walls and with colliders, by how many materials a scene has: a
-// part of force_pass.inl, which includes it inside of the instruction set's namespace.
+// The laws between the lanes' particles and other particles, walls and colliders, by the number of materials: a part of
+// force_pass.inl, which includes it inside of the instruction set's namespace.
 
-// How many materials there are, and whether their surfaces act: then contacts follow the law with surfaces. Of a few
-// all coefficients are kept in registers, of one without surfaces they are always the same.
+// How many materials there are, and whether their surfaces act: then contacts follow the law with surfaces. The
+// coefficients of few materials are kept in registers; those of one without surfaces are constants.
 enum class Materials { one, few, many, few_surfaces, many_surfaces };
 constexpr bool have_surfaces(Materials m) { return m == Materials::few_surfaces || m == Materials::many_surfaces; }
 constexpr bool are_few(Materials m) { return m == Materials::few || m == Materials::few_surfaces; }
 
-// What kind of contact a lane has.
+// The law of each lane's pair.
 template <class Real>
 struct LinearPair {
   ContactCoefficients<Pack<Real>> law;
@@ -22,7 +22,7 @@ struct SurfacePair {
   Pack<Real> reach;
 };
 
-// Of one material whatever touches follows the same linear law.
+// With one material, all pairs follow the same linear law.
 struct TheLaw {};
 template <class Real>
 struct OnlyPair {
@@ -30,7 +30,7 @@ struct OnlyPair {
   Pack<Real> reach;
 };
 
-// Copies a law register by register: whole ones GCC 12 takes through memory, 8 bytes at a time.
+// Copies a law register by register: GCC 12 copies a whole law through memory, 8 bytes at a time.
 template <class Real>
 HOOKE_HD void keep(TheLaw, TheLaw&) {}
 template <class Real>
@@ -48,7 +48,7 @@ HOOKE_HD void keep(const ContactLaw<Pack<Real>>& law, ContactLaw<Pack<Real>>& to
   to.surface.range.v = law.surface.range.v;
 }
 
-// A row a lane of a table of pairs.
+// One row per lane of a table of pairs.
 template <class Real, Materials kMaterials>
 HOOKE_HD auto load_pairs(const PairRow<Real>* table, const Pack<Real>& index) {
   const Quad<Real> linear = load_rows(table, index, 0);
@@ -60,7 +60,7 @@ HOOKE_HD auto load_pairs(const PairRow<Real>* table, const Pack<Real>& index) {
   }
 }
 
-// What the lanes' particles have with others of some materials.
+// The laws between the lanes' particles and others, by the others' materials.
 template <class Real, Materials kMaterials>
 struct PairTable {
   using P = Pack<Real>;
@@ -116,7 +116,7 @@ struct PairTable<Real, Materials::few_surfaces> {
   SmallTable<Real> friction, tension, cohesion, range;
 };
 
-// What the lanes' particles have with walls.
+// The laws between the lanes' particles and walls.
 template <class Real, Materials kMaterials>
 HOOKE_HD auto wall_pairs_of(const ForcePass<Real>& pass, const Lanes<Real>& own) {
   using P = Pack<Real>;
@@ -155,8 +155,8 @@ HOOKE_HD Vec3<Pack<Real>> only_where(const Mask<Real>& m, const Vec3<Pack<Real>>
   return {only_where(m, a.x), only_where(m, a.y), only_where(m, a.z)};
 }
 
-// The contacts of the lanes' particles with others: of one material summed before its coefficients are applied. Without
-// surfaces, what does not act is added as 0.
+// The sums over contacts of the lanes' particles with others. With one material, they are taken before its coefficients
+// are applied. Without surfaces, pairs that do not act add 0.
 template <class Real, Materials kMaterials, bool = have_surfaces(kMaterials)>
 struct Contacts {
   using P = Pack<Real>;
@@ -192,7 +192,7 @@ struct Contacts<Real, kMaterials, true> {
   HOOKE_HD SurfaceForces<P> forces(const ForcePass<Real>&) const { return sum; }
 };
 
-// Mask of lanes on which something acts that overlaps so far: it touches them, or cohesion reaches across the gap.
+// Mask of lanes whose pair acts at this overlap: the two touch, or cohesion reaches across the gap.
 template <class Real>
 HOOKE_HD Mask<Real> acts(const Pack<Real>& overlap, const ContactCoefficients<Pack<Real>>&) {
   return overlap > Pack<Real>(Real(0));

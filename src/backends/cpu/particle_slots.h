@@ -12,16 +12,15 @@
 
 namespace hooke {
 
-/// Where in memory particles lie. In front those that touch others, in the order of the neighbour list, with room
-/// behind them for those that are born; then, from a whole tile on, those that touch none, the loose ones: they are
-/// in no list and are never sorted, and whoever is born takes the slot of one that is gone. Slots of nobody hold
-/// records that are nowhere.
+/// Where in memory particles lie. First the listed particles, which touch others, in the order of the neighbour list,
+/// with room after them for births. Then, from a whole tile on, the loose particles, which touch none: they are in no
+/// list and never sorted, and a newborn takes the slot of a particle that is gone. Vacant slots hold vacant records.
 class ParticleSlots {
  public:
   static constexpr std::size_t kLanes = kGroupLanes, kTile = hooke::kTile;
 
-  /// Lays out so many particles of both kinds with room for more; with `fixed` slots of loose ones that are gone are
-  /// free only after recycle().
+  /// Lays out so many particles of both kinds, with room for more. With `fixed`, the slot of a loose particle that is
+  /// gone is free only after recycle().
   void lay_out(std::size_t listed, std::size_t more_listed, std::size_t loose, std::size_t more_loose, bool fixed) {
     listed_end_ = listed;
     loose_room_ = whole(loose + more_loose, kLanes);
@@ -32,8 +31,8 @@ class ParticleSlots {
     left_.clear();
   }
 
-  std::size_t listed_end() const { return listed_end_; }    ///< one past the last listed slot in use
-  std::size_t first_loose() const { return first_loose_; }  ///< of loose slots, also one past the room of listed ones
+  std::size_t listed_end() const { return listed_end_; }  ///< one past the last listed slot in use
+  std::size_t first_loose() const { return first_loose_; }  ///< first loose slot, also one past the listed room
   std::size_t loose_end() const { return loose_end_; }  ///< one past the last loose slot ever used
   std::size_t room() const { return first_loose_ + loose_room_; }
   /// One past the last slot in use.
@@ -44,7 +43,7 @@ class ParticleSlots {
     return listed <= first_loose_ - std::min(first_loose_, whole(listed_end_, kWindow)) &&
            loose <= spare_.size() + (room() - loose_end_);
   }
-  /// Slots for one that is born, where there is room. Where the listed ones are laid out, it is not before `from`.
+  /// The slot of a newborn; there must be room. A listed slot is `from` or later.
   std::size_t take_listed(std::size_t from) {
     listed_end_ = std::max(listed_end_, from) + 1;
     HOOKE_ASSERT(listed_end_ <= first_loose_, listed_end_, first_loose_);
@@ -57,7 +56,7 @@ class ParticleSlots {
     spare_.pop_back();
     return slot;
   }
-  /// Of one that is gone.
+  /// The particle in this slot is gone.
   void leave(std::size_t slot) {
     HOOKE_ASSERT(slot < end(), slot, end());
     if (is_loose(slot)) (fixed_ ? left_ : spare_).push_back(static_cast<std::uint32_t>(slot));
@@ -66,13 +65,13 @@ class ParticleSlots {
     spare_.insert(spare_.end(), left_.begin(), left_.end());
     left_.clear();
   }
-  /// Listed ones have been sorted, and so many are left of them.
+  /// The listed particles have been sorted; so many are left.
   void set_listed(std::size_t count) {
     HOOKE_ASSERT(count <= listed_end_, count, listed_end_);
     listed_end_ = count;
   }
 
-  /// Tiles in use, of both kinds, and which one the n-th of them is.
+  /// The number of tiles in use, of both kinds, and the index of the n-th one.
   std::size_t tile_count() const { return listed_tiles() + whole(loose_end_ - first_loose_, kTile) / kTile; }
   std::size_t tile(std::size_t n) const { return n < listed_tiles() ? n : first_loose_ / kTile + (n - listed_tiles()); }
   /// One past the last slot of a tile that is in use.
@@ -86,7 +85,7 @@ class ParticleSlots {
 
   std::size_t listed_end_ = 0, first_loose_ = 0, loose_end_ = 0, loose_room_ = 0;
   bool fixed_ = false;
-  std::vector<std::uint32_t> spare_, left_;  // loose slots of nobody: free, and not yet so
+  std::vector<std::uint32_t> spare_, left_;  // vacant loose slots: free, and free after recycle()
 };
 
 }  // namespace hooke

@@ -22,7 +22,7 @@ void ParticleState<Real>::place(const ParticleSet& particles, std::size_t births
   recount();
   ++changes_;
   slot_of_rank_.clear();
-  const bool tied = scene_->structure != nullptr;  // to slots, until all are laid out again
+  const bool tied = scene_->structure != nullptr;  // the structure refers to slots, until the next layout
   slots.lay_out(count_ - loose_count_, room_for_births(true) + births, loose_count_, room_for_births(false) + births,
                 tied);
   records.resize(slots.room() + ParticleSlots::kLanes);  // a pack more, for searches to read; the last is the filler
@@ -51,7 +51,7 @@ void ParticleState<Real>::download(const ParticleColumns<Out>& out) const {
       for (std::size_t b = first; b < last; ++b) visit(b, b * kBlock, std::min((b + 1) * kBlock, ids.size()));
     });
   };
-  std::vector<std::size_t> start(blocks + 1, 0);  // of each block among the particles
+  std::vector<std::size_t> start(blocks + 1, 0);  // each block's first particle
   const bool all_there = count_ == ids.size();
   if (!all_there) {
     for_blocks([&](std::size_t b, std::size_t first, std::size_t last) {
@@ -91,7 +91,7 @@ void ParticleState<Real>::reorder(std::span<const std::uint32_t> order) {
 
 template <class Real>
 std::size_t ParticleState<Real>::room_for_births(bool listed) const {
-  constexpr double kMost = 1U << 21U;  // ahead: more takes a while to fill
+  constexpr double kMost = 1U << 21U;  // births ahead: more take a while
   double expected = 0;
   bool any = false;
   for (const Emitter& e : scene_->emitters) {
@@ -109,7 +109,7 @@ template <class Real>
 bool ParticleState<Real>::has_room_for(const ParticleSet& newborn) const {
   std::size_t loose = 0;
   for (const std::uint16_t m : newborn.material) loose += scene_->materials[m].interacts ? 0 : 1;
-  // Ids of those that are gone stay in the table until it is mostly theirs.
+  // Ids of removed particles stay in the table until it is mostly theirs.
   const bool many_gone = ids.size() + newborn.size() > 4 * count_ + 65536;
   return !many_gone && slots.has_room(newborn.size() - loose, loose);
 }

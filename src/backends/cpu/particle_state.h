@@ -18,8 +18,8 @@
 
 namespace hooke {
 
-/// The particles in one precision: their records, which slots these lie in, and whose they are. Listed ones lie in cell
-/// order as of the last reorder(); ranks lead back to ids. Slots of nobody hold records that are nowhere.
+/// The particles in one precision: their records, the records' slots, and the particles' ids. Listed particles lie in
+/// cell order as of the last reorder(); ranks lead back to ids. Vacant slots hold vacant records.
 template <class Real>
 class ParticleState {
   using Record = ParticleRecord<Real>;
@@ -31,7 +31,7 @@ class ParticleState {
   IdTable ids;  ///< by rank
   ParticleSlots slots;
 
-  /// `scene` and `rules` stay where they are.
+  /// `scene` and `rules` must outlive this object.
   void configure(const Scene& scene, const PassRules<Real>& rules) {
     scene_ = &scene;
     rules_ = &rules;
@@ -41,14 +41,14 @@ class ParticleState {
   const Material& material_of(const Record& p) const { return scene_->materials[static_cast<std::size_t>(p.material)]; }
 
   std::size_t count() const { return count_; }  ///< particles
-  std::size_t loose_count() const { return loose_count_; }  ///< of those, the ones that touch none
+  std::size_t loose_count() const { return loose_count_; }  ///< particles that touch none
   const ExactSum& mass() const { return mass_; }  ///< of all, kg
 
-  /// Lays out these, of the scene, and no others, in order of their ids, with room for those that may be born, for
-  /// `births` at least.
+  /// Replaces all particles by these, of the scene, laid out in order of their ids, with room for births, for `births`
+  /// at least.
   void place(const ParticleSet& particles, std::size_t births = 0);
 
-  /// The buffer of the next state, to work in until a pass needs it: then end_scratch() first. Reordering works in it
+  /// The buffer of the next state, as working memory; call end_scratch() before the next pass. reorder() works in it,
   /// too.
   std::span<std::byte> scratch() { return std::as_writable_bytes(std::span(next)); }
   void end_scratch() { fill_unused(next); }
@@ -57,22 +57,22 @@ class ParticleState {
   template <class Out>
   void download(const ParticleColumns<Out>& out) const;
 
-  /// Puts into listed slot k what was in slot order[k], those that are nowhere last. Loose ones stay.
+  /// Moves the record in slot order[k] to listed slot k; vacant records come last. Loose particles stay.
   void reorder(std::span<const std::uint32_t> order);
 
-  /// How many more particles of a kind there should be slots for: what may be born is what is expected, and half as
-  /// many as there are, so that it is seldom that all are laid out anew.
+  /// How many more particles of a kind there should be slots for: the births still expected, or half the present number
+  /// if that is more, so that a new layout of all particles is rare.
   std::size_t room_for_births(bool listed) const;
   bool has_room_for(const ParticleSet& newborn) const;
 
-  /// Counts how often particles have left the slots that they were in.
+  /// Counts how often particles have left their slots.
   std::uint64_t changes() const { return changes_; }
 
   static constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};
-  /// Finds out which slot each id has. A pass over all particles where slots have changed since; else nothing.
+  /// Finds the slot of each id. A pass over all particles where a layout or a sort has moved them; else nothing.
   void find_slots() const;
-  /// The slots, by rank, of find_slots() and of particles that were added since; kNoSlot where there was none. One that
-  /// was removed since has left its slot vacant, or to another one.
+  /// The slots, by rank, as of find_slots() and of particles added since; kNoSlot where there was no particle. The slot
+  /// of a particle removed since is vacant, or another particle's.
   const std::vector<std::uint32_t>& slots_by_rank() const { return slot_of_rank_; }
   /// The slot of a particle by its id, after find_slots(); kNoSlot where there is none.
   std::size_t slot_of(std::uint64_t id) const;
@@ -80,9 +80,9 @@ class ParticleState {
   /// Gives the particle in a slot another position (m) and velocity (m/s).
   void set(std::size_t slot, const Vec3d& position, const Vec3d& velocity);
 
-  /// Puts the k-th newborn into a slot that was taken for it; recount() when all are in. Returns its rank.
+  /// Puts the k-th newborn into a slot that was taken for it; call recount() after the last. Returns its rank.
   std::size_t add(std::size_t slot, const ParticleSet& newborn, std::size_t k);
-  /// Sends who is in a slot nowhere; recount() when all are gone.
+  /// Makes a slot vacant; call recount() after the last.
   void remove(std::size_t slot);
   void recount();
 
@@ -90,7 +90,7 @@ class ParticleState {
   std::uint64_t hash() const;
 
  private:
-  // Whether the particle of a rank is in a slot that it had once.
+  // Whether the particle of a rank is still in a slot that it had.
   bool is_at(std::uint32_t slot, std::size_t rank) const {
     return slot != kNoSlot && !is_vacant(records[slot]) && rank_of(records[slot].rank) == rank;
   }

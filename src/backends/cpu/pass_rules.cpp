@@ -64,7 +64,7 @@ void PassRules<Real>::find_levels() {
   }
 }
 
-// What rounding a bound, or the distance from a wall, may take is far less than two steps outwards.
+// Two steps outwards are far more than the rounding of a bound, or of the distance from a wall.
 template <class Real>
 void PassRules<Real>::find_clear_range(int axis) {
   constexpr Real kInfinite = std::numeric_limits<Real>::infinity();

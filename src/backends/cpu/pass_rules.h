@@ -10,7 +10,7 @@
 
 namespace hooke {
 
-/// A scene's rules, and what the force pass and the neighbour search work out of them to be fast.
+/// A scene's rules, and tables derived from them that make the force pass and the neighbour search fast.
 template <class Real>
 class PassRules : public Rules<Real> {
  public:

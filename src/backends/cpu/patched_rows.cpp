@@ -22,7 +22,7 @@ void PatchedRows::reserve(std::size_t groups) {
   entries_.reserve(groups * 24 * kLanes);
 }
 
-// Puts one in its place by rank; the last entry of its lane is free.
+// Inserts an entry in order of rank; the last entry of its lane is free.
 template <class RankOfEntry>
 void PatchedRows::insert(const MissingEntry& missing, std::uint32_t* rows, std::size_t count, std::uint32_t filler,
                          const RankOfEntry& rank_of_entry) {
@@ -48,7 +48,7 @@ void PatchedRows::patch(std::vector<MissingEntry>& missing, const NeighbourList&
       most = std::max(most, end + 1 - lane_start);
     }
     const auto rows = list.rows(group / NeighbourList::kGroups, group % NeighbourList::kGroups);
-    // Over what is behind the rows before.
+    // Overwrites the filler after the previous rows.
     const std::size_t first = entries_.empty() ? 0 : entries_.size() - kBehind, count = rows.size() + most * kLanes;
     entries_.resize(first + count + kBehind, filler);
     std::copy(rows.begin(), rows.end(), entries_.begin() + static_cast<std::ptrdiff_t>(first));

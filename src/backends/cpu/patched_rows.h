@@ -20,7 +20,7 @@ inline bool is_in_lane(std::span<const std::uint32_t> rows, std::size_t lane, st
   return false;
 }
 
-/// Rows of the groups whose rows in the list lack a pair.
+/// Complete rows of the groups whose rows in the list lack a pair.
 class PatchedRows {
   static constexpr std::size_t kLanes = NeighbourList::kLanes;
 
@@ -36,15 +36,15 @@ class PatchedRows {
   std::size_t count() const { return patched_.size(); }
   void reserve(std::size_t groups);
   bool holds(std::size_t group) const { return at_[group] != kNone; }
-  /// Of a group that it holds.
+  /// The rows of a group that it holds.
   std::span<const std::uint32_t> rows(std::size_t group) const {
     HOOKE_ASSERT(holds(group), group);
     const Patched& m = patched_[at_[group]];
     return std::span(entries_).subspan(m.first, m.count);
   }
 
-  /// Adds what is lacking to rows of the list, whose entries are offsets of records. `ranks` are by record; `filler`
-  /// stands for none.
+  /// Copies the rows of the list that lack an entry, and adds the missing entries. Entries are offsets of records;
+  /// `ranks` are by record; `filler` stands for no entry.
   template <class Real>
   void patch(std::vector<MissingEntry>& missing, const NeighbourList& list, std::uint32_t filler,
              const std::uint32_t* ranks);
@@ -62,7 +62,7 @@ class PatchedRows {
 
   std::vector<std::uint32_t> at_;  // by group: index into patched_
   std::vector<Patched> patched_;
-  std::vector<std::uint32_t> entries_;  // kRowsAhead rows of `filler` behind the last
+  std::vector<std::uint32_t> entries_;  // kRowsAhead rows of `filler` after the last
 };
 
 }  // namespace hooke

@@ -10,13 +10,13 @@
 
 namespace hooke {
 
-/// The sinks of a scene, each with a box around it that spares most particles a closer look.
+/// The sinks of a scene, each with a box around it that rules out most particles quickly.
 class PlacedSinks {
  public:
   PlacedSinks() = default;
   explicit PlacedSinks(const std::vector<Sink>& sinks);
 
-  /// Whether a particle with its centre at x (m) is taken away.
+  /// Whether a sink takes a particle with its centre at x (m).
   bool take(const Vec3d& x) const {
     return std::any_of(sinks_.begin(), sinks_.end(),
                        [&](const Placed& sink) { return sink.box.contains(x) && encloses(sink, x); });

@@ -227,7 +227,7 @@ void SpringLists<Real>::take(const std::shared_ptr<const Structure>& structure) 
   }
 }
 
-// Takes the springs that tore in a group out of its rows. Each of its two ends does so; the lower one counts it.
+// Removes the springs that tore from a group's rows. Each of a spring's two ends does so; the lower one counts it.
 template <class Real>
 void SpringLists<Real>::finish_torn(const Record* records, std::size_t g, SpringSums& sums) {
   for (std::uint32_t r = first_row_[g]; r < first_row_[g + 1]; ++r) {
@@ -260,7 +260,7 @@ double SpringLists<Real>::energy_of(std::uint32_t spring, const Record& i, const
   return spring_acts(extension, kind.side) ? static_cast<double>(spring_energy(extension, kind.stiffness)) : 0.0;
 }
 
-// visit(side, i, p) for each spring of a rank that holds, between records i and p.
+// visit(side, i, p) for each spring of a rank that still holds, between records i and p.
 template <class Real>
 template <class Visit>
 void SpringLists<Real>::for_each_side(const Record* records, const std::vector<std::uint32_t>& place, std::size_t rank,

@@ -21,9 +21,9 @@
 
 namespace hooke {
 
-/// The springs of a scene as the spring pass wants them. Each particle has a side of every spring that ties it, by
-/// ascending index; after each sort of the particles the sides are laid out in rows, as a neighbour list is: row k of a
-/// group of 16 particles holds the k-th side of each of them.
+/// The springs of a scene in the layout of the spring pass. Each particle has one side of every spring that ties it, by
+/// ascending index. After each sort of the particles, the sides are laid out in rows like a neighbour list: row k of a
+/// group of 16 particles holds the k-th side of each particle.
 template <class Real>
 class SpringLists {
   using Record = ParticleRecord<Real>;
@@ -36,36 +36,36 @@ class SpringLists {
 
   bool empty() const { return kind_.empty(); }
 
-  /// Indices, ascending: these and no others.
+  /// From now on these springs (indices, ascending) are broken, and no others.
   void break_springs(const std::vector<std::uint64_t>& broken);
   std::vector<std::uint64_t> broken() const;
 
-  /// Ties the particles of these ids.
+  /// Finds the springs' ends among the particles of these ids.
   void bind(const IdTable& ids);
 
-  /// There are more particles than those bound: nothing ties them.
+  /// There are more particles now; no spring ties the new ones.
   void grow(std::size_t ranks);
 
   /// Pairs that springs keep from touching.
   const Exclusions& exclusions() const { return exclusions_; }
 
-  /// Lays the springs out for `count` particles in their order of now; `place` is that of each rank, kVacant
-  /// where a particle is gone. The last of `size` records fills short rows.
+  /// Lays the springs out for `count` particles in their present order; `place` is the slot of each rank, kVacant where
+  /// a particle is gone. The last of `size` records fills short rows.
   void lay_out(const Record* records, std::size_t count, std::size_t size, const std::vector<std::uint32_t>& place);
 
   /// Forces on every particle, N: the column that apply() fills.
   const Vec3<Real>* forces() const { return force_.data(); }
 
-  /// Sums up the springs of every particle where `records` are. With `may_tear`, those that are stretched too far
-  /// break. Returns the pairs (indices) that were kept apart and may touch from now on.
+  /// Sums the spring forces on every particle at the positions of `records`. With `may_tear`, springs that are
+  /// stretched too far break. Returns the pairs (indices) that broken springs kept apart: they may touch from now on.
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& apply(const Record* records, bool may_tear,
                                                                     SpringSums& sums);
 
-  /// Counts the springs that hold, and their energy.
+  /// Adds the number and the energy of the springs that hold.
   void measure(const Record* records, const std::vector<std::uint32_t>& place, MeasurementSums& sums) const;
 
-  /// Adds the energy (J) of the springs that tie the particle of a rank; half of it where the other end is one of
-  /// `among` (indices, ascending).
+  /// Adds the energy (J) of the springs that tie the particle of a rank; a spring whose other end is one of `among`
+  /// (indices, ascending) counts half.
   void add_energy(const Record* records, const std::vector<std::uint32_t>& place, std::size_t rank,
                   std::span<const std::uint32_t> among, ExactSum& sum) const;
 
@@ -90,17 +90,17 @@ class SpringLists {
   LargeVector<std::uint32_t> kind_;  // by spring
   LargeVector<Real> rest_length_;  // by spring, m
   std::vector<std::uint8_t> broken_;  // by spring
-  LargeVector<Side> sides_;  // of rank r: first_side_[r] to first_side_[r + 1]
+  LargeVector<Side> sides_;  // of rank r: first_side_[r] to first_side_[r + 1] - 1
   std::vector<std::uint32_t> first_side_;
   Exclusions exclusions_;
 
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> released_;  // by the last apply(): indices of their ends
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> released_;  // by the last apply(): indices of both particles
 
   std::size_t count_ = 0;  // particles laid out
   LargeVector<SpringRow<Real>> rows_;
   std::vector<std::uint32_t> first_row_;  // by group
   LargeVector<Vec3<Real>> force_;  // by place, N
-  mutable std::mutex mutex_;  // around totals
+  mutable std::mutex mutex_;  // guards totals
 };
 
 extern template class SpringLists<float>;

@@ -11,9 +11,9 @@
 
 namespace hooke {
 
-// The spring pass as seen from outside; rules of inclusion as in force_pass.h.
+// Interface of the spring pass; rules of inclusion as in force_pass.h.
 
-/// What springs of one kind share: four numbers, so that a pack of kinds loads like a pack of places.
+/// What springs of one kind share: four numbers, so that a pack of kinds loads like a pack of records.
 template <class Real>
 struct alignas(4 * sizeof(Real)) SpringKind {
   Real stiffness;     // N/m
@@ -22,7 +22,7 @@ struct alignas(4 * sizeof(Real)) SpringKind {
   Real side;          // as spring_acts() takes it
 };
 
-/// The first two kinds stand for no spring, and for one that broke in this pass. They never act.
+/// The first two kinds stand for no spring, and for a spring that broke in this pass. They never act.
 inline constexpr std::uint32_t kNoSpring = 0, kTornSpring = 1, kFirstSpringKind = 2;
 
 /// The k-th springs of 16 consecutive particles, one a lane.
@@ -38,7 +38,7 @@ template <class Real>
 struct SpringPass {
   const ParticleRecord<Real>* records = nullptr;
   const SpringKind<Real>* kinds = nullptr;
-  Vec3<Real>* force = nullptr;  // N, a particle each: written
+  Vec3<Real>* force = nullptr;  // N, one per particle: written
   bool may_tear = false;        // springs that are stretched too far become kTornSpring
   bool any_periodic = false;
   bool periodic[3]{};
@@ -52,8 +52,8 @@ struct SpringWork {
   std::size_t group_count = 0;
   SpringRow<Real>* rows = nullptr;            // of the whole list
   const std::uint32_t* first_row = nullptr;   // group_count + 1, indices into rows
-  Real* power = nullptr;                      // W, one entry a particle: half of what its dampers take out
-  unsigned char* torn = nullptr;              // one entry a group: whether a spring became kTornSpring
+  Real* power = nullptr;  // W, one entry per particle: half of the power that its dampers take out
+  unsigned char* torn = nullptr;  // one entry a group: whether a spring became kTornSpring
 };
 
 template <class Real>

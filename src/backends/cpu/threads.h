@@ -6,7 +6,7 @@
 
 namespace hooke {
 
-/// Threads to run on, one at least, also where more are asked for than the machine has cores.
+/// Threads to run on, at least one. There may be more threads than the machine has cores.
 class Threads {
  public:
   explicit Threads(int count);

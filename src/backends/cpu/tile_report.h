@@ -11,7 +11,7 @@
 
 namespace hooke {
 
-/// Where the groups of one tile report what the force pass found out beside their new state.
+/// What the force pass reports of the groups of one tile beside their new state.
 struct TileReport {
   std::array<unsigned char, NeighbourList::kGroups> notes;  // GroupNote bits
   std::array<std::uint16_t, NeighbourList::kGroups> far;    // a bit a particle

@@ -45,7 +45,7 @@ void VerletList<Real>::build(const Record* records, std::size_t count, std::size
   filler_ = record_offset<Real>(static_cast<std::uint32_t>(size - 1));
   const std::size_t room = (end_ + kLanes - 1) / kLanes * kLanes;
   position_at_build_.resize(room);
-  std::vector<std::uint32_t>& ranks = order_;  // of no use any more as the order of the sort
+  std::vector<std::uint32_t>& ranks = order_;  // the order of the sort is no longer needed
   ranks.reserve(room);  // a growing vector would take twice that
   ranks.resize(room);
   const SearchColumns columns(scratch, count + kLanes, rules_->largest_touching() > rules_->smallest_touching());
@@ -66,12 +66,12 @@ void VerletList<Real>::build(const Record* records, std::size_t count, std::size
 
   limits_.diameter = 2 * rules_->largest_reach();
   find_coarseness();
-  // A thousandth covers what rounding takes of displacements.
+  // A thousandth covers the rounding of displacements.
   limits_.skin = std::max(0.0, 0.999 * skin_ - 2 * rules_->rounding() - coarseness_);
   std::copy(std::begin(rules_->view().periodic), std::end(rules_->view().periodic), limits_.periodic);
-  // Within a window it does not matter in which order.
+  // The order within a window does not matter.
   motion_.lay_out({columns.x, columns.y, columns.z}, count, kWindow, limits_);
-  // Those without a place are always far from it.
+  // Slots after the last particle are always far (allowance -1).
   anchors_.assign((end_ + kWindow - 1) / kWindow, Anchor{{}, {}, Real(-1), {}});
   moved_.resize(anchors_.size());
   outlying_.assign(room / kLanes, 0);
@@ -119,7 +119,7 @@ void VerletList<Real>::moved(const Record* records) {
   }
   const std::size_t cost = kOutlierCost * (outliers_.size() + released_.size());
   spent_ += cost;
-  // What a step costs falls with the age of a list and rises with its outliers: where both meet it has served best.
+  // The mean cost of a step, (count + spent) / age, is least where it meets the rising cost of a single step.
   if (cost * age_ > count_ + spent_ || is_too_thick()) return invalidate();
   patch(records);
 }
@@ -147,7 +147,7 @@ std::uint64_t VerletList<Real>::count_missed(const Record* records) const {
   return missed;
 }
 
-// Takes pairs that springs keep apart out of the rows.
+// Removes the pairs that springs keep apart from the rows.
 template <class Real>
 void VerletList<Real>::strike_exclusions() {
   if (exclusions_->empty()) return;
@@ -160,10 +160,10 @@ void VerletList<Real>::strike_exclusions() {
   });
 }
 
-// The wider the skin, the longer a list lasts, and the longer are its rows: a step costs a s + b r / s, with a what a
-// skin of one diameter adds to a pass, b the cost of a build, s the skin in diameters and r the part of a diameter
-// that neighbours move away from each other in a step. That is least here, with r from what the last list's skin
-// allowed for as long as it lasted.
+// A wider skin makes a list last longer, but also makes its rows longer: a step costs a s + b r / s, with a the cost
+// that a skin of one diameter adds to a pass, b the cost of a build, s the skin in diameters and r the diameters that
+// neighbours move away from each other in a step. Returns the s of least cost, with r the skin of the last list over
+// its age.
 template <class Real>
 double VerletList<Real>::best_skin() const {
   return std::clamp(std::sqrt(kBuildOverSkin * skin_ratio_ / static_cast<double>(age_)), kThinnestSkin, kThickestSkin);
@@ -204,8 +204,8 @@ NeighbourRule<Real> VerletList<Real>::neighbour_rule(const SearchColumns& column
   return rule;
 }
 
-// What the rounding of places may take of the motion of two particles: some spacings of numbers as far out as they
-// are.
+// A bound on the rounding of the displacements of two particles: a few spacings of numbers as large as their
+// coordinates.
 template <class Real>
 void VerletList<Real>::find_coarseness() {
   double furthest = 0;
@@ -215,7 +215,7 @@ void VerletList<Real>::find_coarseness() {
   coarseness_ = 8 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * furthest;
 }
 
-// Makes anchors follow the particles, and finds out which particles are outliers now.
+// Makes anchors follow the particles, and finds the present outliers.
 template <class Real>
 void VerletList<Real>::follow(const Record* records) {
   using GroupMotion = typename MotionBounds<Real>::GroupMotion;
@@ -248,7 +248,7 @@ void VerletList<Real>::follow(const Record* records) {
   });
 }
 
-// The outliers of a group as its anchor is now, and the particles born since, a bit a lane.
+// The outliers of a group by its present anchor, and the particles born since the build, one bit per lane.
 template <class Real>
 unsigned VerletList<Real>::outliers_of_group(const Record* records, std::size_t g) const {
   const std::size_t window = g * kLanes / kWindow;
@@ -263,7 +263,7 @@ unsigned VerletList<Real>::outliers_of_group(const Record* records, std::size_t 
   return far;
 }
 
-// Where the particles that touch a particle were listed, and how far around that they may be.
+// Around which point the particles that touch a particle were listed, and how far from it at most.
 template <class Real>
 auto VerletList<Real>::place_of(const Record* records) const {
   using Place = typename OutlierPairs<Real>::Place;
@@ -283,7 +283,7 @@ auto VerletList<Real>::place_of(const Record* records) const {
   };
 }
 
-// Finds the pairs of outliers that touch, and patches rows that lack them.
+// Finds the touching pairs of outliers, and patches the rows that lack them.
 template <class Real>
 void VerletList<Real>::patch(const Record* records) {
   patching_due_ = false;
@@ -296,7 +296,7 @@ void VerletList<Real>::patch(const Record* records) {
   }
 }
 
-// The same for those that have become outliers since.
+// The same for the outliers that are new since then.
 template <class Real>
 void VerletList<Real>::patch_fresh(const Record* records) {
   patched_.clear(outlying_.size());

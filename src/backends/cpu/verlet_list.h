@@ -26,13 +26,12 @@
 
 namespace hooke {
 
-/// A neighbour list with a skin (Verlet, "Computer experiments on classical fluids", Phys. Rev. 159, 98, 1967), and
-/// what it takes to trust it for many steps. While every particle stays near its anchor (motion_bounds.h) the
-/// list misses nothing. Outliers are looked after one by one: in every step each looks for the particles
-/// that touch it, and rows that lack the pair are patched. A new list is built when outliers have become too many to be
-/// worth it.
+/// A neighbour list with a skin (Verlet, "Computer experiments on classical fluids", Phys. Rev. 159, 98, 1967), and the
+/// checks that make it valid for many steps. While every particle stays near its anchor (motion_bounds.h), the list
+/// misses nothing. Outliers are handled one by one: in every step, the particles that touch each outlier are searched
+/// for, and rows that lack the pair are patched. A new list is built when the outliers cost more than that.
 ///
-/// Which pairs are listed when changes no result: those that don't touch add an exact zero.
+/// Which pairs are listed at what time changes no result: pairs that don't touch add an exact zero.
 template <class Real>
 class VerletList {
   using Record = ParticleRecord<Real>;
@@ -42,7 +41,7 @@ class VerletList {
  public:
   using Anchor = GroupAnchor<Real>;
 
-  /// Pairs that are kept apart are never listed.
+  /// Excluded pairs are never listed.
   void configure(const PassRules<Real>& rules, WindowSearchFunction<Real> search, const Exclusions& exclusions) {
     rules_ = &rules;
     exclusions_ = &exclusions;
@@ -51,21 +50,21 @@ class VerletList {
     listed_ = false;
   }
 
-  /// Whether it holds every pair that touches where particles are now.
+  /// Whether the list holds every pair that touches at the present positions.
   bool is_valid() const { return listed_; }
   void invalidate() { listed_ = false; }
 
-  /// Sorts `count` particles inside of a box (m) into cells; vacant slots come last. Returns the order: which particle
-  /// is to be the k-th. Works in `scratch`.
+  /// Sorts `count` particles inside of a box (m) into cells; vacant slots come last. Returns the order: the index of
+  /// the particle that is to be the k-th. Works in `scratch`.
   std::span<const std::uint32_t> sort(const Record* records, std::size_t count, const Box3d& box,
                                       std::span<std::byte> scratch);
 
-  /// Lists the neighbours of the first `count` particles, which lie in the order that sort() gave. `records` ends with
-  /// the one that fills short lanes, the last of `size`. From the next whole window on there is room, up to `end`, for
-  /// particles that are born later. Works in `scratch`, as large as the records.
+  /// Lists the neighbours of the first `count` particles, which lie in the order that sort() gave. The last of the
+  /// `size` records fills short lanes. Slots from the next whole window up to `end` are room for later births. Works in
+  /// `scratch`, which is as large as the records.
   void build(const Record* records, std::size_t count, std::size_t end, std::size_t size, std::span<std::byte> scratch);
 
-  /// The rows of group g of tile s, as good as the list is.
+  /// The rows of group g of tile s, patched where necessary.
   std::span<const std::uint32_t> rows(std::size_t s, std::size_t g) const {
     return is_patched(s, g) ? patched_.rows(s * kGroups + g) : list_.rows(s, g);
   }
@@ -75,9 +74,9 @@ class VerletList {
   std::size_t entry_count() const { return list_.entry_count(); }
   std::uint64_t build_count() const { return builds_; }
 
-  /// Where the next particle can be born, at least.
+  /// The first slot in which a particle can be born.
   std::size_t first_free() const { return (count_ + kWindow - 1) / kWindow * kWindow; }
-  /// A particle is born in slot i, first_free() or later: an outlier from the start.
+  /// A particle is born in slot i, first_free() or later; it is an outlier from the start.
   void add(std::size_t i, std::uint32_t rank) {
     if (!listed_) return;
     HOOKE_ASSERT(i >= first_free(), i, first_free());
@@ -87,7 +86,7 @@ class VerletList {
     add_outlier(i);
   }
 
-  /// Particle i has been moved by other than a step: an outlier from now on.
+  /// Particle i has been moved other than by a step; it is an outlier from now on.
   void note_moved(std::size_t i) {
     if (!listed_) return;
     if (rules_->view().periodic_kind == PeriodicKind::images) return invalidate();
@@ -102,8 +101,8 @@ class VerletList {
       patching_due_ = true;
     }
   }
-  /// Before rows are read: patches them for what was added, moved or released since they were patched last. Says in
-  /// is_valid() whether the list goes on.
+  /// Call before rows are read: patches them for particles added or moved, and pairs released, since the last patch.
+  /// Then is_valid() tells whether the list still holds.
   void patch_if_due(const Record* records) {
     if (!listed_) return;
     if (patching_due_ || fresh_.size() > kFewFresh) return patch(records);
@@ -112,20 +111,20 @@ class VerletList {
 
   // Moving ----------------------------------------------------------------------------------------------------------
 
-  const Anchor* anchors() const { return anchors_.data(); }  ///< one a window
+  const Anchor* anchors() const { return anchors_.data(); }  ///< one per window
   Columns<Real> position_at_build() const { return position_at_build_.columns(); }
-  /// Steps that anchors will have gone once particles have moved by one step more.
+  /// Steps since the anchors were set, after one more step.
   Real next_step() const { return static_cast<Real>(steps_ + 1); }
 
-  /// Takes the lanes of a group that are further from their anchor than it allows: `far` has a bit a lane. Any thread
-  /// may call, one a group.
+  /// Notes the lanes of a group that are further from their anchor than it allows: `far` has one bit per lane. Any
+  /// thread may call, but only one per group.
   void note_far(std::size_t group, unsigned far);
-  /// Whether particle i has moved, in its next step, further from its anchor than that allows.
+  /// Whether particle i, moved by its next step, is further from its anchor than that allows.
   bool is_far(const Record& p, std::size_t i) const { return is_off(p, i, anchors_[i / kWindow], next_step()); }
-  /// All particles have moved by a step, and new outliers are noted. Says in is_valid() whether the list goes on.
+  /// All particles have moved by a step, and new outliers are noted. is_valid() then tells whether the list holds.
   void moved(const Record* records);
 
-  /// Pairs that touch and are not on the list, counted the long way; for tests of all this.
+  /// Number of entries of touching pairs that the rows lack, by a full search; for tests.
   std::uint64_t count_missed(const Record* records) const;
 
  private:
@@ -135,34 +134,34 @@ class VerletList {
     note_far(i / kLanes, 1U << i % kLanes);
     fresh_.push_back(static_cast<std::uint32_t>(i));
     if (kOutlierCost * outliers_.size() > count_ + kOutlierCost * kLanes)
-      invalidate();  // looking after them costs more than a list
+      invalidate();  // handling them costs more than a new list
   }
 
-  // Costs, in units of what listing one particle takes.
-  static constexpr std::size_t kOutlierCost = 6;  // looking after one outlier for one step
-  static constexpr std::size_t kFollowShare = 9;  // following the particles takes this part of a build
+  // Costs, in units of the cost of listing one particle.
+  static constexpr std::size_t kOutlierCost = 6;  // handling one outlier for one step
+  static constexpr std::size_t kFollowShare = 9;  // a build costs as much as following the particles so often
 
-  static constexpr std::size_t kFewFresh = 64;  // new outliers for which rows are not patched all over again
+  static constexpr std::size_t kFewFresh = 64;  // up to so many new outliers, only their pairs are searched for
 
-  static constexpr std::uint64_t kFollowTrial = 16;  // builds after which anchors may follow in vain once more
+  static constexpr std::uint64_t kFollowTrial = 16;  // builds after which following is tried again
 
-  // Skins as a part of the smallest diameter.
+  // Skins as a fraction of the smallest diameter.
   static constexpr double kFirstSkin = 0.25, kThinnestSkin = 0.06, kThickestSkin = 0.4;
-  static constexpr double kBuildOverSkin = 7.4;  // what a build costs over what a skin of one diameter adds to a pass
+  static constexpr double kBuildOverSkin = 7.4;  // cost of a build over what a skin of one diameter adds to a pass
 
   double reach_of(const Record& p) const { return rules_->reach_of(static_cast<std::size_t>(p.material)); }
 
   double best_skin() const;
   void choose_skin();
-  // Whether the list has lasted for so long that one with a thinner skin would have been better.
+  // Whether the list has lasted so long that a thinner skin would have been better.
   bool is_too_thick() const { return best_skin() < 0.5 * skin_ratio_; }
 
   void lay_out_cells(CellList& cells, double skin, std::size_t count) const;
   auto key_of(const CellList& cells, const Record* records) const;
 
-  // What a search reads, in cell order. Room for all of it is less than particles take themselves.
+  // What a search reads, in cell order. It takes less memory than the particles' records.
   struct SearchColumns {
-    Real *x, *y, *z, *radius;  // m; no radius where all are the same
+    Real *x, *y, *z, *radius;  // m; radius is null where all are the same
     std::uint32_t* rank;
 
     SearchColumns(std::span<std::byte> room, std::size_t count, bool radii)
@@ -172,7 +171,7 @@ class VerletList {
           radius(radii ? z + count : nullptr),
           rank(reinterpret_cast<std::uint32_t*>(z + count + (radii ? count : 0))) {}
 
-    // One column after the other, each in cell order: `at` (m) and `ranks` are by slot.
+    // Fills one column after the other, each in cell order: `at` (m) and `ranks` are by slot.
     void fill(const WindowOrder& slots, std::size_t first, std::size_t last, const ColumnStore<Real>& at,
               const std::uint32_t* ranks) const {
       const auto copy = [&](const auto* from, auto* to) {
@@ -188,7 +187,7 @@ class VerletList {
   NeighbourRule<Real> neighbour_rule(const SearchColumns& columns);
   void find_coarseness();
 
-  // How far a record has moved since its neighbours were listed, beyond `expected`, m.
+  // Displacement of a record since its neighbours were listed, minus `expected`, m.
   Vec3<Real> displacement(const Record& p, std::size_t i, const Vec3<Real>& expected) const {
     return nearest_displacement(p.x, position_at_build_[i] + expected, rules_->view().period);
   }
@@ -208,7 +207,7 @@ class VerletList {
   void patch(const Record* records);
   void patch_fresh(const Record* records);
 
-  // The furthest point of a box around displacements (m) from `from`, squared; NaN where there is doubt.
+  // Square of the distance (m) from `from` to the furthest point of a box of displacements; NaN where in doubt.
   static Real furthest2(const Box3<Real>& box, const Vec3<Real>& from) {
     if (box.is_none()) return Real(0);
     const auto most = [](Real a, Real b) { return a < b ? b : a; };
@@ -224,11 +223,11 @@ class VerletList {
   double coarseness_ = 0;  // m
 
   std::size_t count_ = 0;  // listed
-  std::size_t end_ = 0;  // of the room for those born since
-  std::uint32_t filler_ = 0;  // of short lanes: an entry
+  std::size_t end_ = 0;  // of the room for later births
+  std::uint32_t filler_ = 0;  // entry that fills short lanes
   CellList cells_;
   WindowOrder slots_;
-  std::vector<std::uint32_t> order_;  // while sorting: where each was before; then: ranks
+  std::vector<std::uint32_t> order_;  // while sorting: each one's former index; then: ranks
   NeighbourList list_;
   ColumnStore<Real> position_at_build_;  // m
   bool listed_ = false;
@@ -241,16 +240,16 @@ class VerletList {
   std::vector<std::uint16_t> outlying_;  // by group: a bit a lane
   PatchedRows patched_;
   std::vector<std::uint32_t> outliers_;
-  bool patching_due_ = false;  // rows lack what was released
-  std::vector<std::uint32_t> fresh_;  // added or moved by hand: rows lack them
+  bool patching_due_ = false;  // rows lack released pairs
+  std::vector<std::uint32_t> fresh_;  // added, or moved other than by a step: rows lack them
   std::vector<PatchedRows::MissingEntry>
-      released_;  // what rows lack of pairs that were kept apart when they were listed
+      released_;  // missing entries of pairs that were excluded when the list was built
   typename OutlierPairs<Real>::Room room_;
-  std::mutex mutex_;  // around outliers_
-  std::int64_t steps_ = 0, horizon_ = 0;  // since anchors followed last; how many they are good for
-  bool follow_helps_ = true;  // against outliers, as far as is known
+  std::mutex mutex_;  // guards outliers_
+  std::int64_t steps_ = 0, horizon_ = 0;  // since the last follow(); how many it is good for
+  bool follow_helps_ = true;  // reduces outliers, as far as is known
   std::size_t age_ = 0;  // steps since the last build
-  std::size_t since_followed_ = 0, spent_ = 0;  // on outliers, since anchors followed and since the last build
+  std::size_t since_followed_ = 0, spent_ = 0;  // on outliers, since follow() and since the last build
 };
 
 extern template class VerletList<float>;

@@ -46,7 +46,7 @@ HOOKE_HD void exchange_rows(Pack<double>& a, Pack<double>& b) {
   a = low;
 }
 
-// The same for a number of rows that registers hold.
+// The same for so few rows that registers hold them.
 template <std::size_t kRows>
 struct Network {
   struct Pair {
@@ -146,8 +146,8 @@ class Search {
     std::size_t cleared = 0;  // of rows
   };
 
-  // Copies the ranges behind each other, whole packs: what is too much is overwritten by the next one.
-  // And sixteen more, far away.
+  // Copies the ranges one after the other in whole packs; the next range overwrites what is too much. Sixteen points
+  // far away follow.
   HOOKE_HD std::size_t gather(const SearchRange* range, const SearchRange* end) const {
     std::size_t to = 0;
     for (; range != end; ++range) {
@@ -177,7 +177,7 @@ class Search {
     return to;
   }
 
-  // Keys of a pack of points from p on. Half a register of the oldest instruction set is nothing to compute with.
+  // Keys of a pack of points from p on. SSE2 has no half registers worth using.
   HOOKE_HD void put_keys(std::size_t at, std::size_t p) const {
     if constexpr (kPackBytes > 16) {
       for (std::size_t lane = 0; lane < P::kLanes; lane += Pack<double>::kLanes) {
@@ -197,7 +197,7 @@ class Search {
     return {load(rule_.at.x + first), load(rule_.at.y + first), load(rule_.at.z + first)};
   }
   HOOKE_HD Vec3<P> position(std::uint32_t i) const { return {P(rule_.at.x[i]), P(rule_.at.y[i]), P(rule_.at.z[i])}; }
-  // Seen from the middle of the block, in the image nearest to it.
+  // Relative to the middle of the block, in the image nearest to the middle.
   HOOKE_HD Vec3<P> from_middle(const Vec3<P>& x) const {
     return {displacement(x.x, middle_.x, 0), displacement(x.y, middle_.y, 1), displacement(x.z, middle_.z, 2)};
   }
@@ -209,9 +209,9 @@ class Search {
     return select(d > half, d - length, select(d < -half, d + length, d));
   }
 
-  // Finds who is near the points i to i + kPoints - 1, themselves included, and puts them into their lanes. With
-  // |x_p - x_i|^2 multiplied out, that is x_p^2 - 2 x_p x_i < reach^2 - x_i^2. Reaches are sums, and are multiplied out
-  // likewise.
+  // Finds the points p near each point i to i + kPoints - 1, itself included, and puts them into its lane. With
+  // |x_p - x_i|^2 multiplied out, the test is x_p^2 - 2 x_p x_i < reach^2 - x_i^2. A reach with p's radius in it is
+  // multiplied out likewise.
   template <std::size_t kPoints>
   HOOKE_HD void list_near(std::uint32_t i, std::size_t count, Group* groups) const {
     Vec3<P> twice[kPoints];
@@ -240,7 +240,7 @@ class Search {
     }
   }
 
-  // Copies the keys of the candidates whose numbers are given, but for the point's own.
+  // Copies the keys of the candidates `near` into point i's lane; its own key only with list_self.
   HOOKE_HD void put_into_lane(std::uint32_t i, const std::int32_t* near, std::size_t count, Group* groups) const {
     const std::uint32_t slot = slot_of(i);
     rule_.neighbour_count[slot] = static_cast<std::uint8_t>(count < 255 ? count : 255);
@@ -283,7 +283,7 @@ class Search {
     }
   }
 
-  static constexpr std::uint32_t kInWindow = kWindow - 1;  // bits of a slot
+  static constexpr std::uint32_t kInWindow = kWindow - 1;  // bits of a slot within its window
 
   // Copies: the compiler need not read them again after every store.
   const NeighbourRule<Real> rule_;

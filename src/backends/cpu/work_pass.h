@@ -10,22 +10,22 @@
 
 namespace hooke {
 
-// The work of an applied force as seen from outside; rules of inclusion as in force_pass.h.
+// Interface of the pass that sums the work of an applied force; rules of inclusion as in force_pass.h.
 
-/// What a force did to consecutive particles in a kick, and what of it is summed.
+/// A force on consecutive particles in a kick, and which of its sums are wanted.
 template <class Real>
 struct ForceWork {
   static constexpr std::size_t kMost = ExactParts::kMost;
   const ParticleRecord<Real>* before = nullptr;  // the first particle's
   const ParticleRecord<Real>* after = nullptr;
   const Vec3<Real>* force = nullptr;             // N
-  const Vec3<Real>* acceleration = nullptr;      // velocity Verlet: of the kick to come, m/s^2; else null
-  Real kick{};                                   // how long that takes, s
+  const Vec3<Real>* acceleration = nullptr;      // velocity Verlet: of the coming kick, m/s^2; else null
+  Real kick{};                                   // duration of a kick, s
   std::size_t count = 0;                         // at most kMost; whole groups of 16 can be read
   bool has_resultant = true;                          // the force itself is summed too
 };
 
-/// Powers are those of twice the mean velocity, W, as in PassSum.
+/// Powers are at twice the mean velocity, W, as in PassSum.
 struct WorkSum {
   enum { power, next_power, force, count = force + 3 };
 };
