@@ -12,7 +12,7 @@
 
 namespace hooke {
 
-/// The attraction of a scene, spelled out: every pair whatever method the scene asks for, each particle's sum by
+/// The attraction of a scene, spelled out: every pair, whatever method the scene asks for. Each particle's sum is by
 /// ascending id of the others, in blocks of consecutive ids.
 class ReferenceAttraction {
  public:

@@ -176,7 +176,7 @@ class ReferenceBackend final : public Backend {
   void evaluate_accelerations(const Instant& now, StepReport& report) override {
     HOOKE_ASSERT(verlet());
     Forces forces = accelerations(now, report);
-    report.condition = {};  // nothing moves yet: the first step will say so
+    report.condition = {};  // nothing moves yet: the first step reports it
     for (std::size_t i = 0; i < p_.size(); ++i) {
       if (is_held(i)) {
         const Vec3d& v = p_.velocity[i];
@@ -230,16 +230,16 @@ class ReferenceBackend final : public Backend {
   // A cause whose forces are found for all particles at once.
   struct Acting {
     Cause cause;
-    std::vector<Vec3d> force;  // N, a particle each; empty where the scene has nothing of it
+    std::vector<Vec3d> force;  // N, one per particle; empty where the scene has no such force
   };
   struct Forces {
     std::vector<Vec3d> a;  // m/s^2
     std::vector<Acting> applied;  // in the order of their sum
   };
 
-  // A particle as it meets another one, a wall or a face of a collider.
+  // A particle and its partner: another particle, a wall or a face of a collider.
   struct Meeting {
-    Condition::Kind kind;  // what an approach is that is too fast
+    Condition::Kind kind;  // what to report where the approach is too fast
     std::uint64_t partner;  // id, or index of the collider
     double overlap;  // m
     Vec3d normal;  // to the particle
@@ -248,7 +248,7 @@ class ReferenceBackend final : public Backend {
     double radius;  // m, the smaller one
   };
 
-  // What acts on one particle, N.
+  // The forces on one particle, N.
   struct ParticleForces {
     SurfaceForces<double> contacts;
     Vec3d walls{0, 0, 0}, colliders{0, 0, 0}, drag{0, 0, 0}, applied{0, 0, 0};
@@ -265,7 +265,7 @@ class ReferenceBackend final : public Backend {
     return law_of(rules_.collider(p_.material[i], c));
   }
 
-  // Accelerations of all particles (docs/theory.md eq. 1), and what the report says of them.
+  // Accelerations of all particles (docs/theory.md eq. 1); fills the report.
   Forces accelerations(const Instant& now, StepReport& report) {
     place_colliders_at(now);
     report.applied.emplace();
@@ -371,7 +371,7 @@ class ReferenceBackend final : public Backend {
     return found;
   }
 
-  // The forces, and their powers in the kick that comes with an acceleration `a`, and in the one after it.
+  // Adds the forces, and their powers in the kick with acceleration `a` and in the kick after it.
   void book(std::size_t i, const ParticleForces& on, const Vec3d& a, StepSums& sums) const {
     sums.wall_force.add(on.walls);
     sums.collider_force.add(on.colliders);
@@ -395,7 +395,7 @@ class ReferenceBackend final : public Backend {
     if (verlet()) add_powers(sums.next_power, after, held ? v : kick(after, a, dt / 2));
   }
 
-  // What the applied forces on particle i do in a kick from `before` to `after`, and in the half kick to come.
+  // Adds the work of the applied forces on particle i in a kick from `before` to `after`, and in the coming half kick.
   void add_work(const Forces& forces, std::size_t i, const Vec3d& before, const Vec3d& after, AppliedSums& sums) const {
     for (const Acting& acting : forces.applied) {
       if (acting.force.empty()) continue;
@@ -403,7 +403,7 @@ class ReferenceBackend final : public Backend {
       AppliedSums::Rates& rates = sums[acting.cause];
       rates.power.add(dot(force, before + after));
       if (verlet()) rates.next_power.add(dot(force, after + kick(after, forces.a[i], scene_.time_step / 2)));
-      if (acting.cause != Cause::springs) rates.force.add(force);  // springs give each other what they take
+      if (acting.cause != Cause::springs) rates.force.add(force);  // spring forces sum to 0
     }
   }
 
@@ -416,12 +416,12 @@ class ReferenceBackend final : public Backend {
     return along(x.x, y.x, period_.x) || along(x.y, y.y, period_.y) || along(x.z, y.z, period_.z);
   }
 
-  // visit(p, normal, overlap) for every particle p that acts on i and image of it, by id, then image: those touch it,
-  // overlap > 0, or cohesion reaches from one to the other.
+  // visit(p, normal, overlap) for every image of a particle p that acts on i, by id, then image: it touches i,
+  // overlap > 0, or cohesion reaches across the gap.
   template <class Visit>
   void for_each_contact(std::size_t i, Visit&& visit) const {
     if (!material(i).interacts) return;
-    // Looked at no closer beyond this, m: twice as far as contacts reach, so that rounding can't matter.
+    // Pairs further apart than this, m, are skipped: twice as far as contacts reach, so that rounding can't matter.
     const double far = 2 * (2 * rules_.largest_radius() + rules_.widest_range());
     for (std::size_t p = 0; p < p_.size(); ++p) {
       if (is_farther(far, p_.position[i], p_.position[p]) || !material(p).interacts) continue;
@@ -457,8 +457,8 @@ class ReferenceBackend final : public Backend {
     }
   }
 
-  // Takes particles away for which gone(i); under velocity Verlet with what the half kick to come would have given
-  // them.
+  // Removes the particles for which gone(i); under velocity Verlet, with kick_to_come, at their velocities after the
+  // coming half kick.
   template <class Gone>
   RemovalSums remove_where(const Gone& gone, bool kick_to_come = true) {
     RemovalSums removed;
@@ -484,7 +484,7 @@ class ReferenceBackend final : public Backend {
     return removed;
   }
 
-  // Energy of the contacts between particles and of the springs that end at a particle for which among(i).
+  // Adds the energy of the contacts between particles and of the springs that end at a particle for which among(i).
   template <class Among>
   void add_elastic(const Among& among, ExactSum& sum) const {
     for (std::size_t i = 0; i < p_.size(); ++i) {

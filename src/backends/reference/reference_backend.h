@@ -8,8 +8,8 @@
 
 namespace hooke {
 
-/// All pairs, double precision, one thread, O(N^2): the specification that every other back end is held against, bit
-/// for bit in double. For tests, teaching and a few thousand particles.
+/// All pairs, double precision, one thread, O(N^2): the specification that every other back end must match, bit for
+/// bit in double. For tests, teaching and a few thousand particles.
 std::unique_ptr<Backend> make_reference_backend();
 
 }  // namespace hooke

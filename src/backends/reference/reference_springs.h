@@ -20,7 +20,7 @@
 
 namespace hooke {
 
-/// The springs of a scene, spelled out: every spring by ascending index, so each particle adds up its own in that
+/// The springs of a scene, spelled out: every spring by ascending index, so each particle adds up its springs in that
 /// order.
 class ReferenceSprings {
  public:
@@ -64,7 +64,7 @@ class ReferenceSprings {
     return force;
   }
 
-  /// Breaks what is torn where particles are. Returns which.
+  /// Returns the springs that tear at the present positions, and counts them; tear() breaks them.
   std::vector<std::size_t> torn(const ParticleSet& p, SpringSums& sums) const {
     std::vector<std::size_t> found;
     for_each(p, [&](std::size_t s, std::size_t, std::size_t, const Vec3d&, double extension) {
@@ -127,7 +127,7 @@ class ReferenceSprings {
     return mode == SpringMode::compression ? -1 : mode == SpringMode::extension ? 1 : 0;
   }
 
-  // visit(spring, i, j, normal from j to i, extension) for every spring whose two particles are there.
+  // visit(spring, i, j, normal from j to i, extension) for every unbroken spring whose two particles are there.
   template <class Visit>
   void for_each(const ParticleSet& p, Visit&& visit) const {
     for (std::size_t s = 0; s < springs().size(); ++s) {
