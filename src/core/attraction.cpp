@@ -46,7 +46,7 @@ std::vector<Finding> validate_attraction(const Scene& scene) {
 bool attracts_by_tree(const Attraction& attraction, std::size_t particles) {
   HOOKE_ASSERT(attraction.accuracy >= kFinestAccuracy && attraction.accuracy <= kCoarsestAccuracy, attraction.accuracy);
   if (attraction.method != Attraction::Method::automatic) return attraction.method == Attraction::Method::tree;
-  // Interactions a particle and step, one with a cell counted as two (bench/attraction_bench.cpp).
+  // Interactions per particle and step; one with a cell counts as two (bench/attraction_bench.cpp).
   const double n = static_cast<double>(particles);
   const double by_tree = 1500 * std::pow(1e-3 / attraction.accuracy, 0.5) + 100 * std::log2(std::max(n, 2.0));
   return by_tree < n;

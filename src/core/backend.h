@@ -34,16 +34,16 @@ struct BackendInfo {
 /// Cost and quality of the neighbour search so far.
 struct NeighbourStatistics {
   std::uint64_t rebuilds = 0;
-  double slots_per_particle = 0;  ///< list entries read a particle and step, padding included
+  double slots_per_particle = 0;  ///< list entries read per particle and step, padding included
   std::uint64_t missed_contacts =
-      0;  ///< contacts that a list lacked, a side each; counted only where that is asked for
+      0;  ///< contacts that a list lacked, counted from each side; counted only where that is asked for
 };
 
-/// Wall time by stage, s. Stages don't overlap; what of a step is in none of them is the rest.
+/// Wall time by stage, s. Stages don't overlap; some time of a step is in none of them.
 struct StageTimes {
   double sort = 0;    ///< numbering the cells, sorting particles into them
-  double list = 0;    ///< listing who may touch whom
-  double motion = 0;  ///< following who moves too far for the list, and mending it
+  double list = 0;    ///< listing the pairs that may touch
+  double motion = 0;  ///< finding particles that move too far for the list, and patching it
   double force = 0;   ///< the pass: contacts, walls, drag, gravity, the integrator, and the step's sums
   double drift = 0;   ///< velocity Verlet's first half
 
@@ -64,8 +64,8 @@ struct StageTimes {
 
 /// When forces are evaluated, and where the colliders of the scene are then.
 struct Instant {
-  double time = 0;                      ///< the scene's clock, s: what fields go by
-  std::span<const ColliderPose> poses;  ///< one a collider of the scene, in its order
+  double time = 0;                      ///< the scene's clock, s, on which fields depend
+  std::span<const ColliderPose> poses;  ///< one per collider of the scene, in its order
 };
 
 /// A particle by its id.
@@ -76,17 +76,17 @@ struct ParticleAt {
   Vec3d velocity{0, 0, 0};    ///< m/s
 };
 
-/// What particles that were taken away by their ids took along, and which of them were there.
+/// What particles that were removed by their ids took along, and which of them were there.
 struct Removal {
   RemovalSums sums;
-  std::vector<std::uint8_t> was_there;  ///< 0 or 1, one an id
+  std::vector<std::uint8_t> was_there;  ///< 0 or 1, one per id
 };
 
-/// Where particles live and step: reference (all pairs, the specification), cpu, and others to come. A back end is
-/// three things: a store of particles in its own layout and order, out of which everything comes by id; the stages of a
-/// step, which are coarse, as fusing inside one is its own affair; and an observer of the state. core/step.cpp says in
-/// which order the stages run and keeps the books: a back end reports what its own particles did and remembers none of
-/// it. Scenes are valid, and particles are those of the scene (are_particles_of).
+/// Holds and steps particles: reference (all pairs, the specification), cpu, and others to come. A back end is three
+/// things: a store of particles in its own layout and order, which is read by id; the stages of a step, which are
+/// coarse, so that a back end can fuse the work inside a stage; and an observer of the state. core/step.cpp runs the
+/// stages in their order and keeps the ledger: a back end reports what its own particles did and keeps no totals.
+/// Scenes must be valid, and particles must be the scene's (are_particles_of).
 class Backend {
  public:
   virtual ~Backend() = default;
@@ -95,13 +95,13 @@ class Backend {
 
   // The store -------------------------------------------------------------------------------------------------------
 
-  /// Takes the rules. Before particles, and again, with all particles anew, when a material changes.
+  /// Takes the rules. Called before assign(), and again, before another assign(), when a material changes.
   virtual void configure(const Scene& scene) = 0;
 
-  /// Breaks these springs of the scene's structure (indices, ascending), and no others. Before particles.
+  /// Breaks these springs of the scene's structure (indices, ascending), and no others. Called before assign().
   virtual void break_springs(const std::vector<std::uint64_t>& broken) = 0;
 
-  /// Indices of the broken ones, ascending.
+  /// Indices of the broken springs, ascending.
   virtual std::vector<std::uint64_t> broken_springs() const = 0;
 
   /// Replaces all particles. The neighbour list is stale after.
@@ -117,25 +117,25 @@ class Backend {
   /// The particle of an id as it is stored; nothing where there is none.
   virtual std::optional<ParticleAt> find(std::uint64_t id) const = 0;
 
-  /// Gives particles that there are another position and velocity; their materials and accelerations stay. Those that
-  /// have moved are looked after one by one until the next neighbour list, which many of them bring about.
+  /// Gives existing particles another position and velocity; their materials and accelerations stay. Moved particles
+  /// are handled one by one until the next neighbour list; many of them make a new list necessary.
   virtual void edit(std::span<const ParticleAt> edited) = 0;
 
-  /// Adds particles, their ids above all that there ever were, with no acceleration of a last step: under velocity
-  /// Verlet their first half kick is none. What they bring along.
+  /// Adds particles with ids above all earlier ones. They have no acceleration of a last step: under velocity Verlet,
+  /// their first half kick is 0. Returns what they bring along.
   virtual RemovalSums insert(const ParticleSet& newborn) = 0;
 
-  /// Pushes the particles of these ids, which are unique, from now on, N, and no others: those that are gone later are
-  /// left out, and configure() forgets all. Returns the first id that no particle has, where there is one; then nothing
-  /// changes.
+  /// From now on, pushes the particles of these ids, which are unique, with these forces, N, and no others. Particles
+  /// that are gone later are left out, and configure() ends all forces. Returns the first id that no particle has, if
+  /// there is one; then nothing changes.
   virtual std::optional<std::uint64_t> set_external_forces(std::span<const std::uint64_t> ids,
                                                            std::span<const Vec3d> forces) = 0;
 
-  /// Takes away the particles of these ids, which are unique. What they take along: the momentum and energy that they
-  /// have; under velocity Verlet those after the half kick to come, whose work is booked ahead.
+  /// Removes the particles of these ids, which are unique. Returns the momentum and energy that they take along; under
+  /// velocity Verlet, those after the coming half kick, whose work is booked ahead.
   virtual Removal remove(std::span<const std::uint64_t> ids) = 0;
 
-  /// Takes away the particles whose centres are inside of the scene's sinks. What they take along, as of remove().
+  /// Removes the particles whose centres are inside of the scene's sinks. Returns what they take along, as remove().
   virtual RemovalSums remove_sunk() = 0;
 
   // The stages of a step --------------------------------------------------------------------------------------------
@@ -143,17 +143,17 @@ class Backend {
   /// First half of velocity Verlet: v += dt/2 a; x += dt v. finish_motion() is to follow.
   virtual void half_kick_and_drift() = 0;
 
-  /// What comes after particles have moved: periodic coordinates have been wrapped; particles outside open faces are
-  /// removed and reported in `left`; the neighbour list follows the motion or becomes stale.
+  /// Called after particles have moved. When it returns, periodic coordinates are wrapped, particles outside open faces
+  /// are removed and reported in `left`, and the neighbour list has followed the motion or is stale.
   virtual void finish_motion(RemovalSums& left) = 0;
 
   /// Whether a pair not on the neighbour list could touch now. Always right; never depends on an old speed.
   virtual bool neighbours_stale() = 0;
 
-  /// Sorts particles into cells and lists who may touch whom until the next time this is stale.
+  /// Sorts particles into cells and lists the pairs that may touch until the list is stale.
   virtual Condition build_neighbours() = 0;
 
-  /// The heart: all forces at `now`, and in the same pass what the integrator does with them. Springs that are
+  /// The main stage: all forces at `now` and, in the same pass, the integrator's part. Springs that are
   /// stretched too far when it begins break when it ends. Reports the condition and the sums.
   ///   symplectic Euler   v += dt a; x += dt v. finish_motion() is to follow.
   ///   velocity Verlet    v += dt/2 a
@@ -169,15 +169,15 @@ class Backend {
   virtual void find_inside(const Box3d& box, std::vector<Occupant>& out) const = 0;
 
   /// Sum over the particles of a mix of id and of the bits of position and velocity, modulo 2^64: in the
-  /// precision of this back end, in no order.
+  /// precision of this back end, in any order.
   virtual std::uint64_t particles_hash() const = 0;
 
-  /// What figures at `now` are made of; makes the neighbour list fresh first if it must.
+  /// The sums behind the figures at `now`; first rebuilds the neighbour list if it is stale.
   virtual Expected<MeasurementSums> measure(const Instant& now) = 0;
 
   virtual NeighbourStatistics neighbour_statistics() const = 0;
 
-  /// Of everything so far, also of what was not a step.
+  /// Times of everything so far, also outside of steps.
   virtual StageTimes stage_times() const = 0;
 };
 

@@ -23,8 +23,8 @@ std::uint32_t stream(std::uint32_t emitter, Draw draw) {
   return emitter * static_cast<std::uint32_t>(Draw::kinds) + static_cast<std::uint32_t>(draw);
 }
 
-// Four numbers that lie in a part of the cube that `accept` takes: drawn again until they do. Each part that is asked
-// for takes more than half of the cube, so that a hundred draws always do.
+// Four numbers that `accept` takes, drawn again until it takes them. Each `accept` of this file takes more than half of
+// the cube, so that a hundred draws always suffice.
 template <class Accept>
 std::array<double, 4> draw_until(std::uint64_t seed, std::uint64_t number, std::uint32_t first_draw,
                                  std::uint32_t purpose, const Accept& accept) {
@@ -98,7 +98,7 @@ Vec3d draw_point(const ShapeGeometry<double>& s, std::uint64_t seed, std::uint64
 // A point inside of a closed mesh, in the frame of `s`: drawn from the box around it.
 Vec3d draw_inside(const DistanceField& field, const ShapeGeometry<double>& s, std::uint64_t seed, std::uint64_t number,
                   std::uint32_t attempt, std::uint32_t purpose) {
-  constexpr std::uint32_t kMost = 4096;  // of a mesh that fills a hundredth of its box one in 10^17 births finds none
+  constexpr std::uint32_t kMost = 4096;  // if a mesh fills a hundredth of its box, one in 10^17 births fails
   const Vec3d from = field.min - field.origin, size = field.max - field.min;
   for (std::uint32_t k = 0; k < kMost; ++k) {
     const auto u = uniform4(seed, number, attempt * kMost + k, purpose);
@@ -109,8 +109,8 @@ Vec3d draw_inside(const DistanceField& field, const ShapeGeometry<double>& s, st
   return {kNone, kNone, kNone};
 }
 
-// A point of a triangle that is as likely as it is large (Turk, "Generating random points in triangles", Graphics Gems,
-// 24, 1990).
+// A point of a triangle, which is chosen in proportion to its area (Turk, "Generating random points in triangles",
+// Graphics Gems, 24, 1990).
 Vec3d draw_on_faces(const MeshShape& mesh, const ShapeGeometry<double>& s, std::span<const double> areas,
                     const std::array<double, 4>& u) {
   const auto found = std::upper_bound(areas.begin(), areas.end() - 1, u[0] * areas.back());
@@ -177,9 +177,9 @@ Vec3d draw_position(const PlacedEmitter& emitter, std::uint64_t number, std::uin
   return emitter.body.pivot + turned(emitter.body, own);
 }
 
-// With (a, b) evenly distributed over the unit disc, a^2 + b^2 is over [0, 1), and so a cosine of 1 - (a^2 + b^2)
-// (1 - cos spread) makes the direction so over the cone (Marsaglia, "Choosing a point from the surface of a sphere",
-// Ann. Math. Stat. 43, 645, 1972).
+// With (a, b) uniform over the unit disc, a^2 + b^2 is uniform over [0, 1), so a cosine of 1 - (a^2 + b^2)
+// (1 - cos spread) makes the direction uniform over the cone (Marsaglia, "Choosing a point from the surface of a
+// sphere", Ann. Math. Stat. 43, 645, 1972).
 Vec3d draw_velocity(const PlacedEmitter& emitter, std::uint64_t number, const Vec3d& x) {
   HOOKE_ASSERT(emitter.emitter != nullptr);
   const auto u = draw_until(emitter.emitter->seed, number, 0, stream(emitter.index, Draw::velocity), [](const auto& v) {
@@ -205,7 +205,7 @@ std::optional<std::int64_t> draw_lifetime(const Emitter& emitter, std::uint32_t 
   const double life = from_range(*emitter.life, u[0]), each = dt * from_range(emitter.decay, u[1]);
   constexpr double kLongest = 4503599627370496;  // 2^52 steps: exact, and no run lasts longer
   double n = std::clamp(std::ceil(life / each), 1.0, kLongest);
-  if (n > 1 && (n - 1) * each >= life) --n;  // what rounding made of the quotient
+  if (n > 1 && (n - 1) * each >= life) --n;  // corrects the quotient's rounding
   if (n < kLongest && n * each < life) ++n;
   return static_cast<std::int64_t>(n);
 }

@@ -6,7 +6,7 @@
 
 namespace hooke {
 
-/// What works on the particles: the parts into which the change of their kinetic energy divides.
+/// The causes of work on particles, into which the change of their kinetic energy divides.
 enum class Cause : unsigned char {
   contact_spring,   ///< springs of contacts between particles, and their cohesion
   contact_shear,    ///< dashpots of such contacts on the tangential velocity
@@ -18,12 +18,12 @@ enum class Cause : unsigned char {
   gravity,
   hold,        ///< what keeps held particles still
   springs,     ///< springs of the scene's structure, their dampers included
-  field,  ///< fields: wind, and whatever pushes by place
+  field,  ///< fields: wind, and pushes that depend on position
   attraction,
   external,  ///< forces that the caller asks for, by id
 };
 inline constexpr std::size_t kCauses = 13;
-/// The first of them are in every pass over the particles; the others, applied causes, only in scenes that have them.
+/// The first causes are in every pass over the particles; the others, applied causes, only in scenes that have them.
 inline constexpr std::size_t kPassCauses = static_cast<std::size_t>(Cause::hold);
 
 }  // namespace hooke

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kTwoPi = 6.283185307179586477;
 
-// Where a rotation vector has gone, and how fast it turns while the vector changes by `rate` (rad/s).
+// The axes turned by a rotation vector, and the angular velocity while the vector changes.
 struct Turning {
   std::array<Vec3d, 3> axes;
   Vec3d angular_velocity;

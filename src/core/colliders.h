@@ -21,7 +21,7 @@ namespace hooke {
 
 struct NoMotion {};
 
-/// Steadily: the pivot goes along with the velocity.
+/// Steady motion: the pivot moves with the velocity.
 struct SteadyMotion {
   Vec3d velocity{0, 0, 0};          ///< m/s
   Vec3d angular_velocity{0, 0, 0};  ///< rad/s
@@ -47,7 +47,7 @@ struct Oscillation {
   double phase = 0;          ///< turns
 };
 
-/// Held by a hand: there, for as long as nobody says otherwise. The velocities are what touching particles feel.
+/// Held by hand: it stays there until its motion is set again. Touching particles feel the velocities.
 struct HeldMotion {
   Vec3d position{0, 0, 0};          ///< how far the shape is moved, m
   Vec3d rotation{0, 0, 0};          ///< rad
@@ -64,7 +64,7 @@ struct Collider {
   std::string name;                      ///< unique
   Shape shape;
   bool hollow = false;                   ///< a shell that is touched from both sides, else a solid
-  std::optional<std::size_t> material;   ///< index into the scene's; without one, what holds for walls holds here
+  std::optional<std::size_t> material;   ///< index into the scene's; without one, the law of walls applies
   Motion motion;
 };
 
@@ -78,7 +78,7 @@ struct ColliderPose {
   friend bool operator==(const ColliderPose&, const ColliderPose&) = default;
 };
 
-/// What particles do to a collider at one instant.
+/// The load of particles on a collider at one instant.
 struct ColliderLoad {
   Vec3d force{0, 0, 0};        ///< N
   Vec3d torque{0, 0, 0};       ///< about the pivot, N m

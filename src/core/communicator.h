@@ -9,33 +9,33 @@
 
 namespace hooke {
 
-/// What the ranks that compute one scene together tell each other in a step. Each rank's back end holds and reports of
-/// its own particles; every rank calls each of these at the same place of the same step.
+/// The communication in a step between the ranks that compute one scene together. Each rank's back end holds and
+/// reports its own particles; every rank calls each of these functions at the same point of the same step.
 class Communicator {
  public:
   virtual ~Communicator() = default;
 
-  /// Whether it is so on any rank.
+  /// Whether `here` is true on any rank.
   virtual bool any(bool here) = 0;
 
-  /// Of what the ranks have found the one to report; good where all are.
+  /// The one to report of all ranks' conditions; good where all are good.
   virtual Condition first(const Condition& here) = 0;
 
-  /// Before a neighbour list: every particle to the rank that owns its place, and anew the ghosts, copies of the other
-  /// ranks' particles that may touch one of these until the next list.
+  /// Before a neighbour list: moves every particle to the rank that owns its position, and renews the ghosts, copies of
+  /// the other ranks' particles that may touch this rank's until the next list.
   virtual void migrate(Backend& backend) = 0;
 
-  /// After particles have moved: ghosts to where they are now.
+  /// After particles have moved: updates the ghosts.
   virtual void update(Backend& backend) = 0;
 
-  /// When the figures of the whole scene are read: the sums of all ranks become one, the same on each. Exact sums may
-  /// be added in any order.
+  /// When the figures of the whole scene are read: each rank's sums become the sums over all ranks. Exact sums may be
+  /// added in any order.
   virtual void sum(LedgerSums& sums) = 0;
   virtual void sum(MeasurementSums& sums) = 0;
   virtual void sum(std::uint64_t& count) = 0;  ///< modulo 2^64: of particles, of their hashes
 };
 
-/// A scene on one rank, which has no other to talk to.
+/// For a scene on one rank alone.
 class SerialCommunicator final : public Communicator {
  public:
   bool any(bool here) override { return here; }

@@ -24,7 +24,7 @@ struct Condition {
 
   bool good() const { return kind == Kind::good; }
 
-  /// Of two findings the one to report: the one of the lower particle id, so that it is always the same.
+  /// The finding to report of two: the one of the lower particle id, so that it is always the same.
   static Condition first(const Condition& a, const Condition& b) {
     if (a.good()) return b;
     if (b.good()) return a;

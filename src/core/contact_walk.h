@@ -12,13 +12,13 @@
 
 namespace hooke {
 
-// What acts on one particle, pair by pair and wall by wall, in double precision: the walk that the specification, a
-// close look and exports share. The force pass has its own, over packs.
+// Visits what acts on one particle, pair by pair and wall by wall, in double precision: shared by the specification,
+// the CPU back end's checks and exports. The force pass has its own loops, over packs.
 
 /// Which periodic image of the other particle: whole numbers of lengths along each axis.
 using ImageIndex = std::array<std::int32_t, 3>;
 
-/// Where images of particles are looked for.
+/// Which images of particles to visit.
 struct PeriodicImages {
   Vec3d period{0, 0, 0};  ///< m, of periodic axes; 0 for the others
   ImageIndex most{};           ///< images -n to n along a periodic axis; 0: the nearest alone
@@ -48,14 +48,14 @@ void for_each_image(const Vec3d& x_i, const Vec3d& x_p, const PeriodicImages& im
   }
 }
 
-/// A pair of particles in the same place as far as they act on each other.
+/// The geometry of a pair of particles, as contact laws need it.
 struct PairGeometry {
   double overlap = 0;     ///< m, below 0 where they don't touch
   Vec3d normal{1, 0, 0};  ///< unit vector from p to i
 };
 
-/// Of particle i and the image of p that lies at `x_ip`. `contact_distance`: r_i + r_p, m. `tie`: as of
-/// contact_normal().
+/// The geometry of particle i and an image of p; `x_ip` points from the image to i. `contact_distance`: r_i + r_p, m.
+/// `tie`: as of contact_normal().
 inline PairGeometry pair_geometry(const Vec3d& x_ip, double contact_distance, double tie) {
   const double distance = sqrt_of(dot(x_ip, x_ip));
   return {contact_distance - distance, contact_normal(x_ip, distance, tie)};
@@ -67,8 +67,8 @@ struct Walls {
   Vec3d min{0, 0, 0}, max{0, 0, 0};  ///< m
 };
 
-/// visit(face, normal, overlap) for every wall that acts on a particle at x (m), by axis, the lower face first: those
-/// that overlap it, and those that its cohesion reaches across `range` (m). face: 2 axis, and 1 more for the upper.
+/// visit(face, normal, overlap) for every wall that acts on a particle at x (m), by axis, the lower face first: walls
+/// that overlap it, and walls within the `range` (m) of cohesion. face: 2 axis, and 1 more for the upper.
 template <class Visit>
 void for_each_wall(const Walls& walls, const Vec3d& x, double radius, double range, const Visit& visit) {
   for (int axis = 0; axis < 3; ++axis) {

@@ -25,16 +25,16 @@ namespace hooke {
 
 namespace {
 
-// A contact of particle a, from its side: seen from the other one, it comes up a second time.
+// A contact from the side of particle a; it is found a second time from the other side.
 struct Touch {
   Contact contact;
   double normal_force;  // N, > 0 pushes a away
 };
 
-// Particles in cells, and who touches whom there.
+// Particles in cells, and the contacts between them.
 class ContactSearch {
  public:
-  /// Of pairs further apart than `furthest` (m) some may not be found.
+  /// Some pairs further apart than `furthest` (m) may be missed.
   ContactSearch(const Scene& scene, const ParticleSet& particles, const ContactInstant& now,
                 double furthest = std::numeric_limits<double>::infinity())
       : scene_(scene),
@@ -50,7 +50,7 @@ class ContactSearch {
     sort_spheres();
   }
 
-  // How far from each other those that are compared may be, m.
+  // All pairs nearer than this, m, are compared.
   double reach() const { return reach_; }
 
   // How many comparisons it takes to find everything.
@@ -66,8 +66,8 @@ class ContactSearch {
     return all;
   }
 
-  // body(i, touches) for every particle of the set, or each `every`-th, on all threads, in the order of cells. Of
-  // touches, pairs come first.
+  // body(i, touches) for every particle of the set, or each `every`-th, on all threads, in the order of cells. In
+  // `touches`, pairs come first.
   template <class Body>
   void for_each_particle(const Body& body, std::size_t every = 1) const {
     parallel_ranges(spheres_.size(), kBlock, [&](std::size_t first, std::size_t last) {
@@ -85,7 +85,7 @@ class ContactSearch {
   }
 
  private:
-  static constexpr std::size_t kBlock = 4096;  // particles a piece of work
+  static constexpr std::size_t kBlock = 4096;  // particles per piece of work
   static constexpr double kNever = std::numeric_limits<double>::infinity();
 
   // A particle of the set, in the order of cells.
@@ -101,7 +101,7 @@ class ContactSearch {
     std::size_t first, last;
   };
 
-  // The particles in and around the cell in hand, as ranges of the sorted ones. Cells come in ascending order.
+  // The particles in and around the current cell, as ranges of the sorted spheres. Cells come in ascending order.
   class Neighbourhood {
    public:
     explicit Neighbourhood(const ContactSearch& search) : search_(search) {}
@@ -126,13 +126,13 @@ class ContactSearch {
       return all;
     }
 
-    // Whoever may touch sphere k, itself included.
+    // The spheres that may touch sphere k, itself included.
     std::span<const std::uint32_t> near(std::size_t k) {
       return search_.any_periodic_ ? filter<true>(k) : filter<false>(k);
     }
 
    private:
-    // Without a branch: most are far, and which is near nobody can foretell. The margin leaves the last digits to the
+    // Without a branch: most are far, and the near ones are unpredictable. The margin leaves the last digits to the
     // exact test.
     template <bool kPeriodic>
     std::span<const std::uint32_t> filter(std::size_t k) {
@@ -325,7 +325,7 @@ const char* to_string(Face face) {
 std::vector<Contact> find_contacts(const Scene& scene, const ParticleSet& particles, const ContactInstant& now) {
   const ContactSearch search(scene, particles, now);
 
-  // How many each particle lists, then where its list begins.
+  // How many contacts each particle lists, then where its list begins.
   std::vector<std::size_t> begin(particles.size() + 1);
   search.for_each_particle([&](std::size_t i, std::span<const Touch> touches) {
     begin[i + 1] = static_cast<std::size_t>(std::count_if(touches.begin(), touches.end(), is_listed));
@@ -351,7 +351,7 @@ Overlaps count_overlaps(const Scene& scene, const ParticleSet& particles) {
   constexpr double kMostComparisons = 2e7;
   constexpr int kMostHalvings = 30;
   Overlaps found;
-  std::mutex mutex;  // around it
+  std::mutex mutex;  // guards the results
   const auto look = [&](const ContactSearch& search) {
     const auto every = static_cast<std::size_t>(std::ceil(std::max(1.0, search.comparisons() / kMostComparisons)));
     double sides = 0;
@@ -383,7 +383,7 @@ Overlaps count_overlaps(const Scene& scene, const ParticleSet& particles) {
     found.pairs = std::max(found.pairs, 0.5 * sides * static_cast<double>(every));
     return every == 1;
   };
-  // Where only some were looked at, all of them are by ones that are nearer.
+  // Where only some particles were checked, all particles are checked for nearer pairs.
   double furthest = std::numeric_limits<double>::infinity();
   for (int k = 0; k < kMostHalvings; ++k) {
     const ContactSearch search(scene, particles, {}, furthest);

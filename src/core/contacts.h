@@ -13,10 +13,10 @@
 
 namespace hooke {
 
-// Contacts of a snapshot, found afresh from positions and velocities: for files and pictures. A running back end has
-// its own list and is not asked. Pairs that a spring of the scene keeps apart are no contacts. All functions want
-// particles of the scene (are_particles_of) at finite positions; along periodic axes those should be inside the domain,
-// as snapshots have them: of others not all contacts are found. Results do not depend on the number of threads.
+// Contacts of a snapshot, found afresh from positions and velocities: for files and pictures. The list of a running
+// back end is not used. Pairs that a spring of the scene keeps apart are no contacts. All functions need particles of
+// the scene (are_particles_of) at finite positions. Along periodic axes, positions should be inside the domain, as in
+// snapshots: outside, contacts may be missed. Results do not depend on the number of threads.
 
 /// A face of the domain; `none` where the partner is a particle.
 enum class Face : std::uint8_t { none, x_min, x_max, y_min, y_max, z_min, z_max };
@@ -24,10 +24,10 @@ enum class Face : std::uint8_t { none, x_min, x_max, y_min, y_max, z_min, z_max 
 /// "x-min", "x-max", ... "z-max"; "" for none.
 const char* to_string(Face face);
 
-/// What a snapshot says beside its particles.
+/// The state of a snapshot beside its particles.
 struct ContactInstant {
   double time = 0;  ///< s: colliders are where they are then
-  std::span<const std::uint64_t> broken_springs{};  ///< indices into the structure's, ascending: they keep nobody apart
+  std::span<const std::uint64_t> broken_springs{};  ///< indices into the structure's, ascending: no longer apart
 };
 
 /// Two particles, or a particle and a wall or a collider, that touch, or that cohesion holds across a gap.
@@ -41,25 +41,25 @@ struct Contact {
   double overlap = 0;  ///< m; not above 0 across a gap
   Vec3d force{0, 0, 0};  ///< on a by the law of physics/contact.h, N; b takes -force
   std::uint32_t collider = 0;  ///< index into the scene's, of kCollider
-  Vec3d point{0, 0, 0};  ///< of its surface, nearest to the centre of a, m
+  Vec3d point{0, 0, 0};  ///< on its surface, nearest to the centre of a, m
 };
 
-/// Every contact once, by a; a's by (b, image), then its walls along x, y, z, the lower first, then
+/// Every contact once, in order of a: its pairs by (b, image), then its walls along x, y, z, the lower first, then
 /// colliders in the scene's order, face by face. A particle that touches
 /// its own image across a short periodic axis is a contact with b = a.
 std::vector<Contact> find_contacts(const Scene& scene, const ParticleSet& particles, const ContactInstant& now = {});
 
 /// How much particles overlap each other.
 struct Overlaps {
-  double pairs = 0;  ///< that touch; estimated from some of the particles where they are too many to look at
+  double pairs = 0;  ///< touching pairs; estimated from some of the particles where there are too many
   std::uint32_t a = 0, b = 0;  ///< indices of the pair that overlaps most for its size, where there is one
   double overlap = 0;  ///< of this pair, m
   double ratio = 0;  ///< over the sum of its radii
 };
-/// In little time and memory, however many they are.
+/// Takes little time and memory, however many pairs overlap.
 Overlaps count_overlaps(const Scene& scene, const ParticleSet& particles);
 
-/// What the contacts do to each particle, in the order of the set.
+/// Figures of each particle's contacts, in the order of the set.
 struct ContactFigures {
   std::vector<std::uint32_t> count;  ///< touching particles, images of its own, walls and colliders
   /// Pa: the mean stress that the contacts put on the particle, compression positive, a third of the trace of its

@@ -20,7 +20,7 @@ struct DistanceField {
   std::vector<float> samples;
   bool open = false;                   ///< the mesh encloses nothing: distances are never negative
   Vec3d min{0, 0, 0}, max{0, 0, 0};    ///< box around the surface, m
-  double band = 0;                     ///< up to how far from the surface there are samples, either side, m
+  double band = 0;                     ///< samples reach this far from the surface on either side, m
 
   DistanceFieldView view() const { return {cell, {bricks[0], bricks[1], bricks[2]}, directory.data(), samples.data()}; }
 };

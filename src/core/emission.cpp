@@ -22,7 +22,7 @@ constexpr std::uint64_t kMostAttempts = 32;  // to find a place for a birth, in 
 
 Vec3d rounded(const Vec3d& a, bool single) { return single ? to_single_precision(a) : a; }
 
-// Adds what a step makes due; returns how many whole births that is.
+// Adds the births that a step makes due; returns how many whole births are due.
 std::uint64_t births_due(const Emitter& emitter, EmitterState& state, std::int64_t step, double dt) {
   const double time = static_cast<double>(step - 1) * dt, slack = 1e-9 * dt;  // a step that begins on the dot counts
   if (time >= emitter.start - slack && time < emitter.stop - slack) state.due += emitter.rate * dt;
@@ -105,7 +105,7 @@ void Emission::emit(const Scene& scene, std::uint32_t index, std::int64_t step, 
   const std::uint64_t wanted = state.to_respawn + births_due(emitter, state, step, scene.time_step);
   if (wanted == 0) return;
 
-  // Who and what is in the way.
+  // What is in the way.
   const Material& material = scene.materials[emitter.material];
   const PlacedColliders<double> colliders = place_colliders<double>(scene, poses, material.radius);
   FreeSpace space(scene, emitter.material, colliders.all);
@@ -113,7 +113,7 @@ void Emission::emit(const Scene& scene, std::uint32_t index, std::int64_t step, 
   const PlacedEmitter placed = place_emitter(emitter, index, time, space.reach(), areas_[index]);
   if (material.interacts) {
     Box3d box = placed.body.near;
-    for (int axis = 0; axis < 3; ++axis) {  // who is near across a periodic face is near
+    for (int axis = 0; axis < 3; ++axis) {  // a particle near across a periodic face is near
       if (scene.domain.boundary[static_cast<std::size_t>(axis)] != Boundary::periodic) continue;
       component(box.min, axis) = component(scene.domain.min, axis);
       component(box.max, axis) = component(scene.domain.max, axis);
@@ -142,8 +142,8 @@ void Emission::emit(const Scene& scene, std::uint32_t index, std::int64_t step, 
   state.due = std::max(0.0, state.due - static_cast<double>(births_.size() - reborn));
 }
 
-// Up to the first that finds no place: it, and all that follow, wait for another step, when it goes on with the places
-// that it has not tried.
+// Finds births up to the first that finds no place. That birth and all that follow wait for another step, which goes on
+// with places that have not been tried.
 void Emission::find_births(const PlacedEmitter& emitter, const Scene& scene, FreeSpace& space, bool single,
                            std::uint64_t wanted) {
   EmitterState& state = emitters_[emitter.index];

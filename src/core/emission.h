@@ -20,9 +20,9 @@ class Backend;
 class FreeSpace;
 struct Scene;
 
-/// How far an emitter has got.
+/// The progress of an emitter.
 struct EmitterState {
-  double due = 0;  ///< births that its rate has made due and that have not been, the fraction of one included
+  double due = 0;  ///< births owed by its rate, the fraction of one included
   std::uint64_t births = 0;  ///< so far: the number of the next one
   std::uint64_t reborn = 0;  ///< of them, in place of an ended life
   std::uint64_t to_respawn = 0;  ///< lives that have ended and wait to be born again
@@ -40,7 +40,7 @@ struct Mortal {
   friend auto operator<=>(const Mortal&, const Mortal&) = default;
 };
 
-/// What a checkpoint stores of births and deaths to come.
+/// What a checkpoint stores of future births and deaths.
 struct EmissionState {
   std::vector<EmitterState> emitters;  ///< as many as the scene has, or none at the start
   std::vector<Mortal> mortals;  ///< ascending; some may have left early
@@ -48,7 +48,7 @@ struct EmissionState {
   friend bool operator==(const EmissionState&, const EmissionState&) = default;
 };
 
-/// Why a saved state can't be that of `scene`; empty where it can.
+/// Why a saved state does not fit `scene`; empty where it does.
 std::vector<Finding> check_state(const EmissionState& state, const Scene& scene);
 
 /// Births and deaths at the end of each step, the same for all back ends: which particles go, which come, where and how
@@ -62,9 +62,9 @@ class Emission {
   /// follow.
   std::span<const std::uint64_t> end_lives(std::int64_t step);
 
-  /// Those that are born with step `step` (> 0) of the scene that it was configured for, its colliders in these poses,
-  /// with ids from `next_id` on, which are given out. A back end is asked only what is in the way. `was_there` says of
-  /// each life that ended whether its particle still was. Valid until the next call.
+  /// The particles born with step `step` (> 0) of the configured scene, whose colliders are in these poses. They get
+  /// the ids from `next_id` on, which advances. The back end is only asked what is in the way. `was_there` says for
+  /// each life that ended whether its particle still existed. Valid until the next call.
   const ParticleSet& give_birth(const Scene& scene, std::int64_t step, std::span<const ColliderPose> poses,
                                 std::span<const std::uint8_t> was_there, const Backend& backend,
                                 std::uint64_t& next_id);
@@ -74,11 +74,11 @@ class Emission {
   void restore(EmissionState state);
 
  private:
-  // A birth that is to be.
+  // A coming birth.
   struct Birth {
     Vec3d position, velocity;
     std::optional<std::int64_t> lifetime;  // steps
-    std::uint64_t attempts = 0;  // that found no place; one found it where they are fewer than allowed
+    std::uint64_t attempts = 0;  // failed ones; fewer than allowed where a place was found
   };
 
   void emit(const Scene& scene, std::uint32_t index, std::int64_t step, std::span<const ColliderPose> poses,
@@ -89,10 +89,10 @@ class Emission {
   std::vector<EmitterState> emitters_;
   std::vector<std::vector<double>> areas_;  // areas_of_birth() of each
   std::map<std::int64_t, std::vector<Mortal>> mortals_;  // by the step of their death
-  std::vector<Mortal> ending_;  // in the step in hand
+  std::vector<Mortal> ending_;  // in the current step
   std::vector<std::uint64_t> ending_ids_;
-  ParticleSet newborn_;  // of the step in hand
-  std::vector<Birth> births_;  // of the emitter in hand
+  ParticleSet newborn_;  // of the current step
+  std::vector<Birth> births_;  // of the current emitter
 };
 
 }  // namespace hooke

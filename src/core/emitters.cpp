@@ -104,8 +104,8 @@ std::vector<Finding> check_emitters(const Scene& scene) {
 
 namespace {
 
-// Whether an emitter that does not move has any place for a birth, as far as nothing but the domain and colliders that
-// do not move either are in its way.
+// Whether an emitter that does not move has any place for a birth, with only the domain and colliders that do not move
+// in the way.
 bool has_any_place(const Scene& scene, std::uint32_t index) {
   constexpr std::uint64_t kTries = 10000;
   const Emitter& emitter = scene.emitters[index];

@@ -37,12 +37,12 @@ struct Emitter {
   double stop = std::numeric_limits<double>::infinity();  ///< and before this one, s
   std::optional<std::uint64_t>
       count;  ///< births in all, those that replace an ended life not counted; none: any number
-  bool respawn = false;      ///< whoever's life has ended is born again in the next step, under a new id
+  bool respawn = false;      ///< a particle whose life has ended is born again in the next step, under a new id
   std::uint64_t seed = 1;    ///< of all draws
-  Motion motion;             ///< of the shape; what is born moves along with it
+  Motion motion;             ///< of the shape; newborns move along with it
 };
 
-/// Takes away every particle whose centre is inside; of a plane, behind it. No disc, and no open mesh.
+/// Removes every particle whose centre is inside; for a plane, behind it. No disc, and no open mesh.
 struct Sink {
   Shape shape;
 };
@@ -51,10 +51,10 @@ struct Scene;
 /// What is wrong with the emitters and sinks of a scene. Paths are those of the scene file.
 std::vector<Finding> check_emitters(const Scene& scene);
 
-/// Emitters at rest that can't bear, wherever other particles are: of a scene with nothing else wrong.
+/// Emitters at rest that have no place for a birth, even without other particles; nothing else may be wrong.
 std::vector<Finding> check_places_of_birth(const Scene& scene);
 
-/// What `emitter` needs room for in a run of `seconds` (s): about how many of its particles are there at most.
+/// About the largest number of particles of `emitter` that exist at a time in a run of `seconds` (s).
 double expected_population(const Emitter& emitter, double seconds);
 
 }  // namespace hooke

@@ -13,8 +13,8 @@
 
 namespace hooke {
 
-/// How wind comes and goes: velocity + amplitude sin(2 pi (frequency t - s / wavelength)), s how far along the wind a
-/// place is.
+/// How wind comes and goes: velocity + amplitude sin(2 pi (frequency t - s / wavelength)), where s is the position
+/// along the wind.
 struct Gust {
   Vec3d amplitude{0, 0, 0};  ///< m/s
   double frequency = 1;      ///< Hz, >= 0
@@ -35,19 +35,19 @@ struct UniformPush {
   Vec3d acceleration{0, 0, 0};  ///< m/s^2
 };
 
-/// A push towards a point: by an acceleration, or, with `time`, as whoever wants to walk there.
+/// A push towards a point: by an acceleration, or, with `time`, like a walker's.
 struct PushToward {
   Vec3d point{0, 0, 0};     ///< m
   double acceleration = 0;  ///< m/s^2
-  double speed = 0;         ///< wished, m/s, >= 0
-  double time = 0;          ///< in which the velocity adapts to it, s, > 0; 0: there is no such wish
+  double speed = 0;         ///< desired, m/s, >= 0
+  double time = 0;          ///< in which the velocity adapts to `speed`, s, > 0; 0: it does not
 };
 
 /// A force on particles that depends on where they are and how they move, not on each other (docs/theory.md eq. 14 to
 /// 16): plain data of a scene.
 struct Field {
   std::variant<Wind, UniformPush, PushToward> law;
-  std::optional<BoxShape> within;      ///< whose centre is in this box; else everywhere
+  std::optional<BoxShape> within;      ///< acts on particles whose centre is in this box; else everywhere
   std::vector<std::size_t> materials;  ///< those that feel it, indices into the scene's; none: all
 };
 

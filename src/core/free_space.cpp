@@ -12,7 +12,7 @@
 namespace hooke {
 namespace {
 
-constexpr double kClear = 1 + 1e-5;  // of a contact distance: what single precision makes of it is nearer to 1
+constexpr double kClear = 1 + 1e-5;  // times a contact distance: single precision rounds by less
 
 double largest_radius_of_those_that_touch(const Scene& scene) {
   double largest = 0;

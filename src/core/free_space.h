@@ -13,16 +13,16 @@
 namespace hooke {
 
 /// Where particles of one material can be put: inside the domain, clear of walls and colliders and, where the material
-/// touches others, of those, by a little more than rounding takes.
+/// touches other particles, clear of these, by a little more than rounding.
 class FreeSpace {
  public:
-  /// The material (index) is one of particles. Colliders are placed for particles of its radius at least.
+  /// `material` (index) is a material of particles. Colliders are placed with a reach of at least its radius.
   FreeSpace(const Scene& scene, std::size_t material, std::span<const PlacedCollider<double>> colliders);
 
-  /// How far from the centre of one of these another's can be and still touch it, m.
+  /// Largest distance between the centres of one of these particles and of another that touches it, m.
   double reach() const { return reach_; }
 
-  /// Somebody who touches others is there, in or near the domain.
+  /// Adds a particle that touches others, in or near the domain.
   void add(const Occupant& occupant);
 
   bool has_room_at(const Vec3d& x) const;

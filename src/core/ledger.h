@@ -23,23 +23,23 @@ struct PopulationLedger {
   Vec3d born_momentum{0, 0, 0};  ///< brought along by those born, kg m/s
   double born_energy = 0;        ///< kinetic and potential, likewise, J
   std::uint64_t born = 0;        ///< particles, by emitters
-  std::uint64_t expired = 0;     ///< whose life ended
+  std::uint64_t expired = 0;     ///< particles whose life ended
   std::uint64_t sunk = 0;        ///< taken away by sinks
 
   friend bool operator==(const PopulationLedger&, const PopulationLedger&) = default;
 };
 
-/// What steps leave behind beside the particles: sums over all steps so far, each rounded once from an exact sum
+/// The totals of a run: sums over all steps so far, each rounded once from an exact sum
 /// (LedgerSums), so that its bits are the same for any number of threads and across a restart.
 struct Ledger {
   Work work;  ///< J
-  /// Given to particles, N s. Causes that act between particles give none; what attraction gives is what the tree is
-  /// off from Newton's third law.
+  /// Impulse given to particles, N s. Causes that act between particles give none; attraction gives the tree's
+  /// deviation from Newton's third law.
   ByCause<Vec3d> impulse;
   Vec3d removed_momentum{0, 0, 0};  ///< taken along by particles that left, expired or sank, kg m/s
   double removed_energy = 0;        ///< kinetic and potential, taken along likewise, J
-  /// That was in contacts between particles and in springs when one of them left, expired or sank, less what was in
-  /// contacts of those born, J.
+  /// Energy in contacts between particles and in springs when a particle left, expired or sank, less the energy in
+  /// contacts of newborns, J.
   double removed_elastic = 0;
   std::uint64_t removed = 0;  ///< particles that left through open faces
   PopulationLedger population;

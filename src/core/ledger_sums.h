@@ -11,7 +11,7 @@
 
 namespace hooke {
 
-/// What evaluations of the forces did in kicks of equal length, added up.
+/// Sums over kicks of equal length of what the forces did.
 struct KickSums {
   ByCause<ExactSum> twice_power;    ///< at twice the mean of the velocities before and after the kick, W
   ByCause<ExactVectorSum> force;    ///< N
@@ -21,8 +21,8 @@ struct KickSums {
   friend bool operator==(const KickSums&, const KickSums&) = default;
 };
 
-/// The ledger as a run keeps it: exact sums over all steps so far, which read() rounds. Those of a rank are of its own
-/// particles; added up in any order they are the scene's, so a step needs no word between ranks.
+/// The ledger as a run keeps it: exact sums over all steps so far, which read() rounds. A rank sums over its own
+/// particles; the ranks' sums, added in any order, are the scene's, so a step needs no message between ranks.
 struct LedgerSums {
   double kick = 0;  ///< length of the kicks, s: symplectic Euler's of one step each, velocity Verlet's of half one
   KickSums kicks;  ///< of all kicks of that length so far
@@ -51,7 +51,7 @@ struct LedgerSums {
   }
   void book_born(const RemovalSums& newborn) { born.add(newborn); }
 
-  /// Adds another rank's.
+  /// Adds another rank's sums.
   void add(const LedgerSums& other);
 
   /// The figures, each rounded a few times: exact sums, their products with the lengths of kicks, and sums of these.

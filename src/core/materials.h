@@ -30,7 +30,7 @@ struct Material {
   bool interacts = true;  ///< else its particles touch walls and colliders, but no particles
   bool fixed = false;                     ///< no force moves its particles
 
-  /// Else only colliders may have it.
+  /// If not, only colliders may have it.
   bool is_of_particles() const { return radius > 0; }
 };
 
@@ -57,7 +57,7 @@ class ContactTable {
   ContactTable(std::span<const Material> materials, std::span<const ContactEntry> entries);
 
   std::size_t material_count() const { return wall_.size(); }
-  /// Of materials < material_count().
+  /// The law of two materials < material_count().
   const ContactLaw<double>& pair(std::size_t a, std::size_t b) const {
     HOOKE_ASSERT(a < material_count() && b < material_count(), a, b, material_count());
     return pairs_[a * wall_.size() + b];
@@ -66,14 +66,14 @@ class ContactTable {
     HOOKE_ASSERT(a < material_count(), a, material_count());
     return wall_[a];
   }
-  /// Of material `a` against a collider of material `b`; without one the wall's.
+  /// The law of material `a` against a collider of material `b`; without `b`, the wall's.
   const ContactLaw<double>& collider(std::size_t a, std::optional<std::size_t> b) const {
     return b ? pair(a, *b) : wall(a);
   }
 
   /// Whether no surface does anything: the law is linear.
   bool is_linear() const { return linear_; }
-  /// How far apart those may be that act on each other, m.
+  /// The largest gap across which a pair acts, m.
   double widest_range() const { return widest_range_; }
 
  private:

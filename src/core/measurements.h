@@ -21,7 +21,7 @@ struct Measurements {
   double wall_elastic_energy = 0;         ///< in the springs of walls, J
   std::uint64_t springs = 0;              ///< that hold
   double spring_energy = 0;               ///< in them, J
-  double attraction_energy = 0;           ///< of all particles with each other, J, <= 0
+  double attraction_energy = 0;           ///< of all pairs of particles, J, <= 0
   Vec3d momentum{0, 0, 0};                ///< kg m/s
   Vec3d centre_of_mass{0, 0, 0};          ///< m
   double momentum_scale = 0;              ///< sum of m |v|, kg m/s: what rounding of the momentum is relative to
@@ -31,7 +31,7 @@ struct Measurements {
   Vec3d min{0, 0, 0}, max{0, 0, 0};       ///< box around the centres, m; 0 where there is none
   Vec3d wall_force{0, 0, 0};              ///< by walls on particles at this instant, N
   double collider_elastic_energy = 0;     ///< in the springs of colliders, J
-  std::vector<ColliderLoad> colliders;    ///< what particles do to each at this instant
+  std::vector<ColliderLoad> colliders;    ///< the load of particles on each at this instant
 };
 
 }  // namespace hooke

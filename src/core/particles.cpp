@@ -62,8 +62,8 @@ void ParticleSet::sort_by_id() {
 }
 
 std::size_t ParticleSet::find(std::uint64_t particle_id) const {
-  HOOKE_ASSERT(id.empty() || id.front() <= id.back(), id.front(), id.back());  // to look at all would take too long
-  // Most often ids are consecutive numbers.
+  HOOKE_ASSERT(id.empty() || id.front() <= id.back(), id.front(), id.back());  // checking all would take too long
+  // Usually ids are consecutive numbers.
   if (!id.empty() && id.back() - id.front() == size() - 1) {
     return particle_id >= id.front() && particle_id <= id.back() ? particle_id - id.front() : size();
   }

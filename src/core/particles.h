@@ -12,7 +12,7 @@ namespace hooke {
 
 struct Scene;
 
-/// Particles on the host, one entry of every column a particle, in ascending order of id. Values that a
+/// Particles on the host, one entry of every column per particle, in ascending order of id. Values that a
 /// single-precision back end holds are exact in these doubles.
 struct ParticleSet {
   std::vector<std::uint64_t> id;        ///< unique, ascending, never used again after a removal
@@ -35,8 +35,8 @@ struct ParticleSet {
   std::size_t find(std::uint64_t particle_id) const;
 };
 
-/// Columns of the caller's that particles are copied into, in ascending order of id: of as many entries as there are
-/// particles, or null where a column isn't wanted.
+/// The caller's columns, into which particles are copied in ascending order of id: one entry per particle, or null
+/// where a column isn't wanted.
 template <class Real>
 struct ParticleColumns {
   std::uint64_t* id = nullptr;
@@ -47,8 +47,8 @@ struct ParticleColumns {
       nullptr;  ///< m/s^2 of the last step; left alone where the integrator is not velocity Verlet
 };
 
-/// Whether the columns fit, ids ascend, and materials are the scene's: what all functions rely on that take both a
-/// scene and its particles.
+/// Whether the columns fit, ids ascend, and materials are the scene's. All functions that take both a scene and its
+/// particles rely on this.
 bool are_particles_of(const ParticleSet& particles, const Scene& scene);
 
 }  // namespace hooke

@@ -32,7 +32,7 @@ ShapeGeometry<S> rounded(const ShapeGeometry<double>& g) {
 
 }  // namespace detail
 
-/// A collider where it is, in a back end's number type. `reach` (m, >= 0): no further from a particle's centre it acts.
+/// A collider in its pose, in a back end's number type. It acts within `reach` (m, >= 0) of a particle's centre.
 template <class S>
 PlacedCollider<S> place_collider(const Collider& collider, const ColliderPose& pose, double reach) {
   HOOKE_ASSERT(reach >= 0, collider.name, reach);
@@ -43,7 +43,7 @@ PlacedCollider<S> place_collider(const Collider& collider, const ColliderPose& p
   for (std::size_t axis = 0; axis < 3; ++axis) placed.turn[axis] = vec_cast<S>(pose.turn[axis]);
   placed.velocity = vec_cast<S>(pose.velocity);
   placed.angular_velocity = vec_cast<S>(pose.angular_velocity);
-  // The box around the turned box of the shape, a little wider than what rounding takes.
+  // The box around the turned box of the shape, with a margin for rounding.
   const Box3d box = bounds_of(collider.shape);
   const Vec3d middle = moved_point(collider, pose, box.center()), half = 0.5 * box.extent();
   for (int axis = 0; axis < 3; ++axis) {
@@ -59,13 +59,13 @@ PlacedCollider<S> place_collider(const Collider& collider, const ColliderPose& p
   return placed;
 }
 
-/// All colliders of a scene where they are, in its order, each with its images across periodic faces.
+/// All colliders of a scene in their poses, in its order, each with its images across periodic faces.
 template <class S>
 struct PlacedColliders {
   std::vector<PlacedCollider<S>> all;
   std::vector<std::uint32_t> of;  ///< the index in the scene of each
 
-  /// For loops to read, for as long as this stays as it is.
+  /// For loops to read, as long as this object does not change.
   CollidersView<S> view() const {
     CollidersView<S> view{all.data(), of.data(), all.size(), Box3<S>::none()};
     for (const PlacedCollider<S>& collider : all) view.near.add(collider.near);
@@ -73,9 +73,9 @@ struct PlacedColliders {
   }
 };
 
-/// A pose for each collider; `reach` as above. Images are what can be touched inside of the domain: of a collider that
-/// is shorter along a periodic axis than the domain, where it may have moved on across the face. A longer one, as a
-/// plane is, spans the domain, and is there once, as it is.
+/// `poses` has one for each collider; `reach` as above. A collider that is shorter along a periodic axis than the
+/// domain gets all images that can be touched inside of the domain, even after it has crossed a face. A longer one,
+/// such as a plane, spans the domain and is there once, without images.
 template <class S>
 PlacedColliders<S> place_colliders(const Scene& scene, std::span<const ColliderPose> poses, double reach) {
   HOOKE_ASSERT(poses.size() == scene.colliders.size(), poses.size(), scene.colliders.size());

@@ -41,7 +41,7 @@ class PlacedField {
     return !bounded_ || within_.contains(x);
   }
 
-  /// On a particle that it acts on, N; `v` in m/s.
+  /// The force on a particle that it acts on, N; `v` in m/s.
   Vec3<Real> force(std::size_t material, const Vec3<Real>& x, const Vec3<Real>& v) const {
     const Feeling& own = feels_[material];
     switch (law_) {
@@ -64,8 +64,8 @@ class PlacedField {
   /// Whether it acts on triangles of cloths too.
   bool blows_on_sheets() const { return area_drag_ > Real(0); }
 
-  /// On each corner of such a triangle, N. Its middle `x` is in the field; edges from its first corner, m; `v` the mean
-  /// velocity of its corners, m/s.
+  /// The force on each corner of such a triangle, N. Its middle `x` is in the field; edges are from its first corner,
+  /// m; `v` is the mean velocity of its corners, m/s.
   Vec3<Real> force_on_corner(const Vec3<Real>& x, const Vec3<Real>& edge_1, const Vec3<Real>& edge_2,
                              const Vec3<Real>& v) const {
     return sheet_force(edge_1, edge_2, wind_at(x) - v, area_drag_);

@@ -35,14 +35,14 @@ Rules<Real>::Rules(const Scene& scene) {
   compile_domain(scene.domain);
   view_.dt = real<Real>(scene.time_step);
   view_.gravity = vec_cast<Real>(scene.gravity);
-  // A little below the limits, so that what double precision would find is always looked at.
+  // A little below the limits, so that every approach that double precision would report is checked.
   view_.speed_limit = real<Real>(0.999 * smallest_radius_ / scene.time_step);
 }
 
 template <class Real>
 void Rules<Real>::compile_materials(const Scene& scene) {
   const ContactTable table(scene.materials, scene.contacts);
-  // Materials of colliders alone come last where a file says it; without them there are fewer pairs to tell apart.
+  // Scene files put materials of colliders alone last; without these there are fewer pairs to tell apart.
   std::size_t n = scene.materials.size();
   while (n > 0 && !scene.materials[n - 1].is_of_particles()) --n;
   pairs_.assign(n * n, PairRow<Real>{});

@@ -30,7 +30,7 @@ class Rules {
   std::size_t material_count() const { return view_.material_count; }
   const PairRow<Real>& pair(std::size_t a, std::size_t b) const { return pairs_[a * material_count() + b]; }
   const PairRow<Real>& wall(std::size_t a) const { return wall_pairs_[a]; }
-  /// Of material a and a collider of the scene.
+  /// The row of material a and a collider of the scene.
   const PairRow<Real>& collider(std::size_t a, std::size_t c) const {
     return collider_pairs_[c * material_count() + a];
   }
@@ -39,17 +39,17 @@ class Rules {
   bool interacts(std::size_t a) const { return interacts_[a] != 0; }
 
   double largest_radius() const { return largest_radius_; }  ///< of all particles, m
-  double largest_touching() const { return largest_touching_; }  ///< of those that touch others, m; 1 without one
+  double largest_touching() const { return largest_touching_; }  ///< of particles that touch others, m; 1 without one
   double smallest_touching() const { return smallest_touching_; }  ///< likewise
   /// Particles act on each other, and walls on them, across gaps up to this, m.
   double widest_range() const { return widest_range_; }
 
-  /// How far a particle reaches, m: two act on each other no further apart than the sum.
+  /// A particle's reach, m: two particles act on each other only within the sum of their reaches.
   double reach_of(std::size_t material) const { return materials_[material].radius + widest_range_ / 2; }
   double largest_reach() const { return largest_touching_ + widest_range_ / 2; }
-  /// How far from its centre a wall or a collider acts on a particle, m.
+  /// Largest distance from a particle's centre at which a wall or a collider acts on it, m.
   double largest_reach_of_bodies() const { return largest_radius_ + widest_range_; }
-  /// What rounding may take from a displacement across a periodic axis, m.
+  /// A bound on the rounding of a displacement across a periodic axis, m.
   double rounding() const { return rounding_; }
 
  private:

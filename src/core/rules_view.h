@@ -40,19 +40,19 @@ enum class PeriodicKind {
   images,   // shorter: all images up to a number
 };
 
-/// What a scene says of the forces on its particles and of their motion. Points into the Rules that made it.
+/// A scene's rules for the forces on its particles and for their motion. Points into the Rules that made it.
 template <class Real>
 struct RulesView {
   std::size_t material_count = 1;                // materials that particles may have
   const PairRow<Real>* pairs = nullptr;          // material_count squared
   const PairRow<Real>* wall_pairs = nullptr;     // material_count
-  const PairRow<Real>* collider_pairs = nullptr;  // a row of material_count a collider of the scene
+  const PairRow<Real>* collider_pairs = nullptr;  // a row of material_count per collider of the scene
   const MaterialRow<Real>* materials = nullptr;  // material_count
   bool linear = true;                            // surfaces do nothing, here and with colliders
-  bool has_drag = false;                         // some material's is not 0
+  bool has_drag = false;                         // some material has drag
   Real dt{};                                     // s
   Vec3<Real> gravity{};                          // m/s^2
-  Real speed_limit{};                            // m/s: contacts that approach faster are looked at closely
+  Real speed_limit{};                            // m/s: contacts that approach faster are checked closely
   Vec3<Real> min{}, max{}, length{};             // domain, m
   Vec3<Real> period{};                           // length along periodic axes, else 0
   bool wall[3]{};                                // spring walls across this axis
@@ -66,7 +66,7 @@ struct RulesView {
 template <class Real>
 struct CollidersView {
   const PlacedCollider<Real>* placed = nullptr;  // in the scene's order, image by image
-  const std::uint32_t* index = nullptr;          // of each, which of the scene's it is
+  const std::uint32_t* index = nullptr;          // each one's index in the scene
   std::size_t count = 0;
   Box3<Real> near;                          // m: outside of it no particle touches one
 };

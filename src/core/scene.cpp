@@ -75,7 +75,7 @@ void check_domain(const Domain& domain, bool single, Checker& check) {
   }
 }
 
-// Images of a particle further away than a few radii would be many; nothing real is that small.
+// A shorter period would need many images of a particle; no real domain is that small.
 void check_periods(const Scene& scene, Checker& check) {
   double largest = 0;
   for (const Material& m : scene.materials) largest = std::max(largest, m.radius);

@@ -50,7 +50,7 @@ struct Domain {
     for (std::size_t axis = 0; axis < 3; ++axis) found.across[axis] = boundary[axis] == Boundary::spring;
     return found;
   }
-  /// Of periodic axes; 0 for the others, m.
+  /// The lengths of periodic axes, m; 0 for the others.
   Vec3d period() const {
     Vec3d lengths{0, 0, 0};
     for (int axis = 0; axis < 3; ++axis) {
@@ -99,8 +99,8 @@ struct Scene {
   SceneCamera camera;
 };
 
-/// What makes `scene` unusable, if anything: values that are not finite, signs, empty domains, twins of a
-/// name or of a pair. Empty where all is well. Paths are those of the scene file.
+/// What makes `scene` unusable, if anything: values that are not finite, wrong signs, empty domains, duplicate names
+/// or pairs. Empty where all is well. Paths are those of the scene file.
 std::vector<Finding> validate(const Scene& scene);
 
 }  // namespace hooke

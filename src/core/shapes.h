@@ -16,8 +16,8 @@
 
 namespace hooke {
 
-// Shapes as scenes describe them, of colliders and of whatever else takes a part of space. Lengths in metres. All
-// functions but validate() want shapes as these comments say they are.
+// Shapes as scenes describe them, of colliders and of other parts of space. Lengths in metres. All functions but
+// validate() need shapes within the limits that these comments state.
 
 struct PlaneShape {
   Vec3d point{0, 0, 0};
@@ -46,7 +46,7 @@ struct DiscShape {
   Vec3d normal{0, 1, 0};  ///< not 0, of any length
   double radius = 1;      ///< > 0
 };
-/// Triangles, placed; what touches it meets `field`, pictures show `surface`.
+/// Triangles, placed: contacts use `field`, pictures show `surface`.
 struct MeshShape {
   std::shared_ptr<const TriangleMesh> surface;
   std::shared_ptr<const DistanceField> field;
@@ -54,10 +54,10 @@ struct MeshShape {
 
 using Shape = std::variant<PlaneShape, BoxShape, SphereShape, CapsuleShape, CylinderShape, DiscShape, MeshShape>;
 
-/// The middle of a shape, m: of a plane its point, of a mesh the middle of the box around it.
+/// The middle of a shape, m: for a plane its point, for a mesh the middle of the box around it.
 Vec3d middle_of(const Shape& shape);
 
-/// The box around a shape, m; of a plane infinite along every axis.
+/// The box around a shape, m; for a plane, infinite along every axis.
 Box3d bounds_of(const Shape& shape);
 
 /// The shape's numbers for the laws, m relative to `origin`.

@@ -105,7 +105,7 @@ struct Simulation::Impl {
   double initial_energy = 0, initial_elastic = 0;
   Vec3d initial_momentum{0, 0, 0};
 
-  // The particles on the host: filled on the first look after something has changed, null before.
+  // The particles on the host: copied on the first access after a change, null before.
   std::shared_ptr<const Snapshot> host;
   SnapshotPool pool;
   StageTimes stage_times;  // of steps
@@ -125,7 +125,7 @@ struct Simulation::Impl {
     return host = now;
   }
 
-  // What changes or asks the back end. Where memory runs out, nobody knows what of it has been done: that is the end.
+  // Runs what changes or asks the back end. If memory runs out, the back end's state is unknown: the simulation fails.
   template <class Body>
   auto guarded(const Body& body) -> decltype(body()) {
     if (failed) return fail(failure);
@@ -209,8 +209,8 @@ struct Simulation::Impl {
         scene.time_step, stable.seconds);
   }
 
-  // A back end of the reference's kind computes in double whatever is asked; one in single must not be given a
-  // scene that asks for double.
+  // A back end in double precision, like the reference, takes every scene; one in single must not be given a scene that
+  // asks for double.
   Expected<void> check_precision() const {
     if (scene.precision == Precision::single_precision || backend->info().precision == scene.precision) return {};
     return fail(Error::Kind::bad_input, "precision",
@@ -244,7 +244,7 @@ struct Simulation::Impl {
       for (std::int64_t i = 0; i < count; ++i) {
         if (auto taken = check(take_step(scene, *backend, ranks, run)); !taken) return taken;
       }
-      // What the last step has lost is reported before anyone saves it.
+      // Particles that the last step has lost are reported before the state can be saved.
       return check(update_neighbours(*backend, ranks));
     });
   }
@@ -379,8 +379,8 @@ Expected<void> Simulation::apply_impulse(std::uint64_t id, const Vec3d& impulse)
     if (!before) return fail(before.error());
     ParticleAt after = *before;
     after.velocity += (1 / s.mass_of(after.material)) * impulse;
-    // Not where it is: a particle that presses into a soft wall may stand outside the domain and can be pushed all the
-    // same.
+    // The position is not checked: a particle that presses into a soft wall may stand outside the domain and can still
+    // be pushed.
     if (!is_finite(after.velocity, s.single())) {
       return fail(Error::Kind::bad_input, fmt::format("particle {}", id),
                   "velocity " + shown(after.velocity) + " is not finite");

@@ -24,9 +24,9 @@ struct SimulationState {
   std::int64_t step = 0;      ///< steps done
   std::uint64_t next_id = 1;  ///< id of the next particle to be added
   LedgerSums ledger;
-  std::shared_ptr<const Structure> structure;  ///< the scene's: where the scene brings none, this one holds
+  std::shared_ptr<const Structure> structure;  ///< the scene's; used where a scene to resume has none
   std::vector<std::uint64_t> broken_springs;   ///< indices of its springs, ascending
-  double initial_energy = 0;  ///< kinetic, potential, elastic and of springs at step 0, J
+  double initial_energy = 0;  ///< kinetic, potential, elastic, of springs and of attraction at step 0, J
   double initial_elastic = 0;  ///< of that, in contacts between particles and in springs, J
   Vec3d initial_momentum{0, 0, 0};
   EmissionState emission{};
@@ -75,8 +75,8 @@ class Simulation {
   /// Wall time of all calls of step() so far, by stage.
   const StageTimes& stage_times() const;
 
-  /// The particles now: the same one until the next call that steps or changes something, then another. Keep it as
-  /// long as you like, on any thread. The first look after a step copies the particles from the back end.
+  /// The present particles: the same snapshot until the next call that steps or changes something. Keep it as long as
+  /// you like, on any thread. The first call after a change copies the particles from the back end.
   std::shared_ptr<const Snapshot> snapshot() const;
 
   /// Of snapshot(), by ascending id. Valid until the next call that steps or changes something.
@@ -85,13 +85,13 @@ class Simulation {
   std::span<const Vec3d> positions() const;  ///< m
   std::span<const Vec3d> velocities() const;  ///< m/s
 
-  /// Copies the particles into columns of the caller's, of particle_count() entries, in ascending order of id: for one
-  /// who wants some of what a snapshot holds, or floats.
+  /// Copies the particles into the caller's columns, of particle_count() entries, in ascending order of id: for callers
+  /// that need only part of a snapshot, or floats.
   Expected<void> copy_particles(const ParticleColumns<double>& out) const;
   Expected<void> copy_particles(const ParticleColumns<float>& out) const;
 
-  /// Adds particles; their ids, in order. Under velocity Verlet they begin as births do, with no acceleration of a last
-  /// step. Materials must exist, values be finite, positions inside the domain.
+  /// Adds particles; returns their ids, in order. Under velocity Verlet they begin as births do, with no acceleration
+  /// of a last step. Materials must exist, values be finite, positions inside the domain.
   Expected<std::vector<std::uint64_t>> add_particles(std::span<const NewParticle> particles);
   /// Removes particles by id; none of them is removed where one is unknown.
   Expected<void> remove_particles(std::span<const std::uint64_t> ids);
@@ -99,12 +99,12 @@ class Simulation {
   Expected<ParticleAt> find(std::uint64_t id) const;
   /// v += impulse / m (N s) of one particle.
   Expected<void> apply_impulse(std::uint64_t id, const Vec3d& impulse);
-  /// Moves one particle and sets its velocity (m, m/s): for what is led by hand.
+  /// Moves one particle and sets its velocity (m, m/s): for particles led by hand.
   Expected<void> set_particle(std::uint64_t id, const Vec3d& position, const Vec3d& velocity);
   /// Pushes each of these particles with its force (N) in every evaluation of the forces from now on (velocity Verlet's
   /// next first half kick is still by the last one), in place of the forces that were set before; empty ones end it.
-  /// Ids must be there and unique, forces finite. Forces are the caller's, not the state's: a saved state does not have
-  /// them, and set_material() and restore() forget them. What they do is in the ledger (Cause::external).
+  /// Ids must exist and be unique, forces finite. Forces are not part of the state: a saved state does not have them,
+  /// and set_material() and restore() end them. Their work is in the ledger (Cause::external).
   Expected<void> set_external_forces(std::span<const std::uint64_t> ids, std::span<const Vec3d> forces);
   /// Replaces the material of the same name, from the next step on.
   Expected<void> set_material(const Material& material);
@@ -115,7 +115,7 @@ class Simulation {
   /// it belongs to the scene, not to the state: to go on from a saved state, change it again.
   Expected<void> set_collider_motion(const std::string& name, const Motion& motion);
 
-  /// The complete state, and back to one: the same bits follow.
+  /// The complete state; restore() goes back to one, and the same bits follow.
   SimulationState state() const;
   Expected<void> restore(SimulationState state);
 
@@ -129,8 +129,8 @@ class Simulation {
   Ledger ledger() const;
   /// Which springs of Scene::structure are broken: indices, ascending.
   std::vector<std::uint64_t> broken_springs() const;
-  /// Kinetic, potential, elastic and springs' energy at step 0, J, and momentum, kg m/s: what drifts are measured from.
-  /// What is added, removed or pushed by hand later moves the momentum along, not the energy.
+  /// Kinetic, potential, elastic, springs' and attraction's energy at step 0, J, and momentum, kg m/s: the references
+  /// of drifts. Particles that are later added, removed or pushed by hand change this momentum, but not this energy.
   double initial_energy() const;
   double initial_elastic() const;  ///< of that, in contacts between particles and in springs, J
   const Vec3d& initial_momentum() const;
@@ -145,8 +145,8 @@ class Simulation {
 /// impulses. Rounding alone leaves about 1e-7 in single precision.
 double momentum_drift(const Measurements& now, const Ledger& ledger, const Vec3d& initial_momentum);
 
-/// What contacts between particles and springs have done, and the change of the energy that is in them: 0 but for the
-/// integrator's error, J (docs/theory.md section 6). Positive where it has made energy.
+/// The work of contacts between particles and of springs, plus the change of the energy in them: 0 but for the
+/// integrator's error, J (docs/theory.md section 6). Positive where the integrator has made energy.
 double integration_error(const Measurements& now, const Ledger& ledger, double initial_elastic);
 
 /// The largest stable step, s (docs/theory.md eq. 9): of the scene's stiffest and lightest materials, of the springs
@@ -157,7 +157,7 @@ struct StableStep {
   std::string limit;
 };
 StableStep stable_step(const Scene& scene, const ParticleSet& particles = {});
-/// The same of a simulation as it is. Looks at its particles only where something ties them.
+/// The same for a simulation's present state. Reads its particles only where the scene has a structure.
 StableStep stable_step(const Simulation& simulation);
 
 }  // namespace hooke

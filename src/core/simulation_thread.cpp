@@ -22,14 +22,14 @@ struct SimulationThread::Impl {
   Simulation simulation;  // the thread's own, once it runs
   std::shared_ptr<const Snapshot> mailbox;
 
-  mutable std::mutex mutex;  // of the mailbox and all below
+  mutable std::mutex mutex;  // guards the mailbox and all below
   std::condition_variable changed;
   std::deque<Command> commands;
-  std::int64_t steps_left;  // beside the one in hand
+  std::int64_t steps_left;  // beside the current one
   std::uint64_t orders = 0;  // to pause, resume or step, so far
   bool busy;            // with a command, a step or a snapshot
   bool fresh = true;    // the mailbox holds the state as it is
-  bool wanted = false;  // a fresh one in the mailbox
+  bool wanted = false;  // a reader wants a fresh one
   End end = End::none;
   std::optional<Error> failure;
   std::thread thread;
@@ -55,12 +55,12 @@ struct SimulationThread::Impl {
       } else if (steps_left > 0) {
         take_step(lock);
       }
-      // A state that stays as it is gets into the mailbox unasked.
+      // A state that no longer changes goes into the mailbox unasked.
       if (!fresh && commands.empty() && (wanted || steps_left == 0)) publish(lock);
     }
   }
 
-  // Between them as many commands as have come, so that steps don't wait for those that come meanwhile for ever.
+  // Carries out the commands that have come so far, so that later commands don't make steps wait for ever.
   void carry_out(std::unique_lock<std::mutex>& lock) {
     for (std::size_t left = commands.size(); left > 0 && end != End::now; --left) {
       Command command = std::move(commands.front());

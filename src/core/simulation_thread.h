@@ -16,8 +16,8 @@
 
 namespace hooke {
 
-/// Steps a simulation on a thread of its own, as fast as it goes, for a window or another reader that must not wait for
-/// it, nor it for the reader. Commands are carried out between steps, in the order in which they came; the latest state
+/// Steps a simulation on a thread of its own, as fast as it goes, for a window or another reader: neither waits for the
+/// other. Commands are carried out between steps, in the order in which they came; the latest state
 /// lies in a mailbox. No lock is held across a step or a command. Any thread may call any member but finish() and the
 /// destructor, which are the last call.
 ///
@@ -28,11 +28,11 @@ namespace hooke {
 ///     }
 class SimulationThread {
  public:
-  /// What is done with the simulation between two steps. What it throws is a failure().
+  /// An action on the simulation between two steps. What it throws is a failure().
   using Command = std::function<void(Simulation&)>;
 
   explicit SimulationThread(Simulation simulation, bool paused = false);
-  /// Ends after the step or the command in hand; what waits is not carried out.
+  /// Ends after the current step or command; waiting commands are not carried out.
   ~SimulationThread();
   SimulationThread(const SimulationThread&) = delete;
   SimulationThread& operator=(const SimulationThread&) = delete;
@@ -40,9 +40,9 @@ class SimulationThread {
   /// Queues a command: an edit, another material or motion, a restore. Returns at once.
   void post(Command command);
 
-  /// The same with an answer, which is ready when the command has been carried out; what the command throws is thrown
-  /// by get(), std::future_error where the thread ends before. A command that waits for the answer of another one waits
-  /// for ever.
+  /// The same with an answer, which is ready when the command has been carried out; get() throws what the command
+  /// throws, or std::future_error where the thread ends before. A command that waits for the answer of another command
+  /// waits for ever.
   template <class Ask, class Answer = std::invoke_result_t<Ask, Simulation&>>
   std::future<Answer> ask(Ask command) {
     auto task = std::make_shared<std::packaged_task<Answer(Simulation&)>>(std::move(command));
@@ -51,25 +51,25 @@ class SimulationThread {
     return answer;
   }
 
-  /// After the step in hand.
+  /// Pauses after the current step.
   void pause();
   /// Goes on until told otherwise.
   void resume();
   /// Takes so many steps (> 0), beside those that earlier calls have asked for, then pauses.
   void step(std::int64_t count = 1);
-  /// Whether nothing is done and nothing waits: latest() is the state as it stays.
+  /// Whether nothing runs and nothing waits: latest() is the present state.
   bool is_paused() const;
 
-  /// The latest state that was put into the mailbox, never null. Asks for a newer one to be put there after the step in
-  /// hand, if there is one: while nobody looks and steps go on, none is made.
+  /// The latest state that was put into the mailbox, never null. Requests a newer one, if there is one, after the
+  /// current step: while steps go on, a state is only made on request.
   std::shared_ptr<const Snapshot> latest();
 
-  /// What the last step or command failed with. The thread pauses where one fails; a state that a command restores can
+  /// The error of the last step or command. The thread pauses where one fails; a state that a command restores can
   /// go on.
   std::optional<Error> failure() const;
 
-  /// Ends the thread after the step in hand and the commands that wait. Steps that were asked for and have not been
-  /// taken are not. The simulation as it is then.
+  /// Ends the thread after the current step and the waiting commands. Steps that have not been taken are dropped.
+  /// Returns the simulation.
   Simulation finish();
 
  private:

@@ -8,8 +8,8 @@
 
 namespace hooke {
 
-/// The particles at one instant. One that a simulation has handed out never changes, and lives for as long as somebody
-/// keeps it, on any thread.
+/// The particles at one instant. A snapshot that a simulation has handed out never changes, and lives for as long as
+/// any thread keeps it.
 struct Snapshot {
   std::int64_t step = 0;  ///< steps done
   double time = 0;        ///< step * dt, s

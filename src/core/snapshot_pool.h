@@ -12,11 +12,11 @@
 
 namespace hooke {
 
-/// Snapshots whose memory is used again once all readers of one have let it go: fresh columns of half a million
-/// particles cost more than what is copied into them. Any thread may let go.
+/// Reuses the memory of snapshots that all readers have released: to allocate the columns of half a million particles
+/// costs more than to fill them. Any thread may release.
 class SnapshotPool {
  public:
-  /// One to be filled; what is in it is left over.
+  /// A snapshot to be filled; it still has old content.
   std::shared_ptr<Snapshot> take() {
     std::unique_ptr<Snapshot> snapshot = spares_->pop();
     if (!snapshot) snapshot = std::make_unique<Snapshot>();
@@ -27,7 +27,7 @@ class SnapshotPool {
  private:
   class Spares {
    public:
-    Spares() { all_.reserve(kMost); }  // so that nobody who lets go can run out of memory
+    Spares() { all_.reserve(kMost); }  // so that a release can't run out of memory
     std::unique_ptr<Snapshot> pop() {
       const std::lock_guard lock(mutex_);
       if (all_.empty()) return nullptr;

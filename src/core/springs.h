@@ -34,8 +34,7 @@ struct Spring {
   bool contact = true;  ///< false: the two particles don't touch each other for as long as it holds
 };
 
-/// Springs, one entry of every column a spring. The index of a spring is its place in the order of the sums: each
-/// particle adds up its springs by ascending index.
+/// Springs, one entry of every column per spring. Each particle adds up its springs by ascending index.
 struct SpringSet {
   std::vector<std::uint64_t> a, b;
   std::vector<double> rest_length, stiffness, damping, break_strain;
@@ -51,7 +50,7 @@ struct SpringSet {
   friend bool operator==(const SpringSet&, const SpringSet&) = default;
 };
 
-/// A surface that particles span: what of a cloth is drawn and exported.
+/// A surface that particles span: the part of a cloth that is drawn and exported.
 struct Surface {
   std::string name;                      ///< of its material
   std::vector<std::uint64_t> particles;  ///< ids of its corners
@@ -60,7 +59,7 @@ struct Surface {
   friend bool operator==(const Surface&, const Surface&) = default;
 };
 
-/// Springs that one entry of a scene made: those from where the group before ends, the first from 0, up to `end`.
+/// The springs that one entry of a scene made: from the end of the group before (0 for the first) up to `end`.
 struct SpringGroup {
   std::string name;  ///< where the entry is, e.g. bodies[0]
   std::size_t end = 0;  ///< no less than that of the group before, and no more than there are springs
@@ -72,7 +71,7 @@ struct SpringGroup {
 /// part of the state.
 struct Structure {
   SpringSet springs;
-  std::vector<SpringGroup> groups;  ///< what messages call springs; those of no group go by their particles
+  std::vector<SpringGroup> groups;  ///< names of springs in messages; without a group, their particles name them
   std::vector<std::uint64_t> held;  ///< ids of particles that no force moves, ascending
   std::vector<Surface> surfaces;
 
@@ -83,7 +82,7 @@ struct Structure {
 /// `single` asks that values survive the rounding to float.
 std::vector<Finding> validate(const Structure& structure, bool single);
 
-/// What of it does not fit `particles`, in ascending order of id: ids that there are none of.
+/// Ids in the structure that none of `particles` has, which are in ascending order of id.
 std::vector<Finding> check_ids(const Structure& structure, const ParticleSet& particles);
 
 }  // namespace hooke

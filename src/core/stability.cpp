@@ -14,7 +14,7 @@
 namespace hooke {
 namespace {
 
-// Of two coefficients that limit a step together, the one that would limit it to much the same by itself.
+// Of two coefficients that limit a step together, the one that alone would limit it to about the same; or both.
 const char* limiting(double omega2, double gamma, const char* spring, const char* dashpot, const char* both) {
   const double by_spring = critical_step(omega2, 0), by_dashpot = critical_step(0, gamma);
   if (by_spring < by_dashpot / 4) return spring;
@@ -37,13 +37,13 @@ class Smallest {
   void consider_boundary(const ContactCoefficients<double>& c, double mass, const std::string& pair) {
     if (is_smaller(c.stiffness / mass, (c.shear + c.damping) / mass)) step.limit = "stiffness and damping of " + pair;
   }
-  // What brakes particles of a mass by `rate` (kg/s) in all.
+  // All that brakes particles of a mass: `rate` in kg/s.
   void consider_drag(double rate, double mass, const std::string& what) {
     if (is_smaller(0, rate / mass)) step.limit = what;
   }
-  // The springs that tie one particle, K and C in all. No mode of particles and springs is faster than
-  // omega^2 = 2 K/m, gamma = 2 C/m of the one for which that is most: (u_i - u_p)^2 <= 2 (u_i^2 + u_p^2) for each.
-  // Returns whether they are what limits it so far.
+  // The springs that tie one particle, with the sums K and C. No mode of particles and springs is faster than
+  // omega^2 = 2 K/m, gamma = 2 C/m of the particle with the most: (u_i - u_p)^2 <= 2 (u_i^2 + u_p^2) for each spring.
+  // Returns whether these springs limit the step so far.
   bool consider_springs(double stiffness, double damping, double mass, std::uint64_t id) {
     const double omega2 = 2 * stiffness / mass, gamma = 2 * damping / mass;
     if (!is_smaller(omega2, gamma)) return false;
@@ -82,7 +82,7 @@ void consider_contacts(const Scene& scene, Smallest& smallest) {
   }
 }
 
-// What a field brakes particles of this material by at most, kg/s, wherever they are.
+// The most that a field brakes particles of this material, kg/s, at any position.
 double braking(const Field& field, const Material& m, std::size_t material) {
   const std::vector<std::size_t>& felt_by = field.materials;
   if (!felt_by.empty() && std::find(felt_by.begin(), felt_by.end(), material) == felt_by.end()) return 0;
@@ -91,7 +91,7 @@ double braking(const Field& field, const Material& m, std::size_t material) {
   return push != nullptr && push->time > 0 ? m.mass / push->time : 0;
 }
 
-// Drag and fields brake a particle together; named is who has a good part in it.
+// Drag and fields brake a particle together; those with a good part in it are named.
 void consider_braking(const Scene& scene, Smallest& smallest) {
   constexpr double kGoodPart = 0.1;
   for (std::size_t a = 0; a < scene.materials.size(); ++a) {
@@ -127,7 +127,7 @@ std::string springs_around(const Structure& structure, std::uint64_t id, const M
 }
 
 // Wind on a triangle brakes each corner along the normal, by a third of k_A A (docs/theory.md eq. 15): no mode of a
-// sheet is braked faster than the corner that has the most of it.
+// sheet is braked faster than the corner that is braked most.
 void consider_sheets(const Structure& structure, const Scene& scene, const ParticleSet& particles, Smallest& smallest) {
   for (std::size_t f = 0; f < scene.fields.size(); ++f) {
     const auto* wind = std::get_if<Wind>(&scene.fields[f].law);

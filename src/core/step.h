@@ -12,7 +12,7 @@
 
 namespace hooke {
 
-/// Where a run is: all that its steps move on beside the particles, which the back end holds.
+/// The state of a run that its steps advance, without the particles, which the back end holds.
 struct RunState {
   std::int64_t step = 0;            ///< steps done
   std::uint64_t next_id = 1;        ///< of the next particle to be added
@@ -21,15 +21,15 @@ struct RunState {
   LedgerSums ledger;                ///< sums over all steps so far, of this rank's particles
 };
 
-/// Puts the colliders of the scene to where they are after `step` steps. The instant of that.
+/// Moves the colliders of the scene to their poses after `step` steps. Returns that instant.
 Instant place_colliders(RunState& run, const Scene& scene, std::int64_t step);
 
 /// Takes one step, the whole algorithm in its order. Stops at the first stage that finds something wrong: the step is
 /// not counted then, and no further one is possible.
 Condition take_step(const Scene& scene, Backend& backend, Communicator& ranks, RunState& run);
 
-/// Makes the neighbour list fresh where it must be. Every step does so when it needs one; after the last of several
-/// steps it tells at once what the next would find wrong with the particles.
+/// Rebuilds the neighbour list where it is stale. Every step does so; after the last of several steps, it reports at
+/// once what the next step would find wrong with the particles.
 Condition update_neighbours(Backend& backend, Communicator& ranks);
 
 /// Velocity Verlet: gives all particles the accelerations that the first step begins with. Under symplectic Euler there

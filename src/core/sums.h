@@ -17,7 +17,7 @@
 
 namespace hooke {
 
-/// Three exact sums, one a component.
+/// Three exact sums, one per component.
 class ExactVectorSum {
  public:
   void add(const Vec3d& a) {
@@ -41,7 +41,7 @@ class ExactVectorSum {
 /// The rates of one evaluation of the forces, gathered particle by particle in any order.
 struct StepSums {
   /// Powers at twice the mean of the velocities before and after a kick, W: of the kick that comes with the evaluation,
-  /// and, under velocity Verlet, of the one that the next step begins with. Of applied causes: see AppliedSums.
+  /// and, under velocity Verlet, of the one that the next step begins with. For applied causes, see AppliedSums.
   ByCause<ExactSum, kPassCauses> power, next_power;
   ExactVectorSum wall_force;  ///< N
   ExactVectorSum drag_force;  ///< N
@@ -53,20 +53,20 @@ struct StepSums {
 /// What springs do beside their work.
 struct SpringSums {
   ExactSum dissipation;  ///< by their dampers, W; half from each end
-  ExactSum broken_energy;  ///< that was in those that broke, J
-  std::uint64_t broken = 0;  ///< how many
+  ExactSum broken_energy;  ///< that was in springs that broke, J
+  std::uint64_t broken = 0;  ///< springs that broke
 
   void add(const SpringSums& other);
 };
 
-/// The same for applied causes, and what springs do beside.
+/// The same for applied causes, and SpringSums.
 struct AppliedSums {
   struct Rates {
     ExactSum power, next_power;  ///< as in StepSums, W
     ExactVectorSum force;  ///< N
   };
 
-  /// Of an applied cause.
+  /// The rates of an applied cause.
   Rates& operator[](Cause cause) {
     HOOKE_ASSERT(static_cast<std::size_t>(cause) >= kPassCauses, cause);
     return of[static_cast<std::size_t>(cause) - kPassCauses];
@@ -93,11 +93,11 @@ struct StepReport {
   ExactSum mass;  ///< of all particles, kg
 };
 
-/// Particles that leave, or come, as one sums them up.
+/// Sums over particles that leave, or come.
 struct RemovalSums {
   ExactVectorSum momentum;  ///< kg m/s
   ExactSum energy;  ///< J
-  ExactSum elastic;  ///< in contacts between particles and in springs, of each once, J
+  ExactSum elastic;  ///< in contacts between particles and in springs, each counted once, J
   std::uint64_t count = 0;
 
   void add_particle(double mass, const Vec3d& x, const Vec3d& v, const Vec3d& gravity);
@@ -106,13 +106,13 @@ struct RemovalSums {
   friend bool operator==(const RemovalSums&, const RemovalSums&) = default;
 };
 
-/// What particles do to each collider, gathered in any order.
+/// The load of particles on each collider, gathered in any order.
 class ColliderLoadSums {
  public:
   /// A particle that touches collider `index` at `point` (m, from the pivot) and gets `force` (N) from it.
   void add_contact(std::size_t index, const Vec3d& point, const Vec3d& force);
   void add(const ColliderLoadSums& other);
-  /// One entry a collider, of `count`, above all indices that were added.
+  /// One entry for each of `count` colliders, which is above all indices that were added.
   std::vector<ColliderLoad> result(std::size_t count) const;
 
  private:
@@ -120,7 +120,7 @@ class ColliderLoadSums {
     ExactVectorSum force, torque;
     std::uint64_t contacts = 0;
   };
-  std::map<std::size_t, Load> loads_;  // of those that are touched
+  std::map<std::size_t, Load> loads_;  // of touched colliders
 };
 
 /// Gathers Measurements particle by particle and contact by contact in any order.

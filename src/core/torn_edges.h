@@ -17,9 +17,9 @@
 
 namespace hooke {
 
-/// Where the surfaces of a scene's structure are torn, as its particles are: an edge is where a spring ties its ends
-/// that is stretched so far that it is broken, or breaks in the next step. It takes nothing but positions, so that it
-/// can be told of every snapshot. Keeps a reference to the scene, which has a structure.
+/// Where the surfaces of a scene's structure are torn: an edge is torn where the spring that ties its ends is stretched
+/// so far that it is broken, or breaks in the next step. Only positions are needed, so this works for every snapshot.
+/// Keeps a reference to the scene, which has a structure.
 class TornEdges {
  public:
   explicit TornEdges(const Scene& scene) : scene_(scene) {

@@ -13,7 +13,7 @@ namespace hooke {
 /// Triangles that share vertices.
 struct TriangleMesh {
   std::vector<Vec3d> vertices;                          ///< m
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of vertices, against the clock as seen from outside
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of vertices, anticlockwise as seen from outside
 };
 
 }  // namespace hooke

@@ -10,7 +10,7 @@
 
 namespace hooke {
 
-/// One T a cause; of the first `kCount` causes.
+/// One T for each of the first `kCount` causes.
 template <class T, std::size_t kCount = kCauses>
 struct ByCause {
   std::array<T, kCount> of{};

@@ -98,7 +98,9 @@ TEST_P(EditedScenes, PushedByTheCallerHaveTheSameBits) {
   Simulation other = simulate(scene_, particles_, single ? engine(1) : kReference);
   for (std::uint64_t burst = 0; burst < 3; ++burst) {
     for (Simulation* s : {&ours, &other}) {
-      if (burst > 0) ASSERT_NO_FATAL_FAILURE(edit(*s, burst));
+      if (burst > 0) {
+        ASSERT_NO_FATAL_FAILURE(edit(*s, burst));
+      }
       std::vector<std::uint64_t> ids;
       std::vector<Vec3d> forces;
       for (std::size_t i = burst; burst < 2 && i < s->ids().size(); i += 3) {
