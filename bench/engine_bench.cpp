@@ -125,12 +125,12 @@ void stage(benchmark::State& state, double StageTimes::* part, Integrator integr
   if (!pool) return state.SkipWithError(pool.error().text().c_str());
   pool->scene.integrator = integrator;
   Backend& backend = *pool->backend;
-  SerialCommunicator ranks;
+  SerialCommunicator id_indices;
   RunState run;
   backend.configure(pool->scene);
   backend.assign(pool->particles);
   const Instant start_of_run = place_colliders(run, pool->scene, 0);
-  if (!start_particles(pool->scene, backend, ranks, run).good()) return state.SkipWithError("the pool is bad");
+  if (!start_particles(pool->scene, backend, id_indices, run).good()) return state.SkipWithError("the pool is bad");
   const auto before = backend.measure(start_of_run);
   for (auto iteration : state) {
     const StageTimes start = backend.stage_times();

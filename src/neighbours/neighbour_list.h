@@ -19,7 +19,7 @@ namespace hooke {
 
 /// A full neighbour list in lanes: 16 consecutive particles in memory form a group, and row k of a group holds the k-th
 /// neighbour of each particle, one per lane (the sliced-ELLPACK layout: Kreutzer et al., "A unified sparse matrix data
-/// format", SIAM J. Sci. Comput. 2014). The neighbours in each lane are in ascending order of rank, so a force pass
+/// format", SIAM J. Sci. Comput. 2014). The neighbours in each lane are in ascending order of id index, so a force pass
 /// that adds row after row sums in canonical order. Short lanes end with fillers. An entry is a slot in memory times
 /// the rule's stride, e.g. an address offset.
 class NeighbourList {

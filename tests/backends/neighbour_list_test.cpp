@@ -86,20 +86,20 @@ class Lists {
         setting.count, [&](std::size_t i) { return cells_.key_of(vec_cast<double>(x[i]), level_of(i)); }, order);
     constexpr std::size_t kReadable = 16;
     for (auto* column : {&x_, &y_, &z_, &radii_}) column->resize(setting.count + kReadable);
-    ranks_.resize(setting.count + kReadable);
+    id_indices_.resize(setting.count + kReadable);
     places_.resize(setting.count + kReadable);
     neighbour_counts_.resize(setting.count, 77);
     for (std::size_t i = 0; i < setting.count; ++i) {
       x_[i] = x[order[i]].x;
       y_[i] = x[order[i]].y;
       z_[i] = x[order[i]].z;
-      ranks_[i] = order[i];
+      id_indices_[i] = order[i];
       places_[i] = place_of(i);
       radii_[i] = static_cast<Real>(radius_of(order[i]));
     }
     rule_.at = {x_.data(), y_.data(), z_.data()};
     rule_.radius = setting.ratio == 1 ? nullptr : radii_.data();
-    rule_.rank = ranks_.data();
+    rule_.id_index = id_indices_.data();
     rule_.place = places_.data();
     rule_.neighbour_count = neighbour_counts_.data();
     rule_.reach = static_cast<Real>((kSkin + (setting.ratio == 1 ? 2 : 0)) * setting.radius);
@@ -114,7 +114,7 @@ class Lists {
     build_neighbour_list<Real>(cells_, rule_, search_of(isa, Real{}), list);
   }
 
-  // By a search through all points: those nearer to i than the reach, i included, by rank.
+  // By a search through all points: those nearer to i than the reach, i included, by id index.
   std::vector<std::uint32_t> expected(std::size_t i) const {
     std::vector<std::uint32_t> near;
     for (std::size_t p = 0; p < setting_.count; ++p) {
@@ -131,7 +131,7 @@ class Lists {
       const Real reach = rule_.radius == nullptr ? rule_.reach : rule_.reach + radii_[i] + radii_[p];
       if (sum < reach * reach) near.push_back(static_cast<std::uint32_t>(p));
     }
-    std::sort(near.begin(), near.end(), [&](auto a, auto b) { return ranks_[a] < ranks_[b]; });
+    std::sort(near.begin(), near.end(), [&](auto a, auto b) { return id_indices_[a] < id_indices_[b]; });
     for (std::uint32_t& p : near) p = static_cast<std::uint32_t>(slot_of(p)) * kStride;
     return near;
   }
@@ -176,7 +176,7 @@ class Lists {
   Setting setting_;
   CellList cells_;
   std::vector<Real> x_, y_, z_, radii_;
-  std::vector<std::uint32_t> ranks_;
+  std::vector<std::uint32_t> id_indices_;
   std::vector<std::uint8_t> places_, neighbour_counts_;
   NeighbourRule<Real> rule_;
 };

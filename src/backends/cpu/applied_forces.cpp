@@ -35,19 +35,19 @@ void AppliedForces<Real>::bind(const Particles& particles) {
   const IdTable& ids = particles.ids;
   springs_.bind(ids);
   fields_.bind(ids);
-  held_ranks_.clear();
+  held_id_indices_.clear();
   held_ = {};
-  std::vector<std::uint32_t>& held = held_ranks_;
+  std::vector<std::uint32_t>& held = held_id_indices_;
   if (structure_) {
     for (const std::uint64_t id : structure_->held) {
-      const std::size_t rank = ids.find(id);
-      if (rank < ids.size()) held.push_back(static_cast<std::uint32_t>(rank));
+      const std::size_t id_index = ids.find(id);
+      if (id_index < ids.size()) held.push_back(static_cast<std::uint32_t>(id_index));
     }
   }
   for (std::size_t i = 0; any_fixed_ && i < particles.slots.end(); ++i) {
     const Record& p = particles.records[i];
     if (!is_vacant(p) && fixed_[static_cast<std::size_t>(p.material)]) {
-      held.push_back(static_cast<std::uint32_t>(rank_of(p.rank)));
+      held.push_back(static_cast<std::uint32_t>(id_index_of(p.id_index)));
     }
   }
   if (held.empty()) return;
@@ -57,13 +57,13 @@ void AppliedForces<Real>::bind(const Particles& particles) {
 
 template <class Real>
 void AppliedForces<Real>::add(const Particles& particles, std::size_t slot, bool fixed) {
-  const std::size_t ranks = particles.ids.size();
-  springs_.grow(ranks);
-  fields_.grow(ranks);
+  const std::size_t id_indices = particles.ids.size();
+  springs_.grow(id_indices);
+  fields_.grow(id_indices);
   if (!fixed) return held_.release(slot);
   if (held_.none()) held_.clear(particles.slots.room());
   held_.hold(slot);
-  held_ranks_.push_back(static_cast<std::uint32_t>(ranks - 1));
+  held_id_indices_.push_back(static_cast<std::uint32_t>(id_indices - 1));
 }
 
 template <class Real>
@@ -71,7 +71,7 @@ void AppliedForces<Real>::lay_out(const Particles& particles) {
   particles.find_slots();
   const auto& records = particles.records;
   if (!springs_.empty()) {
-    springs_.lay_out(records.data(), particles.slots.room(), records.size(), particles.slots_by_rank());
+    springs_.lay_out(records.data(), particles.slots.room(), records.size(), particles.slots_by_id_index());
   }
   if (!held_.none()) find_held(particles);
 }
@@ -89,7 +89,7 @@ const typename AppliedForces<Real>::Pairs& AppliedForces<Real>::apply(const Part
     acting_.push_back({Cause::springs, springs_.forces()});
   }
   if (!fields_.empty()) {
-    fields_.apply(records, count, particles.slots_by_rank());
+    fields_.apply(records, count, particles.slots_by_id_index());
     acting_.push_back({Cause::field, fields_.forces()});
   }
   if (!attraction_.empty()) {
@@ -119,7 +119,7 @@ void AppliedForces<Real>::finish(std::size_t first, std::size_t last, const Reco
 
 template <class Real>
 void AppliedForces<Real>::measure(const Particles& particles, MeasurementSums& sums) {
-  springs_.measure(particles.records.data(), particles.slots_by_rank(), sums);
+  springs_.measure(particles.records.data(), particles.slots_by_id_index(), sums);
   if (attraction_.empty()) return;
   sums.add_attraction(attraction_.energy(particles.records, particles.slots.end(), particles.count(), particles.ids));
 }
@@ -127,8 +127,8 @@ void AppliedForces<Real>::measure(const Particles& particles, MeasurementSums& s
 template <class Real>
 void AppliedForces<Real>::find_held(const Particles& particles) {
   held_.clear(particles.slots.room());
-  for (const std::uint32_t rank : held_ranks_) {
-    const std::uint32_t slot = particles.slots_by_rank()[rank];
+  for (const std::uint32_t id_index : held_id_indices_) {
+    const std::uint32_t slot = particles.slots_by_id_index()[id_index];
     if (slot != Particles::kNoSlot) held_.hold(slot);
   }
 }

@@ -57,7 +57,7 @@ class AppliedForces {
   /// After a new layout of all particles: finds the particles of springs and cloths, and those that are held.
   void bind(const Particles& particles);
 
-  /// A new particle is in `slot`, with the last rank. No spring ties it, but it may be fixed.
+  /// A new particle is in `slot`, with the last id index. No spring ties it, but it may be fixed.
   void add(const Particles& particles, std::size_t slot, bool fixed);
 
   bool needs_layout() const { return !springs_.empty() || fields_.needs_places() || !held_.none(); }
@@ -88,8 +88,8 @@ class AppliedForces {
   void add_spring_energy(const Particles& particles, std::size_t i, std::span<const std::uint32_t> among,
                          ExactSum& sum) const {
     if (springs_.empty()) return;
-    springs_.add_energy(particles.records.data(), particles.slots_by_rank(), rank_of(particles.records[i].rank), among,
-                        sum);
+    springs_.add_energy(particles.records.data(), particles.slots_by_id_index(),
+                        id_index_of(particles.records[i].id_index), among, sum);
   }
 
  private:
@@ -116,7 +116,7 @@ class AppliedForces {
   WorkPassFunction<Real> work_pass_ = nullptr;
   std::vector<Acting> acting_;  // in the order of their sum
   LargeVector<Vec3<Real>> total_;  // their sum, where several act
-  std::vector<std::uint32_t> held_ranks_;
+  std::vector<std::uint32_t> held_id_indices_;
   HeldParticles held_;
 };
 

@@ -42,7 +42,7 @@ class AttractionForces {
   AttractionPoint<Real> point_of(const LargeVector<Record>& records, std::size_t i) const {
     const Record& p = records[i];
     const Vec3<Real> x = static_cast<Real>(1 / units_.length) * p.x;
-    return {{x.x, x.y, x.z, mass_[material_of(p)]}, rank_of(p.rank), static_cast<std::uint32_t>(i)};
+    return {{x.x, x.y, x.z, mass_[material_of(p)]}, id_index_of(p.id_index), static_cast<std::uint32_t>(i)};
   }
 
   bool attracts_ = false;

@@ -36,12 +36,12 @@ template <class Take>
 void AttractionSums<Real>::sum_directly(std::span<AttractionPoint<Real>> points, const IdTable& ids,
                                         typename AttractionLoops<Real>::Function by_particles, const Take& take) {
   constexpr std::size_t kMost = AttractionTargets<Real>::kMost;
-  std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.rank < b.rank; });
+  std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.id_index < b.id_index; });
   sources_.resize(points.size());
   std::vector<std::size_t> block_starts;
   for (std::size_t i = 0; i < points.size(); ++i) {
     sources_[i] = points[i].source;
-    const auto block = [&](std::size_t k) { return ids[points[k].rank] / kAttractionBlock; };
+    const auto block = [&](std::size_t k) { return ids[points[k].id_index] / kAttractionBlock; };
     if (i == 0 || block(i) != block(i - 1)) block_starts.push_back(i);
   }
   block_starts.push_back(points.size());

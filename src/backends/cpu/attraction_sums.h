@@ -21,7 +21,7 @@ class AttractionSums {
   /// `softening2` > 0, a length squared.
   void configure(const Attraction& attraction, double softening2, const AttractionLoops<Real>& loops);
 
-  /// a[p.index] = the pull on p, a mass over a length squared. Reorders `points`; `ids` has the ids of all ranks.
+  /// a[p.index] = the pull on p, a mass over a length squared. Reorders `points`; `ids` has the ids by id index.
   void accelerations(std::span<AttractionPoint<Real>> points, const IdTable& ids, Vec3<Real>* a);
 
   /// potential[p.index] = the potential of all other particles at p, a mass over a length, < 0.

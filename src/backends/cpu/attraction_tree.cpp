@@ -99,7 +99,7 @@ std::size_t AttractionTree<Real>::split(std::size_t k) {
   std::nth_element(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(taken), own.end(),
                    [axis](const AttractionPoint<Real>& a, const AttractionPoint<Real>& b) {
                      const Real at_a = coordinate(a, axis), at_b = coordinate(b, axis);
-                     return at_a != at_b ? at_a < at_b : a.rank < b.rank;
+                     return at_a != at_b ? at_a < at_b : a.id_index < b.id_index;
                    });
   return nodes_[k].first + taken;
 }
@@ -123,9 +123,9 @@ template <class Real>
 void AttractionTree<Real>::sum_leaf(std::size_t k) {
   Node& node = nodes_[k];
   const auto own = points_.subspan(node.first, node.last - node.first);
-  std::sort(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.rank < b.rank; });
+  std::sort(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.id_index < b.id_index; });
   double x = 0, y = 0, z = 0;
-  for (const auto& [p, rank, index] : own) {
+  for (const auto& [p, id_index, index] : own) {
     const double m = p.mass;
     node.mass += m;
     x += m * p.x;
@@ -137,7 +137,7 @@ void AttractionTree<Real>::sum_leaf(std::size_t k) {
   node.z = z / node.mass;
   std::array<double, 6> moments{};
   double reach2 = 0;
-  for (const auto& [p, rank, index] : own) {
+  for (const auto& [p, id_index, index] : own) {
     const double dx = p.x - node.x, dy = p.y - node.y, dz = p.z - node.z;
     add_spread(moments, p.mass, dx, dy, dz);
     reach2 = std::max(reach2, dx * dx + dy * dy + dz * dz);

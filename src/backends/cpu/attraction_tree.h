@@ -18,13 +18,13 @@ namespace hooke {
 template <class Real>
 struct AttractionPoint {
   AttractionSource<Real> source;
-  std::uint32_t rank;   ///< unique, the order of ids
+  std::uint32_t id_index;   ///< unique, the order of ids
   std::uint32_t index;  ///< the caller's index of it
 };
 
 /// A binary tree over points. A node's box is halved across its longest side, but neither half gets less than an eighth
 /// of the points: the tree follows the lumps of matter, and its depth is at most some times log N for any points.
-/// Positions alone, and ranks where coordinates are equal, decide which node has which points.
+/// Positions alone, and id indices where coordinates are equal, decide which node has which points.
 template <class Real>
 class AttractionTree {
  public:

@@ -32,7 +32,7 @@ Condition bounding_box(const ParticleRecord<Real>* records, std::size_t count, c
         const Real x = component(p.x, axis);
         if (!(std::abs(x) < static_cast<Real>(kFurthest))) {
           const auto kind = std::isfinite(x) ? Condition::Kind::grid_overflow : Condition::Kind::not_finite;
-          found = Condition::first(found, {kind, ids[rank_of(p.rank)], 0, 0});
+          found = Condition::first(found, {kind, ids[id_index_of(p.id_index)], 0, 0});
         }
       }
       part.add(p.x);

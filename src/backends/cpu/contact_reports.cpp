@@ -11,7 +11,7 @@ template <class Real>
 Condition approach_too_fast(const ContactScan<Real>& scan, std::size_t i, std::span<const std::uint32_t> rows,
                             const ParticleRecord<Real>* records, const Scene& scene, const IdTable& ids) {
   const auto radius_of = [&](std::size_t k) { return scene.materials[scan.material_of(k)].radius; };
-  const auto id_of = [&](std::size_t k) { return ids[rank_of(records[k].rank)]; };
+  const auto id_of = [&](std::size_t k) { return ids[id_index_of(records[k].id_index)]; };
   const Vec3d v = vec_cast<double>(records[i].v);
   const double radius = radius_of(i);
   Condition found;

@@ -45,7 +45,7 @@ class ContactScan {
                      [&](const ImageIndex& image, const Vec3d& x_ip) {
                        if (i == p && image == ImageIndex{}) return;
                        const auto [overlap, normal] =
-                           pair_geometry(x_ip, row.reach, records_[i].rank > records_[p].rank ? 1.0 : -1.0);
+                           pair_geometry(x_ip, row.reach, records_[i].id_index > records_[p].id_index ? 1.0 : -1.0);
                        if (overlap > -static_cast<double>(row.range)) visit(p, normal, overlap);
                      });
     }

@@ -55,10 +55,10 @@ RemovalSums CpuBackend<Real>::insert(const ParticleSet& newborn) {
     const Material& m = scene_.materials[newborn.material[k]];
     const std::size_t slot = !m.interacts ? particles_.slots.take_loose()
                                           : particles_.slots.take_listed(list_.is_valid() ? list_.first_free() : 0);
-    const std::size_t rank = particles_.add(slot, newborn, k);
+    const std::size_t id_index = particles_.add(slot, newborn, k);
     applied_.add(particles_, slot, m.fixed);
     if (m.interacts) {
-      list_.add(slot, static_cast<std::uint32_t>(rank));
+      list_.add(slot, static_cast<std::uint32_t>(id_index));
       touching.push_back(static_cast<std::uint32_t>(slot));
     }
     born.add_particle(m.mass, vec_cast<double>(particles_.records[slot].x),
@@ -174,14 +174,14 @@ void CpuBackend<Real>::add_elastic(std::vector<std::uint32_t>& slots, ExactSum& 
 // Builds a list, and updates `slots` to the particles' new indices. Returns whether there is a list.
 template <class Real>
 bool CpuBackend<Real>::rebuild_under(std::vector<std::uint32_t>& slots) {
-  std::vector<std::uint32_t> ranks;
-  for (const std::uint32_t slot : slots) ranks.push_back(rank_of(particles_.records[slot].rank));
-  std::sort(ranks.begin(), ranks.end());
+  std::vector<std::uint32_t> id_indices;
+  for (const std::uint32_t slot : slots) id_indices.push_back(id_index_of(particles_.records[slot].id_index));
+  std::sort(id_indices.begin(), id_indices.end());
   if (!build_neighbours().good()) return false;
   slots.clear();
   for (std::size_t i = 0; i < particles_.slots.end(); ++i) {
     if (!is_vacant(particles_.records[i]) &&
-        std::binary_search(ranks.begin(), ranks.end(), rank_of(particles_.records[i].rank))) {
+        std::binary_search(id_indices.begin(), id_indices.end(), id_index_of(particles_.records[i].id_index))) {
       slots.push_back(static_cast<std::uint32_t>(i));
     }
   }

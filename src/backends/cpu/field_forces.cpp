@@ -28,23 +28,23 @@ void FieldForces<Real>::bind(const IdTable& ids) {
   if (!blows_on_sheets_ || !scene_.structure) return;
   for (const Surface& surface : scene_.structure->surfaces) {
     for (std::size_t t = 0; t < surface.triangles.size(); t += 3) {
-      Triangle ranks;
+      Triangle id_indices;
       for (std::size_t k = 0; k < 3; ++k) {
-        ranks[k] = static_cast<std::uint32_t>(ids.find(surface.particles[surface.triangles[t + k]]));
+        id_indices[k] = static_cast<std::uint32_t>(ids.find(surface.particles[surface.triangles[t + k]]));
       }
-      if (std::max({ranks[0], ranks[1], ranks[2]}) < ids.size()) triangles_.push_back(ranks);
+      if (std::max({id_indices[0], id_indices[1], id_indices[2]}) < ids.size()) triangles_.push_back(id_indices);
     }
   }
   on_triangle_.resize(triangles_.size());
   first_.assign(ids.size() + 1, 0);
-  for (const Triangle& ranks : triangles_) {
-    for (const std::uint32_t rank : ranks) ++first_[rank + 1];
+  for (const Triangle& id_indices : triangles_) {
+    for (const std::uint32_t id_index : id_indices) ++first_[id_index + 1];
   }
-  for (std::size_t rank = 0; rank < ids.size(); ++rank) first_[rank + 1] += first_[rank];
+  for (std::size_t id_index = 0; id_index < ids.size(); ++id_index) first_[id_index + 1] += first_[id_index];
   own_.resize(first_.back());
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    for (const std::uint32_t rank : triangles_[t]) own_[next[rank]++] = static_cast<std::uint32_t>(t);
+    for (const std::uint32_t id_index : triangles_[t]) own_[next[id_index]++] = static_cast<std::uint32_t>(t);
   }
 }
 
@@ -64,8 +64,8 @@ void FieldForces<Real>::apply(const LargeVector<Record>& records, std::size_t co
         const auto material = static_cast<std::size_t>(p.material);
         if (field.acts_on(material, p.x)) force_[i] += field.force(material, p.x, p.v);
         if (!on_sheets) continue;
-        const std::uint32_t rank = rank_of(p.rank);
-        for (std::uint32_t k = first_[rank]; k < first_[rank + 1]; ++k) force_[i] += on_triangle_[own_[k]];
+        const std::uint32_t id_index = id_index_of(p.id_index);
+        for (std::uint32_t k = first_[id_index]; k < first_[id_index + 1]; ++k) force_[i] += on_triangle_[own_[k]];
       }
     });
     none_yet = false;

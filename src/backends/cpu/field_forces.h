@@ -32,21 +32,21 @@ class FieldForces {
   /// Finds the triangles whose three corners are particles of these ids; the others are left out.
   void bind(const IdTable& ids);
 
-  /// There are more ids now, with ranks below `ranks`; the new ones belong to no triangle.
-  void grow(std::size_t ranks) {
-    if (needs_places()) first_.resize(ranks + 1, first_.back());
+  /// There are more ids now, with id indices below `id_indices`; the new ones belong to no triangle.
+  void grow(std::size_t id_indices) {
+    if (needs_places()) first_.resize(id_indices + 1, first_.back());
   }
 
   void set_time(double seconds) { time_ = seconds; }
 
-  /// Sums the forces on the first `count` records; `place` is the slot of each rank (needs_places()).
+  /// Sums the forces on the first `count` records; `place` is the slot of each id index (needs_places()).
   void apply(const LargeVector<Record>& records, std::size_t count, const std::vector<std::uint32_t>& place);
 
   /// N, in the order of the records; one for each record, unused records included.
   const Vec3<Real>* forces() const { return force_.data(); }
 
  private:
-  using Triangle = std::array<std::uint32_t, 3>;  // ranks
+  using Triangle = std::array<std::uint32_t, 3>;  // id indices
 
   void apply_to_triangles(const PlacedField<Real>& field, const LargeVector<Record>& records,
                           const std::vector<std::uint32_t>& place);
@@ -56,7 +56,7 @@ class FieldForces {
   bool blows_on_sheets_ = false;
   double time_ = 0;                       // s
   std::vector<Triangle> triangles_;       // of cloths, where wind blows on them
-  LargeVector<std::uint32_t> own_;        // triangles of rank r: own_[first_[r]] to own_[first_[r + 1] - 1]
+  LargeVector<std::uint32_t> own_;        // triangles of id index r: own_[first_[r]] to own_[first_[r + 1] - 1]
   std::vector<std::uint32_t> first_;
   LargeVector<Vec3<Real>> on_triangle_;   // N on each corner, by one field
   LargeVector<Vec3<Real>> force_;         // N

@@ -27,7 +27,7 @@ struct Lanes {
   Vec3<Pack<Real>> x;
   Pack<Real> material;
   Vec3<Pack<Real>> v;
-  Pack<Real> rank;
+  Pack<Real> id_index;
 };
 
 template <class Real, class At>
@@ -42,7 +42,7 @@ HOOKE_HD Lanes<Real> load_lanes(const At& at) {
   lanes.v.x.v = quads.second.a.v;
   lanes.v.y.v = quads.second.b.v;
   lanes.v.z.v = quads.second.c.v;
-  lanes.rank.v = quads.second.d.v;
+  lanes.id_index.v = quads.second.d.v;
   return lanes;
 }
 
@@ -123,7 +123,7 @@ struct ContactLoop {
     const P distance = sqrt_of(dot(x_pi, x_pi));
     met.overlap = pair.reach - distance;
     if constexpr (kTies) {
-      met.way = contact_normal(-x_pi, distance, select(own.rank > other.rank, P(Real(1)), P(Real(-1))));
+      met.way = contact_normal(-x_pi, distance, select(own.id_index > other.id_index, P(Real(1)), P(Real(-1))));
       met.scale = P(Real(1));
     } else {
       met.way = x_pi;
@@ -150,7 +150,7 @@ struct ContactLoop {
 
   // Adds all images of a neighbour, which may be the lane's particle itself.
   HOOKE_HD void add_images(const Table& table, const Lanes<Real>& other, Acting<Real, kMaterials>& acting) const {
-    const Mask<Real> itself = own.rank == other.rank;
+    const Mask<Real> itself = own.id_index == other.id_index;
     for (int sx = -pass.rules.images[0]; sx <= pass.rules.images[0]; ++sx) {
       for (int sy = -pass.rules.images[1]; sy <= pass.rules.images[1]; ++sy) {
         for (int sz = -pass.rules.images[2]; sz <= pass.rules.images[2]; ++sz) {
@@ -429,7 +429,7 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
   if (pass.rules.has_drag) columns.put(PassSum::kDragForce, select_vector(present, forces.drag, zero));
   columns.end_pack(touching);
   Real* out_record = reinterpret_cast<Real*>(pass.buffers.out + first);
-  const TwoQuads<Real> record{{x.x, x.y, x.z, own.material}, {v.x, v.y, v.z, own.rank}};
+  const TwoQuads<Real> record{{x.x, x.y, x.z, own.material}, {v.x, v.y, v.z, own.id_index}};
   store_two_quads(record, [=](int lane) { return out_record + 8 * lane; });
 }
 

@@ -12,12 +12,12 @@
 
 namespace hooke {
 
-/// The ids of all ranks, ascending. The consecutive ids at the end of the table, usually all, take no memory and are
-/// found without a search. Where ids come and go, some of these ranks may have no particle.
+/// the ids by id index, ascending. The consecutive ids at the end of the table, usually all, take no memory and
+/// are found without a search. Where ids come and go, some of these id indices may have no particle.
 class IdTable {
  public:
   IdTable() = default;
-  /// `ids` ascend. With `with_gaps`, up to half of the consecutive ids have no particle; else ranks index `ids`.
+  /// `ids` ascend. With `with_gaps`, up to half of the consecutive ids have no particle; else id indices index `ids`.
   explicit IdTable(const std::vector<std::uint64_t>& ids, bool with_gaps = false) {
     if (ids.empty()) return;
     HOOKE_ASSERT(is_ascending(ids), ids.size());
@@ -48,16 +48,16 @@ class IdTable {
   }
 
   std::size_t size() const { return ids_.size() + consecutive_; }
-  /// The rank of an id; size() where there is none.
+  /// The id index of an id; size() where there is none.
   std::size_t find(std::uint64_t id) const {
     if (id >= first_ && id - first_ < consecutive_) return ids_.size() + static_cast<std::size_t>(id - first_);
     const auto found = std::lower_bound(ids_.begin(), ids_.end(), id);
     return found != ids_.end() && *found == id ? static_cast<std::size_t>(found - ids_.begin()) : size();
   }
-  /// The id of a rank < size().
-  std::uint64_t operator[](std::size_t rank) const {
-    HOOKE_ASSERT(rank < size(), rank, size());
-    return rank < ids_.size() ? ids_[rank] : first_ + (rank - ids_.size());
+  /// The id of an id index < size().
+  std::uint64_t operator[](std::size_t id_index) const {
+    HOOKE_ASSERT(id_index < size(), id_index, size());
+    return id_index < ids_.size() ? ids_[id_index] : first_ + (id_index - ids_.size());
   }
 
  private:

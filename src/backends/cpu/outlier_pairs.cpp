@@ -17,11 +17,11 @@ bool OutlierPairs<Real>::is_listed(std::size_t i, std::size_t p) const {
 // If one of two particles lacks the other, the other lacks it, too.
 template <class Real>
 void OutlierPairs<Real>::note_missing(std::size_t i, std::size_t p, std::vector<MissingEntry>& missing) const {
-  if (is_listed(i, p) || exclusions_.hold(ranks_[i], ranks_[p])) return;
+  if (is_listed(i, p) || exclusions_.hold(id_indices_[i], id_indices_[p])) return;
   const std::lock_guard lock(mutex_);
   for (const auto& [of, other] : {std::pair{i, p}, std::pair{p, i}}) {
     missing.push_back(
-        {static_cast<std::uint32_t>(of), ranks_[other], record_offset<Real>(static_cast<std::uint32_t>(other))});
+        {static_cast<std::uint32_t>(of), id_indices_[other], record_offset<Real>(static_cast<std::uint32_t>(other))});
   }
 }
 

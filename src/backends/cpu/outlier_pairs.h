@@ -31,12 +31,12 @@ class OutlierPairs {
 
  public:
   OutlierPairs(const PassRules<Real>& rules, const Record* records, const CellList& cells, const WindowOrder& slots,
-               const std::uint32_t* ranks, const NeighbourList& list, const Exclusions& exclusions)
+               const std::uint32_t* id_indices, const NeighbourList& list, const Exclusions& exclusions)
       : rules_(rules),
         records_(records),
         cells_(cells),
         slots_(slots),
-        ranks_(ranks),
+        id_indices_(id_indices),
         list_(list),
         exclusions_(exclusions) {}
 
@@ -87,7 +87,7 @@ class OutlierPairs {
     });
     if (lost) return false;
     find_among(outliers, room);
-    patched.patch<Real>(room.missing, list_, filler, ranks_);
+    patched.patch<Real>(room.missing, list_, filler, id_indices_);
     return true;
   }
 
@@ -105,7 +105,7 @@ class OutlierPairs {
         if (p != i && !is_vacant(records_[p]) && touch(i, p)) note_missing(i, p, room.missing);
       }
     }
-    patched.patch<Real>(room.missing, list_, filler, ranks_);
+    patched.patch<Real>(room.missing, list_, filler, id_indices_);
     return true;
   }
 
@@ -144,7 +144,7 @@ class OutlierPairs {
   const Record* records_;
   const CellList& cells_;
   const WindowOrder& slots_;
-  const std::uint32_t* ranks_;
+  const std::uint32_t* id_indices_;
   const NeighbourList& list_;
   const Exclusions& exclusions_;
   mutable std::mutex mutex_;  // guards the missing entries

@@ -21,7 +21,7 @@ void ParticleState<Real>::place(const ParticleSet& particles, std::size_t births
   for (const std::uint16_t m : particles.material) ++count_of_[m];
   recount();
   ++changes_;
-  slot_of_rank_.clear();
+  slot_of_id_index_.clear();
   const bool tied = scene_->structure != nullptr;  // the structure refers to slots, until the next layout
   slots.lay_out(count_ - loose_count_, room_for_births(true) + births, loose_count_, room_for_births(false) + births,
                 tied);
@@ -31,8 +31,8 @@ void ParticleState<Real>::place(const ParticleSet& particles, std::size_t births
   std::size_t next_listed = 0, next_loose = slots.first_loose();
   for (std::size_t k = 0; k < particles.size(); ++k) {
     const std::size_t slot = scene_->materials[particles.material[k]].interacts ? next_listed++ : next_loose++;
-    const std::size_t rank = scene_->emitters.empty() ? k : ids.find(particles.id[k]);
-    put(slot, rank, particles, k);
+    const std::size_t id_index = scene_->emitters.empty() ? k : ids.find(particles.id[k]);
+    put(slot, id_index, particles, k);
     if (verlet() && !particles.acceleration.empty()) acceleration[slot] = vec_cast<Real>(particles.acceleration[k]);
   }
   fill_unused(records);
@@ -43,8 +43,8 @@ template <class Real>
 template <class Out>
 void ParticleState<Real>::download(const ParticleColumns<Out>& out) const {
   find_slots();
-  constexpr std::size_t kBlock = std::size_t{1} << 14U;  // of ranks
-  const std::vector<std::uint32_t>& at = slot_of_rank_;
+  constexpr std::size_t kBlock = std::size_t{1} << 14U;  // of id indices
+  const std::vector<std::uint32_t>& at = slot_of_id_index_;
   const std::size_t blocks = (ids.size() + kBlock - 1) / kBlock;
   const auto for_blocks = [&](const auto& visit) {
     parallel_ranges(blocks, 1, [&](std::size_t first, std::size_t last) {
@@ -55,21 +55,22 @@ void ParticleState<Real>::download(const ParticleColumns<Out>& out) const {
   const bool all_there = count_ == ids.size();
   if (!all_there) {
     for_blocks([&](std::size_t b, std::size_t first, std::size_t last) {
-      for (std::size_t rank = first; rank < last; ++rank) start[b + 1] += is_at(at[rank], rank) ? 1 : 0;
+      for (std::size_t id_index = first; id_index < last; ++id_index)
+        start[b + 1] += is_at(at[id_index], id_index) ? 1 : 0;
     });
   }
   for (std::size_t b = 0; b < blocks; ++b) start[b + 1] = all_there ? (b + 1) * kBlock : start[b] + start[b + 1];
 
   for_blocks([&](std::size_t b, std::size_t first, std::size_t last) {
     std::size_t k = start[b];
-    for (std::size_t rank = first; rank < last; ++rank) {
-      if (!is_at(at[rank], rank)) continue;
-      const Record& record = records[at[rank]];
-      if (out.id != nullptr) out.id[k] = ids[rank];
+    for (std::size_t id_index = first; id_index < last; ++id_index) {
+      if (!is_at(at[id_index], id_index)) continue;
+      const Record& record = records[at[id_index]];
+      if (out.id != nullptr) out.id[k] = ids[id_index];
       if (out.material != nullptr) out.material[k] = static_cast<std::uint16_t>(record.material);
       if (out.position != nullptr) out.position[k] = vec_cast<Out>(record.x);
       if (out.velocity != nullptr) out.velocity[k] = vec_cast<Out>(record.v);
-      if (verlet() && out.acceleration != nullptr) out.acceleration[k] = vec_cast<Out>(acceleration[at[rank]]);
+      if (verlet() && out.acceleration != nullptr) out.acceleration[k] = vec_cast<Out>(acceleration[at[id_index]]);
       ++k;
     }
   });
@@ -80,7 +81,7 @@ void ParticleState<Real>::reorder(std::span<const std::uint32_t> order) {
   HOOKE_ASSERT(order.size() >= count_ - loose_count_, order.size(), count_, loose_count_);
   slots.set_listed(count_ - loose_count_);
   ++changes_;
-  slot_of_rank_.clear();
+  slot_of_id_index_.clear();
   permute(records, next, order);
   fill_unused(records);
   if (verlet()) {
@@ -116,20 +117,20 @@ bool ParticleState<Real>::has_room_for(const ParticleSet& newborn) const {
 
 template <class Real>
 void ParticleState<Real>::find_slots() const {
-  if (slot_of_rank_.size() == ids.size()) return;
-  slot_of_rank_.assign(ids.size(), kNoSlot);
+  if (slot_of_id_index_.size() == ids.size()) return;
+  slot_of_id_index_.assign(ids.size(), kNoSlot);
   parallel_ranges(slots.end(), kTile, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      if (!is_vacant(records[i])) slot_of_rank_[rank_of(records[i].rank)] = static_cast<std::uint32_t>(i);
+      if (!is_vacant(records[i])) slot_of_id_index_[id_index_of(records[i].id_index)] = static_cast<std::uint32_t>(i);
     }
   });
 }
 
 template <class Real>
 std::size_t ParticleState<Real>::slot_of(std::uint64_t id) const {
-  HOOKE_ASSERT(slot_of_rank_.size() == ids.size(), slot_of_rank_.size(), ids.size());
-  const std::size_t rank = ids.find(id);
-  return rank < ids.size() && is_at(slot_of_rank_[rank], rank) ? slot_of_rank_[rank] : kNoSlot;
+  HOOKE_ASSERT(slot_of_id_index_.size() == ids.size(), slot_of_id_index_.size(), ids.size());
+  const std::size_t id_index = ids.find(id);
+  return id_index < ids.size() && is_at(slot_of_id_index_[id_index], id_index) ? slot_of_id_index_[id_index] : kNoSlot;
 }
 
 template <class Real>
@@ -144,12 +145,12 @@ void ParticleState<Real>::set(std::size_t slot, const Vec3d& position, const Vec
 template <class Real>
 std::size_t ParticleState<Real>::add(std::size_t slot, const ParticleSet& newborn, std::size_t k) {
   ids.append(newborn.id[k]);
-  const std::size_t rank = ids.size() - 1;
-  put(slot, rank, newborn, k);
-  if (slot_of_rank_.size() == rank) slot_of_rank_.push_back(static_cast<std::uint32_t>(slot));
+  const std::size_t id_index = ids.size() - 1;
+  put(slot, id_index, newborn, k);
+  if (slot_of_id_index_.size() == id_index) slot_of_id_index_.push_back(static_cast<std::uint32_t>(slot));
   if (verlet()) acceleration[slot] = {Real(0), Real(0), Real(0)};
   ++count_of_[newborn.material[k]];
-  return rank;
+  return id_index;
 }
 
 template <class Real>
@@ -158,7 +159,7 @@ void ParticleState<Real>::remove(std::size_t slot) {
   HOOKE_ASSERT(!is_vacant(p), slot);
   --count_of_[static_cast<std::size_t>(p.material)];
   ++changes_;
-  p = vacant_record<Real>(p.rank);
+  p = vacant_record<Real>(p.id_index);
   slots.leave(slot);
 }
 
@@ -180,7 +181,7 @@ std::uint64_t ParticleState<Real>::hash() const {
     std::uint64_t sum = 0;
     for (std::size_t i = first; i < last; ++i) {
       const Record& p = records[i];
-      if (!is_vacant(p)) sum += particle_hash(ids[rank_of(p.rank)], p.x, p.v);
+      if (!is_vacant(p)) sum += particle_hash(ids[id_index_of(p.id_index)], p.x, p.v);
     }
     hash += sum;
   });
@@ -188,9 +189,9 @@ std::uint64_t ParticleState<Real>::hash() const {
 }
 
 template <class Real>
-void ParticleState<Real>::put(std::size_t slot, std::size_t rank, const ParticleSet& particles, std::size_t k) {
+void ParticleState<Real>::put(std::size_t slot, std::size_t id_index, const ParticleSet& particles, std::size_t k) {
   records[slot] = {vec_cast<Real>(particles.position[k]), static_cast<Real>(particles.material[k]),
-                   vec_cast<Real>(particles.velocity[k]), rank_code<Real>(static_cast<std::uint32_t>(rank))};
+                   vec_cast<Real>(particles.velocity[k]), sort_key<Real>(static_cast<std::uint32_t>(id_index))};
   wrap_periodic(rules_->view(), records[slot].x);  // a coordinate may have been rounded up to the upper face
 }
 

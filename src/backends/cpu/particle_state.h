@@ -19,7 +19,7 @@
 namespace hooke {
 
 /// The particles in one precision: their records, the records' slots, and the particles' ids. Listed particles lie in
-/// cell order as of the last reorder(); ranks lead back to ids. Vacant slots hold vacant records.
+/// cell order as of the last reorder(); id indices lead back to ids. Vacant slots hold vacant records.
 template <class Real>
 class ParticleState {
   using Record = ParticleRecord<Real>;
@@ -28,7 +28,7 @@ class ParticleState {
  public:
   LargeVector<Record> records, next;  ///< the state, and where a pass writes the next; both end with a filler
   LargeVector<Vec3<Real>> acceleration;  ///< of the last evaluation, m/s^2; velocity Verlet only, else empty
-  IdTable ids;  ///< by rank
+  IdTable ids;  ///< by id index
   ParticleSlots slots;
 
   /// `scene` and `rules` must outlive this object.
@@ -71,16 +71,16 @@ class ParticleState {
   static constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};
   /// Finds the slot of each id. A pass over all particles where a layout or a sort has moved them; else nothing.
   void find_slots() const;
-  /// The slots, by rank, as of find_slots() and of particles added since; kNoSlot where there was no particle. The slot
-  /// of a particle removed since is vacant, or another particle's.
-  const std::vector<std::uint32_t>& slots_by_rank() const { return slot_of_rank_; }
+  /// The slots, by id index, as of find_slots() and of particles added since; kNoSlot where there was no particle. The
+  /// slot of a particle removed since is vacant, or another particle's.
+  const std::vector<std::uint32_t>& slots_by_id_index() const { return slot_of_id_index_; }
   /// The slot of a particle by its id, after find_slots(); kNoSlot where there is none.
   std::size_t slot_of(std::uint64_t id) const;
 
   /// Gives the particle in a slot another position (m) and velocity (m/s).
   void set(std::size_t slot, const Vec3d& position, const Vec3d& velocity);
 
-  /// Puts the k-th newborn into a slot that was taken for it; call recount() after the last. Returns its rank.
+  /// Puts the k-th newborn into a slot that was taken for it; call recount() after the last. Returns its id index.
   std::size_t add(std::size_t slot, const ParticleSet& newborn, std::size_t k);
   /// Makes a slot vacant; call recount() after the last.
   void remove(std::size_t slot);
@@ -90,11 +90,11 @@ class ParticleState {
   std::uint64_t hash() const;
 
  private:
-  // Whether the particle of a rank is still in a slot that it had.
-  bool is_at(std::uint32_t slot, std::size_t rank) const {
-    return slot != kNoSlot && !is_vacant(records[slot]) && rank_of(records[slot].rank) == rank;
+  // Whether the particle of an id index is still in a slot that it had.
+  bool is_at(std::uint32_t slot, std::size_t id_index) const {
+    return slot != kNoSlot && !is_vacant(records[slot]) && id_index_of(records[slot].id_index) == id_index;
   }
-  void put(std::size_t slot, std::size_t rank, const ParticleSet& particles, std::size_t k);
+  void put(std::size_t slot, std::size_t id_index, const ParticleSet& particles, std::size_t k);
   void fill_unused(LargeVector<Record>& all) const;
 
   template <class T>
@@ -106,7 +106,7 @@ class ParticleState {
   std::size_t count_ = 0, loose_count_ = 0;
   std::uint64_t changes_ = 0;
   ExactSum mass_;  // kg
-  mutable std::vector<std::uint32_t> slot_of_rank_;  // by find_slots(); empty where slots have changed since
+  mutable std::vector<std::uint32_t> slot_of_id_index_;  // by find_slots(); empty where slots have changed since
 };
 
 extern template class ParticleState<float>;

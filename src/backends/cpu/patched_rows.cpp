@@ -22,12 +22,12 @@ void PatchedRows::reserve(std::size_t groups) {
   entries_.reserve(groups * 24 * kLanes);
 }
 
-// Inserts an entry in order of rank; the last entry of its lane is free.
-template <class RankOfEntry>
+// Inserts an entry in order of id index; the last entry of its lane is free.
+template <class IdIndexOfEntry>
 void PatchedRows::insert(const MissingEntry& missing, std::uint32_t* rows, std::size_t count, std::uint32_t filler,
-                         const RankOfEntry& rank_of_entry) {
+                         const IdIndexOfEntry& id_index_of_entry) {
   std::size_t at = missing.of % kLanes;
-  while (at < count && rows[at] != filler && rank_of_entry(rows[at]) < missing.rank) at += kLanes;
+  while (at < count && rows[at] != filler && id_index_of_entry(rows[at]) < missing.id_index) at += kLanes;
   for (std::uint32_t carried = missing.entry; at < count; at += kLanes) {
     std::swap(carried, rows[at]);
     if (carried == filler) break;
@@ -36,8 +36,10 @@ void PatchedRows::insert(const MissingEntry& missing, std::uint32_t* rows, std::
 
 template <class Real>
 void PatchedRows::patch(std::vector<MissingEntry>& missing, const NeighbourList& list, std::uint32_t filler,
-                        const std::uint32_t* ranks) {
-  const auto rank_of_entry = [ranks](std::uint32_t entry) { return ranks[entry / record_offset<Real>(1)]; };
+                        const std::uint32_t* id_indices) {
+  const auto id_index_of_entry = [id_indices](std::uint32_t entry) {
+    return id_indices[entry / record_offset<Real>(1)];
+  };
   std::sort(missing.begin(), missing.end());
   missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
   for (std::size_t k = 0; k < missing.size();) {
@@ -52,15 +54,15 @@ void PatchedRows::patch(std::vector<MissingEntry>& missing, const NeighbourList&
     const std::size_t first = entries_.empty() ? 0 : entries_.size() - kBehind, count = rows.size() + most * kLanes;
     entries_.resize(first + count + kBehind, filler);
     std::copy(rows.begin(), rows.end(), entries_.begin() + static_cast<std::ptrdiff_t>(first));
-    for (; k < end; ++k) insert(missing[k], entries_.data() + first, count, filler, rank_of_entry);
+    for (; k < end; ++k) insert(missing[k], entries_.data() + first, count, filler, id_index_of_entry);
     at_[group] = static_cast<std::uint32_t>(patched_.size());
     patched_.push_back({group, first, count});
   }
 }
 
 template void PatchedRows::patch<float>(std::vector<MissingEntry>& missing, const NeighbourList& list,
-                                        std::uint32_t filler, const std::uint32_t* ranks);
+                                        std::uint32_t filler, const std::uint32_t* id_indices);
 template void PatchedRows::patch<double>(std::vector<MissingEntry>& missing, const NeighbourList& list,
-                                         std::uint32_t filler, const std::uint32_t* ranks);
+                                         std::uint32_t filler, const std::uint32_t* id_indices);
 
 }  // namespace hooke

@@ -27,7 +27,7 @@ class PatchedRows {
  public:
   /// One neighbour that particle `of` lacks.
   struct MissingEntry {
-    std::uint32_t of, rank, entry;  // the neighbour's rank and entry
+    std::uint32_t of, id_index, entry;  // the neighbour's id index and entry
 
     friend auto operator<=>(const MissingEntry&, const MissingEntry&) = default;
   };
@@ -44,10 +44,10 @@ class PatchedRows {
   }
 
   /// Copies the rows of the list that lack an entry, and adds the missing entries. Entries are offsets of records;
-  /// `ranks` are by record; `filler` stands for no entry.
+  /// `id_indices` are by record; `filler` stands for no entry.
   template <class Real>
   void patch(std::vector<MissingEntry>& missing, const NeighbourList& list, std::uint32_t filler,
-             const std::uint32_t* ranks);
+             const std::uint32_t* id_indices);
 
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
@@ -56,9 +56,9 @@ class PatchedRows {
     std::size_t group, first, count;  // its entries
   };
 
-  template <class RankOfEntry>
+  template <class IdIndexOfEntry>
   static void insert(const MissingEntry& missing, std::uint32_t* rows, std::size_t count, std::uint32_t filler,
-                     const RankOfEntry& rank_of_entry);
+                     const IdIndexOfEntry& id_index_of_entry);
 
   std::vector<std::uint32_t> at_;  // by group: index into patched_
   std::vector<Patched> patched_;

@@ -68,7 +68,7 @@ void SpringLists<Real>::bind(const IdTable& ids) {
     ++first_side_[b + 1];
     if (springs.contact[s] == 0 && broken_[s] == 0) apart.emplace_back(a, b);
   });
-  for (std::size_t rank = 0; rank < ids.size(); ++rank) first_side_[rank + 1] += first_side_[rank];
+  for (std::size_t id_index = 0; id_index < ids.size(); ++id_index) first_side_[id_index + 1] += first_side_[id_index];
   sides_.resize(first_side_.back());
   std::vector<std::uint32_t> next(first_side_.begin(), first_side_.end() - 1);
   each([&](std::uint32_t s, std::uint32_t a, std::uint32_t b) {
@@ -79,11 +79,11 @@ void SpringLists<Real>::bind(const IdTable& ids) {
 }
 
 template <class Real>
-void SpringLists<Real>::grow(std::size_t ranks) {
+void SpringLists<Real>::grow(std::size_t id_indices) {
   if (empty()) return;
-  HOOKE_ASSERT(ranks + 1 >= first_side_.size(), ranks, first_side_.size());
-  first_side_.resize(ranks + 1, first_side_.back());
-  exclusions_.grow(ranks);
+  HOOKE_ASSERT(id_indices + 1 >= first_side_.size(), id_indices, first_side_.size());
+  first_side_.resize(id_indices + 1, first_side_.back());
+  exclusions_.grow(id_indices);
 }
 
 template <class Real>
@@ -98,8 +98,8 @@ void SpringLists<Real>::lay_out(const Record* records, std::size_t count, std::s
     for (std::size_t g = first; g < last; ++g) {
       std::uint32_t most = 0;
       for (std::size_t i = g * kLanes; i < std::min(count, (g + 1) * kLanes); ++i) {
-        const std::uint32_t rank = rank_of(records[i].rank);
-        if (!is_vacant(records[i])) most = std::max(most, first_side_[rank + 1] - first_side_[rank]);
+        const std::uint32_t id_index = id_index_of(records[i].id_index);
+        if (!is_vacant(records[i])) most = std::max(most, first_side_[id_index + 1] - first_side_[id_index]);
       }
       first_row_[g + 1] = most;
     }
@@ -113,8 +113,8 @@ void SpringLists<Real>::lay_out(const Record* records, std::size_t count, std::s
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
         const std::size_t i = g * kLanes + lane;
         const bool here = i < count && !is_vacant(records[i]);
-        const std::uint32_t rank = here ? rank_of(records[i].rank) : 0;
-        const std::uint32_t from = here ? first_side_[rank] : 0, to = here ? first_side_[rank + 1] : 0;
+        const std::uint32_t id_index = here ? id_index_of(records[i].id_index) : 0;
+        const std::uint32_t from = here ? first_side_[id_index] : 0, to = here ? first_side_[id_index + 1] : 0;
         for (std::uint32_t r = first_row_[g]; r < first_row_[g + 1]; ++r) {
           SpringRow<Real>& row = rows_[r];
           const std::uint32_t k = from + (r - first_row_[g]);
@@ -169,9 +169,9 @@ void SpringLists<Real>::measure(const Record* records, const std::vector<std::ui
   parallel_ranges(first_side_.size() - 1, kTile, [&](std::size_t first, std::size_t last) {
     ExactSum part;
     std::uint64_t count = 0;
-    for (std::size_t rank = first; rank < last; ++rank) {
-      for_each_side(records, place, rank, [&](const Side& side, std::size_t i, std::size_t p) {
-        if (side.partner < rank) return;
+    for (std::size_t id_index = first; id_index < last; ++id_index) {
+      for_each_side(records, place, id_index, [&](const Side& side, std::size_t i, std::size_t p) {
+        if (side.partner < id_index) return;
         ++count;
         part.add(energy_of(side.spring, records[i], records[p]));
       });
@@ -184,10 +184,10 @@ void SpringLists<Real>::measure(const Record* records, const std::vector<std::ui
 }
 
 template <class Real>
-void SpringLists<Real>::add_energy(const Record* records, const std::vector<std::uint32_t>& place, std::size_t rank,
+void SpringLists<Real>::add_energy(const Record* records, const std::vector<std::uint32_t>& place, std::size_t id_index,
                                    std::span<const std::uint32_t> among, ExactSum& sum) const {
   if (empty()) return;
-  for_each_side(records, place, rank, [&](const Side& side, std::size_t i, std::size_t p) {
+  for_each_side(records, place, id_index, [&](const Side& side, std::size_t i, std::size_t p) {
     const bool both = std::binary_search(among.begin(), among.end(), p);
     sum.add((both ? 0.5 : 1.0) * energy_of(side.spring, records[i], records[p]));
   });
@@ -237,15 +237,15 @@ void SpringLists<Real>::finish_torn(const Record* records, std::size_t g, Spring
       const Record& own = records[g * kLanes + lane];
       const std::uint32_t partner = rows_[r].partner[lane] / record_offset<Real>(1);
       const Record& other = records[partner];
-      const std::uint32_t rank = rank_of(own.rank);
-      const Side& side = sides_[first_side_[rank] + (r - first_row_[g])];
-      if (side.partner < rank) continue;
+      const std::uint32_t id_index = id_index_of(own.id_index);
+      const Side& side = sides_[first_side_[id_index] + (r - first_row_[g])];
+      if (side.partner < id_index) continue;
       broken_[side.spring] = 1;
       ++sums.broken;
       sums.broken_energy.add(energy_of(side.spring, own, other));
       if (structure_->springs.contact[side.spring] == 0) {
         const std::lock_guard lock(mutex_);
-        exclusions_.release(rank, side.partner);
+        exclusions_.release(id_index, side.partner);
         released_.emplace_back(static_cast<std::uint32_t>(g * kLanes + lane), partner);
       }
     }
@@ -260,14 +260,14 @@ double SpringLists<Real>::energy_of(std::uint32_t spring, const Record& i, const
   return spring_acts(extension, kind.side) ? static_cast<double>(spring_energy(extension, kind.stiffness)) : 0.0;
 }
 
-// visit(side, i, p) for each spring of a rank that still holds, between records i and p.
+// visit(side, i, p) for each spring of an id index that still holds, between records i and p.
 template <class Real>
 template <class Visit>
-void SpringLists<Real>::for_each_side(const Record* records, const std::vector<std::uint32_t>& place, std::size_t rank,
-                                      const Visit& visit) const {
-  const std::uint32_t i = place[rank];
+void SpringLists<Real>::for_each_side(const Record* records, const std::vector<std::uint32_t>& place,
+                                      std::size_t id_index, const Visit& visit) const {
+  const std::uint32_t i = place[id_index];
   if (i == kVacant || is_vacant(records[i])) return;
-  for (std::uint32_t k = first_side_[rank]; k < first_side_[rank + 1]; ++k) {
+  for (std::uint32_t k = first_side_[id_index]; k < first_side_[id_index + 1]; ++k) {
     const Side& side = sides_[k];
     const std::uint32_t p = place[side.partner];
     if (broken_[side.spring] == 0 && p != kVacant && !is_vacant(records[p])) visit(side, i, p);

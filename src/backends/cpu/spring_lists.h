@@ -44,13 +44,13 @@ class SpringLists {
   void bind(const IdTable& ids);
 
   /// There are more particles now; no spring ties the new ones.
-  void grow(std::size_t ranks);
+  void grow(std::size_t id_indices);
 
   /// Pairs that springs keep from touching.
   const Exclusions& exclusions() const { return exclusions_; }
 
-  /// Lays the springs out for `count` particles in their present order; `place` is the slot of each rank, kVacant where
-  /// a particle is gone. The last of `size` records fills short rows.
+  /// Lays the springs out for `count` particles in their present order; `place` is the slot of each id index, kVacant
+  /// where a particle is gone. The last of `size` records fills short rows.
   void lay_out(const Record* records, std::size_t count, std::size_t size, const std::vector<std::uint32_t>& place);
 
   /// Forces on every particle, N: the column that apply() fills.
@@ -64,18 +64,18 @@ class SpringLists {
   /// Adds the number and the energy of the springs that hold.
   void measure(const Record* records, const std::vector<std::uint32_t>& place, MeasurementSums& sums) const;
 
-  /// Adds the energy (J) of the springs that tie the particle of a rank; a spring whose other end is one of `among`
+  /// Adds the energy (J) of the springs that tie the particle of an id index; a spring whose other end is one of `among`
   /// (indices, ascending) counts half.
-  void add_energy(const Record* records, const std::vector<std::uint32_t>& place, std::size_t rank,
+  void add_energy(const Record* records, const std::vector<std::uint32_t>& place, std::size_t id_index,
                   std::span<const std::uint32_t> among, ExactSum& sum) const;
 
  private:
   struct Side {
-    std::uint32_t spring, partner;  // index, rank
+    std::uint32_t spring, partner;  // index, id index
   };
 
   template <class Visit>
-  void for_each_side(const Record* records, const std::vector<std::uint32_t>& place, std::size_t rank,
+  void for_each_side(const Record* records, const std::vector<std::uint32_t>& place, std::size_t id_index,
                      const Visit& visit) const;
   void take(const std::shared_ptr<const Structure>& structure);
   void finish_torn(const Record* records, std::size_t g, SpringSums& sums);
@@ -90,7 +90,7 @@ class SpringLists {
   LargeVector<std::uint32_t> kind_;  // by spring
   LargeVector<Real> rest_length_;  // by spring, m
   std::vector<std::uint8_t> broken_;  // by spring
-  LargeVector<Side> sides_;  // of rank r: first_side_[r] to first_side_[r + 1] - 1
+  LargeVector<Side> sides_;  // of id index r: first_side_[r] to first_side_[r + 1] - 1
   std::vector<std::uint32_t> first_side_;
   Exclusions exclusions_;
 

@@ -45,16 +45,16 @@ void VerletList<Real>::build(const Record* records, std::size_t count, std::size
   filler_ = record_offset<Real>(static_cast<std::uint32_t>(size - 1));
   const std::size_t room = (end_ + kLanes - 1) / kLanes * kLanes;
   position_at_build_.resize(room);
-  std::vector<std::uint32_t>& ranks = order_;  // the order of the sort is no longer needed
-  ranks.reserve(room);  // a growing vector would take twice that
-  ranks.resize(room);
+  std::vector<std::uint32_t>& id_indices = order_;  // the order of the sort is no longer needed
+  id_indices.reserve(room);  // a growing vector would take twice that
+  id_indices.resize(room);
   const SearchColumns columns(scratch, count + kLanes, rules_->largest_touching() > rules_->smallest_touching());
   parallel_ranges(count, NeighbourList::kTile, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       position_at_build_.put(i, records[i].x);
-      ranks[i] = rank_of(records[i].rank);
+      id_indices[i] = id_index_of(records[i].id_index);
     }
-    columns.fill(slots_, first, last, position_at_build_, ranks.data());
+    columns.fill(slots_, first, last, position_at_build_, id_indices.data());
     if (columns.radius == nullptr) return;
     for (std::size_t p = first; p < last; ++p) {
       columns.radius[p] = static_cast<Real>(reach_of(records[slots_.slot_of(p)]));
@@ -138,7 +138,8 @@ std::uint64_t VerletList<Real>::count_missed(const Record* records) const {
       const auto rows = this->rows(i / NeighbourList::kTile, i % NeighbourList::kTile / kLanes);
       cells.for_points_near(vec_cast<double>(records[i].x), reach_of(records[i]), [&](std::size_t k) {
         const std::uint32_t p = order[k];
-        if (p != i && pairs.overlap(i, p) && !exclusions_->hold(rank_of(records[i].rank), rank_of(records[p].rank)) &&
+        if (p != i && pairs.overlap(i, p) &&
+            !exclusions_->hold(id_index_of(records[i].id_index), id_index_of(records[p].id_index)) &&
             !is_in_lane(rows, i % kLanes, record_offset<Real>(p)))
           ++missed;
       });
@@ -191,7 +192,7 @@ NeighbourRule<Real> VerletList<Real>::neighbour_rule(const SearchColumns& column
   NeighbourRule<Real> rule;
   rule.at = {columns.x, columns.y, columns.z};
   rule.radius = columns.radius;
-  rule.rank = columns.rank;
+  rule.id_index = columns.id_index;
   rule.place = slots_.places();
   rule.neighbour_count = slots_.neighbour_counts();
   rule.reach = static_cast<Real>(kRounding * rules_->smallest_touching() +

@@ -77,11 +77,11 @@ class VerletList {
   /// The first slot in which a particle can be born.
   std::size_t first_free() const { return (count_ + kWindow - 1) / kWindow * kWindow; }
   /// A particle is born in slot i, first_free() or later; it is an outlier from the start.
-  void add(std::size_t i, std::uint32_t rank) {
+  void add(std::size_t i, std::uint32_t id_index) {
     if (!listed_) return;
     HOOKE_ASSERT(i >= first_free(), i, first_free());
     if (i >= end_ || rules_->view().periodic_kind == PeriodicKind::images) return invalidate();
-    order_[i] = rank;
+    order_[i] = id_index;
     position_at_build_.put(i, {Real(0), Real(0), Real(0)});
     add_outlier(i);
   }
@@ -162,25 +162,25 @@ class VerletList {
   // What a search reads, in cell order. It takes less memory than the particles' records.
   struct SearchColumns {
     Real *x, *y, *z, *radius;  // m; radius is null where all are the same
-    std::uint32_t* rank;
+    std::uint32_t* id_index;
 
     SearchColumns(std::span<std::byte> room, std::size_t count, bool radii)
         : x(reinterpret_cast<Real*>(room.data())),
           y(x + count),
           z(y + count),
           radius(radii ? z + count : nullptr),
-          rank(reinterpret_cast<std::uint32_t*>(z + count + (radii ? count : 0))) {}
+          id_index(reinterpret_cast<std::uint32_t*>(z + count + (radii ? count : 0))) {}
 
-    // Fills one column after the other, each in cell order: `at` (m) and `ranks` are by slot.
+    // Fills one column after the other, each in cell order: `at` (m) and `id_indices` are by slot.
     void fill(const WindowOrder& slots, std::size_t first, std::size_t last, const ColumnStore<Real>& at,
-              const std::uint32_t* ranks) const {
+              const std::uint32_t* id_indices) const {
       const auto copy = [&](const auto* from, auto* to) {
         for (std::size_t p = first; p < last; ++p) to[p] = from[slots.slot_of(p)];
       };
       copy(at.columns().x, x);
       copy(at.columns().y, y);
       copy(at.columns().z, z);
-      copy(ranks, rank);
+      copy(id_indices, id_index);
     }
   };
 
@@ -227,7 +227,7 @@ class VerletList {
   std::uint32_t filler_ = 0;  // entry that fills short lanes
   CellList cells_;
   WindowOrder slots_;
-  std::vector<std::uint32_t> order_;  // while sorting: each one's former index; then: ranks
+  std::vector<std::uint32_t> order_;  // while sorting: each one's former index; then: id indices
   NeighbourList list_;
   ColumnStore<Real> position_at_build_;  // m
   bool listed_ = false;

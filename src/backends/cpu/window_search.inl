@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 // The search for neighbours, written once and compiled once for each instruction set (HOOKE_ISA). Points of a block are
-// compared with a pack of others at a time; then the rows of each group are sorted by rank side by side, one a lane.
+// compared with a pack of others at a time; then the rows of each group are sorted by id index side by side, one a
+// lane.
 
 #include <utility>
 
@@ -15,10 +16,10 @@ namespace {
 constexpr std::size_t kGroups = kWindow / kGroupLanes;
 constexpr std::size_t kTogether = kPackBytes == 64 ? 4 : kPackBytes == 32 ? 2 : 1;  // points that registers hold
 
-// A neighbour's rank and slot in one number that sorts like the rank: the bits of doubles of 1 and above.
+// A neighbour's id index and slot in one number that sorts like the id index: the bits of doubles of 1 and above.
 constexpr std::uint32_t kOne = 0x3ff00000U;
-HOOKE_HD std::uint64_t row_key(std::uint32_t rank, std::uint32_t slot) {
-  return std::uint64_t{kOne + rank} << 32U | slot;
+HOOKE_HD std::uint64_t row_key(std::uint32_t id_index, std::uint32_t slot) {
+  return std::uint64_t{kOne + id_index} << 32U | slot;
 }
 
 // Pairs of rows that Batcher's merge exchange compares (Knuth, The Art of Computer Programming, 5.2.2, algorithm M).
@@ -181,13 +182,13 @@ class Search {
   HOOKE_HD void put_keys(std::size_t at, std::size_t p) const {
     if constexpr (kPackBytes > 16) {
       for (std::size_t lane = 0; lane < P::kLanes; lane += Pack<double>::kLanes) {
-        const WordVector ranks = load_words(rule_.rank + p + lane) + kOne;
+        const WordVector id_indices = load_words(rule_.id_index + p + lane) + kOne;
         const WordVector window = (ascending_words_ + static_cast<std::uint32_t>(p + lane)) & ~kInWindow;
-        store_bits(keys_ + at + lane, join_halves(ranks, window | load_bytes(rule_.place + p + lane)));
+        store_bits(keys_ + at + lane, join_halves(id_indices, window | load_bytes(rule_.place + p + lane)));
       }
     } else {
       for (std::size_t lane = 0; lane < P::kLanes; ++lane) {
-        keys_[at + lane] = row_key(rule_.rank[p + lane], slot_of(static_cast<std::uint32_t>(p + lane)));
+        keys_[at + lane] = row_key(rule_.id_index[p + lane], slot_of(static_cast<std::uint32_t>(p + lane)));
       }
     }
   }
@@ -249,7 +250,7 @@ class Search {
     clear_rows(group, count);
     std::uint64_t* const lane = group.rows + slot % kGroupLanes;
     std::uint64_t* own = lane;
-    const std::uint64_t own_key = row_key(rule_.rank[i], slot);
+    const std::uint64_t own_key = row_key(rule_.id_index[i], slot);
     for (std::size_t row = 0; row < count; ++row) {
       const std::uint64_t key = keys_[near[row]];
       lane[row * kGroupLanes] = key;
