@@ -9,8 +9,8 @@ namespace hooke {
 // How consecutive particles in cell order are taken together. Only constants: this header is compiled with the flags of
 // every instruction set.
 
-/// A group: 16 consecutive particles in memory, one per lane of the neighbour list's rows. Whole packs at every width.
-inline constexpr std::size_t kGroupLanes = 16;
+/// A slice: 16 consecutive particles in memory, one per lane of the neighbour list's rows. Whole packs at every width.
+inline constexpr std::size_t kSliceLanes = 16;
 
 /// A window: 64 consecutive particles in cell order. Within the window, their order in memory may differ.
 inline constexpr std::size_t kWindow = 64;
@@ -18,6 +18,6 @@ inline constexpr std::size_t kWindow = 64;
 /// A tile: the 1024 particles that a thread takes at a time.
 inline constexpr std::size_t kTile = 1024;
 
-static_assert(kTile % kWindow == 0 && kWindow % kGroupLanes == 0);
+static_assert(kTile % kWindow == 0 && kWindow % kSliceLanes == 0);
 
 }  // namespace hooke

@@ -12,9 +12,9 @@
 namespace hooke {
 
 template <class Real>
-void MotionBounds<Real>::lay_out(const Columns<Real>& position_at_build, std::size_t count, std::size_t group,
+void MotionBounds<Real>::lay_out(const Columns<Real>& position_at_build, std::size_t count, std::size_t window,
                                  const Limits& limits) {
-  HOOKE_ASSERT(group > 0);
+  HOOKE_ASSERT(window > 0);
   HOOKE_ASSERT(limits.diameter > 0 && limits.skin >= 0, limits.diameter, limits.skin);
   const std::size_t most_blocks = std::max<std::size_t>(4096, count / 4);
   skin_ = limits.skin;
@@ -31,7 +31,7 @@ void MotionBounds<Real>::lay_out(const Columns<Real>& position_at_build, std::si
     width = 2.5 * widest;
   }
   for (std::size_t l = 1; l < kLevels; ++l) map_blocks(levels_[l - 1], levels_[l]);
-  find_blocks(position_at_build, count, group);
+  find_blocks(position_at_build, count, window);
 }
 
 template <class Real>
@@ -58,22 +58,22 @@ void MotionBounds<Real>::map_blocks(const Level& narrow, Level& wide) {
   }
 }
 
-// Finds the narrowest blocks that hold points of each group.
+// Finds the narrowest blocks that hold points of each window.
 template <class Real>
-void MotionBounds<Real>::find_blocks(const Columns<Real>& position_at_build, std::size_t count, std::size_t group) {
-  const std::size_t groups = (count + group - 1) / group;
-  std::vector<std::vector<std::uint32_t>> chunks((groups + kGrain - 1) / kGrain);
-  first_block_.assign(groups + 1, 0);
-  parallel_ranges(groups, kGrain, [&](std::size_t first, std::size_t last) {
-    std::vector<std::uint32_t> keys(kGrain * group);
+void MotionBounds<Real>::find_blocks(const Columns<Real>& position_at_build, std::size_t count, std::size_t window) {
+  const std::size_t windows = (count + window - 1) / window;
+  std::vector<std::vector<std::uint32_t>> chunks((windows + kGrain - 1) / kGrain);
+  first_block_.assign(windows + 1, 0);
+  parallel_ranges(windows, kGrain, [&](std::size_t first, std::size_t last) {
+    std::vector<std::uint32_t> keys(kGrain * window);
     for (std::size_t start = first; start < last; start += kGrain) {
       std::vector<std::uint32_t>& blocks = chunks[start / kGrain];
       const std::size_t end = std::min(start + kGrain, last);
-      levels_[0].grid.keys_of(position_at_build, start * group, std::min(end * group, count), keys.data());
+      levels_[0].grid.keys_of(position_at_build, start * window, std::min(end * window, count), keys.data());
       for (std::size_t g = start; g < end; ++g) {
         const auto before = static_cast<std::ptrdiff_t>(blocks.size());
-        for (std::size_t i = g * group; i < std::min((g + 1) * group, count); ++i) {
-          const std::uint32_t block = keys[i - start * group];
+        for (std::size_t i = g * window; i < std::min((g + 1) * window, count); ++i) {
+          const std::uint32_t block = keys[i - start * window];
           const bool same = static_cast<std::ptrdiff_t>(blocks.size()) > before && blocks.back() == block;
           if (!same && std::find(blocks.begin() + before, blocks.end(), block) == blocks.end()) blocks.push_back(block);
         }
@@ -81,7 +81,7 @@ void MotionBounds<Real>::find_blocks(const Columns<Real>& position_at_build, std
       }
     }
   });
-  for (std::size_t g = 0; g < groups; ++g) first_block_[g + 1] += first_block_[g];
+  for (std::size_t g = 0; g < windows; ++g) first_block_[g + 1] += first_block_[g];
   blocks_.clear();
   blocks_.reserve(first_block_.back());
   for (const auto& blocks : chunks) blocks_.insert(blocks_.end(), blocks.begin(), blocks.end());
@@ -93,10 +93,10 @@ void MotionBounds<Real>::clear_motions() {
 }
 
 template <class Real>
-void MotionBounds<Real>::add_motions(std::size_t first, std::span<const GroupMotion> motions) {
+void MotionBounds<Real>::add_motions(std::size_t first, std::span<const WindowMotion> motions) {
   std::array<Motions, kGrain> sums;
   for (std::size_t k = 0; k < motions.size(); ++k) {
-    const GroupMotion& m = motions[k];
+    const WindowMotion& m = motions[k];
     sums[k].sum = {m.moved.x, m.moved.y, m.moved.z, m.step.x, m.step.y, m.step.z, m.count};
   }
   const std::lock_guard lock(mutex_);
@@ -125,7 +125,7 @@ std::int64_t MotionBounds<Real>::follow_motions(std::span<Anchor> anchors) {
   return steps < 0 ? -1 : static_cast<std::int64_t>(std::min(steps, 1e6));
 }
 
-// Gives each group the mean motion around it, and each block the box around its groups' anchors.
+// Gives each window the mean motion around it, and each block the box around its windows' anchors.
 template <class Real>
 void MotionBounds<Real>::place(std::span<Anchor> anchors) {
   parallel_ranges(group_count(), kGrain, [&](std::size_t first, std::size_t last) {

@@ -24,11 +24,11 @@ namespace hooke {
 /// least its contact distance and a skin apart; to touch now, the two particles must have moved by more than the skin
 /// *relative to each other*. In a pool that sloshes as a whole, or a drop in free flight, they do not.
 ///
-/// Consecutive particles form groups. Each group gets an anchor, a point that moves steadily along with the particles
-/// around. If neighbouring anchors stay close to each other, and every particle stays close to its group's anchor, no
+/// Consecutive particles form windows. Each window gets an anchor, a point that moves steadily along with the particles
+/// around. If neighbouring anchors stay close to each other, and every particle stays close to its window's anchor, no
 /// unlisted pair can touch. This class bounds the first condition ahead of time, from the boxes around the anchors of
 /// blocks of space and their neighbours; the pass that moves particles checks the second, with one comparison per
-/// particle. A particle further from its anchor than its group allows needs separate treatment; the other particles
+/// particle. A particle further from its anchor than its window allows needs separate treatment; the other particles
 /// keep their list.
 ///
 /// Particles in blocks that are not adjacent were at least a block apart. For them the same condition applies to blocks
@@ -49,24 +49,24 @@ class MotionBounds {
   /// own; anchors_apart() bounds their distance.
   static constexpr double kMild = 2;
 
-  /// The summed motion of the particles of one group.
-  struct GroupMotion {
+  /// The summed motion of the particles of one window.
+  struct WindowMotion {
     Vec3<Real> moved{Real(0), Real(0), Real(0)};  // m, since they were listed
     Vec3<Real> step{Real(0), Real(0), Real(0)};  // m, expected in the next step
     Real count{};
   };
 
-  /// Takes the positions of the points when the list was built, m, in cell order; `group` (> 0) consecutive points are
-  /// a group.
-  void lay_out(const Columns<Real>& position_at_build, std::size_t count, std::size_t group, const Limits& limits);
+  /// Takes the positions of the points when the list was built, m, in cell order; `window` (> 0) consecutive points are
+  /// a window.
+  void lay_out(const Columns<Real>& position_at_build, std::size_t count, std::size_t window, const Limits& limits);
 
-  /// Lets anchors follow the particles: motion(g) is the GroupMotion of group g. `anchors` has at least one per group.
-  /// Returns for how many steps from now the anchors are valid; negative where they are not valid even now.
+  /// Lets anchors follow the particles: motion(g) is the WindowMotion of window g. `anchors` has at least one per
+  /// window. Returns for how many steps from now the anchors are valid; negative where they are not valid even now.
   template <class Motion>
   std::int64_t follow(const Motion& motion, std::span<Anchor> anchors) {
     clear_motions();
     parallel_ranges(group_count(), kGrain, [&](std::size_t first, std::size_t last) {
-      std::array<GroupMotion, kGrain> motions;
+      std::array<WindowMotion, kGrain> motions;
       for (std::size_t start = first; start < last; start += kGrain) {
         const std::size_t count = std::min(kGrain, last - start);
         for (std::size_t k = 0; k < count; ++k) motions[k] = motion(start + k);
@@ -76,7 +76,7 @@ class MotionBounds {
     return follow_motions(anchors);
   }
 
-  /// How far the anchors around a group may be from its own anchor after `steps` steps, m.
+  /// How far the anchors around a window may be from its own anchor after `steps` steps, m.
   double anchors_apart(const Anchor& anchor, Real steps) const {
     return skin_ - 2 * static_cast<double>(anchor.allowance - steps * anchor.shrink);
   }
@@ -89,7 +89,7 @@ class MotionBounds {
 
  private:
   static constexpr std::size_t kLevels = 4;
-  static constexpr std::size_t kGrain = 64;  // groups
+  static constexpr std::size_t kGrain = 64;  // windows
 
   // Bounds of offsets (m, 0 to 2) and drifts (m a step, 3 to 5); initially empty. The lower bounds, in front, are
   // stored with the opposite sign, so that all bounds grow.
@@ -131,7 +131,7 @@ class MotionBounds {
     }
   };
 
-  // Sums over the groups in a block.
+  // Sums over the windows in a block.
   struct Motions {
     std::array<Real, 7> sum{};
     void add(const Motions& other) {
@@ -156,15 +156,15 @@ class MotionBounds {
   }
 
   static void map_blocks(const Level& narrow, Level& wide);
-  void find_blocks(const Columns<Real>& position_at_build, std::size_t count, std::size_t group);
+  void find_blocks(const Columns<Real>& position_at_build, std::size_t count, std::size_t window);
   std::size_t group_count() const { return first_block_.size() - 1; }
   std::span<const std::uint32_t> blocks_of(std::size_t g) const {
     return std::span(blocks_).subspan(first_block_[g], first_block_[g + 1] - first_block_[g]);
   }
 
-  // The steps of follow(): add motions of consecutive groups to their blocks, on any thread; then move the anchors.
+  // The steps of follow(): add motions of consecutive windows to their blocks, on any thread; then move the anchors.
   void clear_motions();
-  void add_motions(std::size_t first, std::span<const GroupMotion> motions);
+  void add_motions(std::size_t first, std::span<const WindowMotion> motions);
   std::int64_t follow_motions(std::span<Anchor> anchors);
 
   void place(std::span<Anchor> anchors);
@@ -178,7 +178,7 @@ class MotionBounds {
   double skin_ = 0;  // m
   AnchorRange anywhere_;  // around all anchors
   std::vector<Motions> motions_;
-  std::vector<std::uint32_t> blocks_, first_block_;  // of each group
+  std::vector<std::uint32_t> blocks_, first_block_;  // of each window
   std::mutex mutex_;  // guards sums over blocks
 };
 

@@ -46,7 +46,7 @@ class WindowSearcher {
     window.ranges = ranges_.data();
     window.list = &writer;
     window.room_for_rows = [](void* to, std::size_t rows) {
-      return static_cast<NeighbourList::Writer*>(to)->next_group(rows);
+      return static_cast<NeighbourList::Writer*>(to)->next_slice(rows);
     };
     window.rows = rows_.data();
     window.row_room = most + 1;
@@ -146,7 +146,7 @@ class WindowSearcher {
 
 std::size_t NeighbourList::entry_count() const {
   std::size_t n = 0;
-  for (const Tile& s : tiles) n += std::size_t{s.first_row[kGroups]} * kLanes;
+  for (const Tile& s : tiles) n += std::size_t{s.first_row[kSlices]} * kLanes;
   return n;
 }
 
@@ -180,8 +180,8 @@ void NeighbourList::put_back(std::span<std::uint32_t> rest) {
   if (!rest.empty()) begun_.push_back(rest);
 }
 
-std::uint32_t* NeighbourList::Writer::next_group(std::size_t rows) {
-  HOOKE_ASSERT(group_ < kGroups, group_);
+std::uint32_t* NeighbourList::Writer::next_slice(std::size_t rows) {
+  HOOKE_ASSERT(slice_ < kSlices, slice_);
   const std::size_t entries = rows * kLanes;
   if (to_.size() < entries) {
     const std::size_t written = static_cast<std::size_t>(to_.data() - tile_);
@@ -192,14 +192,14 @@ std::uint32_t* NeighbourList::Writer::next_group(std::size_t rows) {
   }
   std::uint32_t* const room = to_.data();
   to_ = to_.subspan(entries);
-  first_row_[group_ + 1] = first_row_[group_] + static_cast<std::uint32_t>(rows);
-  ++group_;
+  first_row_[slice_ + 1] = first_row_[slice_] + static_cast<std::uint32_t>(rows);
+  ++slice_;
   return room;
 }
 
 NeighbourList::Tile NeighbourList::Writer::finish_tile() {
-  std::fill(first_row_.begin() + static_cast<std::ptrdiff_t>(group_), first_row_.end(), first_row_[group_]);
-  group_ = 0;
+  std::fill(first_row_.begin() + static_cast<std::ptrdiff_t>(slice_), first_row_.end(), first_row_[slice_]);
+  slice_ = 0;
   Tile tile;
   if (first_row_.back() > 0) tile.entries = tile_;
   tile.first_row = first_row_;

@@ -17,16 +17,16 @@
 
 namespace hooke {
 
-/// A full neighbour list in lanes: 16 consecutive particles in memory form a group, and row k of a group holds the k-th
+/// A full neighbour list in lanes: 16 consecutive particles in memory form a slice, and row k of a slice holds the k-th
 /// neighbour of each particle, one per lane (the sliced-ELLPACK layout: Kreutzer et al., "A unified sparse matrix data
 /// format", SIAM J. Sci. Comput. 2014). The neighbours in each lane are in ascending order of id index, so a force pass
 /// that adds row after row sums in canonical order. Short lanes end with fillers. An entry is a slot in memory times
 /// the rule's stride, e.g. an address offset.
 class NeighbourList {
  public:
-  static constexpr std::size_t kLanes = kGroupLanes;
+  static constexpr std::size_t kLanes = kSliceLanes;
   static constexpr std::size_t kTile = hooke::kTile;
-  static constexpr std::size_t kGroups = kTile / kLanes;  // of a tile
+  static constexpr std::size_t kSlices = kTile / kLanes;  // of a tile
 
   static constexpr std::array<std::uint32_t, kLanes> kNoRow{};
 
@@ -34,13 +34,13 @@ class NeighbourList {
   /// be read; they mean nothing.
   struct Tile {
     const std::uint32_t* entries = kNoRow.data();  // rows of kLanes
-    std::array<std::uint32_t, kGroups + 1> first_row{};  // group g: rows first_row[g] to first_row[g + 1]
+    std::array<std::uint32_t, kSlices + 1> first_row{};  // slice g: rows first_row[g] to first_row[g + 1]
   };
   std::vector<Tile> tiles;
 
-  /// The rows of group g of tile s.
+  /// The rows of slice g of tile s.
   std::span<const std::uint32_t> rows(std::size_t s, std::size_t g) const {
-    HOOKE_ASSERT(s < tiles.size() && g < kGroups, s, tiles.size(), g);
+    HOOKE_ASSERT(s < tiles.size() && g < kSlices, s, tiles.size(), g);
     const Tile& tile = tiles[s];
     const std::uint32_t first = tile.first_row[g];
     return {tile.entries + std::size_t{first} * kLanes, (tile.first_row[g + 1] - first) * kLanes};
@@ -61,7 +61,7 @@ class NeighbourList {
   /// Adds tiles without rows until there are `tile_count`.
   void add_empty_tiles(std::size_t tile_count) { tiles.resize(std::max(tiles.size(), tile_count)); }
 
-  /// Takes the rows of one tile after the other, up to kGroups groups each, group by group, and writes them to their
+  /// Takes the rows of one tile after the other, up to kSlices slices each, slice by slice, and writes them to their
   /// place, where they stay until clear(). One writer per thread.
   class Writer {
    public:
@@ -70,18 +70,18 @@ class NeighbourList {
     Writer(const Writer&) = delete;
     Writer& operator=(const Writer&) = delete;
 
-    /// Room for the `rows` rows of the tile's next group, to be written before the next call, which may move the rows
-    /// of earlier groups.
-    std::uint32_t* next_group(std::size_t rows);
-    /// Ends the tile; groups that were not asked for have no rows.
+    /// Room for the `rows` rows of the tile's next slice, to be written before the next call, which may move the rows
+    /// of earlier slices.
+    std::uint32_t* next_slice(std::size_t rows);
+    /// Ends the tile; slices that were not asked for have no rows.
     Tile finish_tile();
 
    private:
     NeighbourList& list_;
     std::span<std::uint32_t> to_;  // room left
     std::uint32_t* tile_ = to_.data();
-    std::size_t group_ = 0;
-    std::array<std::uint32_t, kGroups + 1> first_row_{};
+    std::size_t slice_ = 0;
+    std::array<std::uint32_t, kSlices + 1> first_row_{};
   };
 
  private:

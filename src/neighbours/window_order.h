@@ -12,7 +12,7 @@
 namespace hooke {
 
 /// The slot in memory of each point in cell order. Within a window, points with the most neighbours in the last list
-/// come first, so that the lanes of a group have similar lengths and few entries of a list are padding (the sorting
+/// come first, so that the lanes of a slice have similar lengths and few entries of a list are padding (the sorting
 /// scope of SELL-C-sigma: Kreutzer et al., "A unified sparse matrix data format", SIAM J. Sci. Comput. 2014).
 class WindowOrder {
  public:

@@ -151,9 +151,9 @@ class Lists {
       const std::size_t slot = slot_of(i);
       const NeighbourList::Tile& tile = list.tiles[slot / NeighbourList::kTile];
       ASSERT_NE(tile.entries, nullptr) << "as if particles were not listed";
-      const std::size_t group = slot % NeighbourList::kTile / NeighbourList::kLanes;
+      const std::size_t slice = slot % NeighbourList::kTile / NeighbourList::kLanes;
       std::vector<std::uint32_t> lane;
-      for (std::size_t row = tile.first_row[group]; row < tile.first_row[group + 1]; ++row) {
+      for (std::size_t row = tile.first_row[slice]; row < tile.first_row[slice + 1]; ++row) {
         lane.push_back(tile.entries[row * NeighbourList::kLanes + slot % NeighbourList::kLanes]);
       }
       while (!lane.empty() && lane.back() == kFiller) lane.pop_back();

@@ -37,7 +37,7 @@ class Bounded {
       const auto u = uniform4(30, i, 0);
       x_.push_back({u[0] * size.x, u[1] * size.y, u[2] * size.z});
     }
-    // Sorted so that the points of a group lie close together.
+    // Sorted so that the points of a window lie close together.
     const auto row = [](const Vec3d& x) { return std::pair(std::floor(x.z / 1.5), std::floor(x.y / 1.5)); };
     std::sort(x_.begin(), x_.end(),
               [&](const Vec3d& a, const Vec3d& b) { return row(a) != row(b) ? row(a) < row(b) : a.x < b.x; });
@@ -55,7 +55,7 @@ class Bounded {
   std::int64_t follow(const Motion& motion, double steps, std::size_t gone = std::numeric_limits<std::size_t>::max()) {
     return bounds_.follow(
         [&](std::size_t g) {
-          MotionBounds<double>::GroupMotion sum;
+          MotionBounds<double>::WindowMotion sum;
           for (std::size_t i = g * kGroup; i < std::min((g + 1) * kGroup, x_.size()); ++i) {
             if (i == gone) continue;
             const Vec3d now = motion(x_[i], i, steps);

@@ -77,7 +77,7 @@ TEST(NeighboursPreconditions, EachGroupHasAnAnchor) {
   limits.max = {4, 4, 4};
   bounds.lay_out({zeros, zeros, zeros}, 2, 1, limits);
   std::vector<MotionBounds<double>::Anchor> one(1);
-  const auto still = [](std::size_t) { return MotionBounds<double>::GroupMotion{}; };
+  const auto still = [](std::size_t) { return MotionBounds<double>::WindowMotion{}; };
   EXPECT_ASSERTS((void)bounds.follow(still, one), "anchors.size() = 1, group_count() = 2");
   EXPECT_ASSERTS(bounds.lay_out({zeros, zeros, zeros}, 2, 0, limits), "group > 0");
   limits.skin = -1;
@@ -88,10 +88,10 @@ TEST(NeighboursPreconditions, RowsAreThoseOfATile) {
   NeighbourList rows;
   rows.clear(1);
   EXPECT_ASSERTS((void)rows.rows(1, 0), "s = 1, tiles.size() = 1");
-  EXPECT_ASSERTS((void)rows.rows(0, NeighbourList::kGroups), "g = 64");
+  EXPECT_ASSERTS((void)rows.rows(0, NeighbourList::kSlices), "g = 64");
   NeighbourList::Writer writer(rows);
-  for (std::size_t g = 0; g < NeighbourList::kGroups; ++g) (void)writer.next_group(1);
-  EXPECT_ASSERTS((void)writer.next_group(1), "group_ = 64");
+  for (std::size_t g = 0; g < NeighbourList::kSlices; ++g) (void)writer.next_slice(1);
+  EXPECT_ASSERTS((void)writer.next_slice(1), "group_ = 64");
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 namespace hooke {
 
 /// The approach of particle i to anything it touches that is too fast for a step, if there is one: in double precision,
-/// with each pair's own limit. `rows` are the rows of its group in the neighbour list.
+/// with each pair's own limit. `rows` are the rows of its slice in the neighbour list.
 template <class Real>
 Condition approach_too_fast(const ContactScan<Real>& scan, std::size_t i, std::span<const std::uint32_t> rows,
                             const ParticleRecord<Real>* records, const Scene& scene, const IdTable& ids);

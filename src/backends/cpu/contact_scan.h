@@ -33,7 +33,7 @@ class ContactScan {
   }
 
   /// visit(p, normal, overlap) for every neighbour p that acts on particle i, in order of id and image: it touches i,
-  /// overlap > 0, or cohesion reaches across the gap. `rows` are the rows of i's group in the neighbour list.
+  /// overlap > 0, or cohesion reaches across the gap. `rows` are the rows of i's slice in the neighbour list.
   template <class Visit>
   void for_each_contact(std::size_t i, std::span<const std::uint32_t> rows, const Visit& visit) const {
     constexpr std::size_t kLanes = NeighbourList::kLanes;

@@ -36,7 +36,7 @@ template <class Real>
 class CpuBackend final : public Backend {
   using Record = ParticleRecord<Real>;
   static constexpr std::size_t kLanes = NeighbourList::kLanes;
-  static constexpr std::size_t kGroups = NeighbourList::kGroups;
+  static constexpr std::size_t kSlices = NeighbourList::kSlices;
   static constexpr std::size_t kTile = NeighbourList::kTile;
 
  public:
@@ -115,10 +115,10 @@ class CpuBackend final : public Backend {
   template <class Look>
   void run_pass(const ForcePass<Real>& pass, StepReport& sums, const Look& look);
   void run_tile(const ForcePass<Real>& pass, std::size_t s, TileReport& report) const;
-  void run_groups(const ForcePass<Real>& pass, std::size_t s, std::size_t g, std::size_t end, const std::uint32_t* rows,
+  void run_slices(const ForcePass<Real>& pass, std::size_t s, std::size_t g, std::size_t end, const std::uint32_t* rows,
                   const std::uint32_t* first_row, TileReport& report) const;
 
-  // The rows of a group in the neighbour list; loose groups have none.
+  // The rows of a slice in the neighbour list; loose slices have none.
   std::span<const std::uint32_t> rows_of(std::size_t s, std::size_t g) const {
     if (particles_.slots.is_loose(s * kTile)) return {};
     return list_.rows(s, g);
@@ -133,7 +133,7 @@ class CpuBackend final : public Backend {
     if (is_outside_open_face(rules_.view(), p.x)) leave(p, slot, p.v, left);
   }
 
-  void apply_boundaries_to_group(std::size_t s, std::size_t g, Departures& left);
+  void apply_boundaries_to_slice(std::size_t s, std::size_t g, Departures& left);
 
   // Notes that particle p leaves, with velocity v; it stays until let_go().
   void leave(const Record& p, std::size_t slot, const Vec3<Real>& v, Departures& left) const {

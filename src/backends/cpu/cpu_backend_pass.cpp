@@ -20,13 +20,13 @@ void CpuBackend<Real>::apply_forces(const Instant& now, StepReport& report) {
   run_pass(pass, report, [&](std::size_t s, const TileReport& tile) {
     std::optional<Departures> left;  // large, and seldom needed
     Condition found;
-    for (std::size_t g = 0; g < kGroups; ++g) {
-      if (tile.far[g] != 0) list_.note_far(s * kGroups + g, tile.far[g]);
+    for (std::size_t g = 0; g < kSlices; ++g) {
+      if (tile.far[g] != 0) list_.note_far(s * kSlices + g, tile.far[g]);
       if (tile.notes[g] == 0) continue;
       if ((tile.notes[g] & kApproachTooFast) != 0) found = Condition::first(found, check_approach(s, g));
       if ((tile.notes[g] & kLeftDomain) != 0) {
         if (!left) left.emplace();
-        apply_boundaries_to_group(s, g, *left);
+        apply_boundaries_to_slice(s, g, *left);
       }
     }
     if (left) collect(leaving_, *left);
@@ -75,29 +75,29 @@ void CpuBackend<Real>::finish_tile(std::size_t s, Vec3<Real>* acceleration, Appl
 
 template <class Real>
 void CpuBackend<Real>::run_tile(const ForcePass<Real>& pass, std::size_t s, TileReport& report) const {
-  const std::size_t groups = (particles_.slots.end_of(s) - s * kTile + kLanes - 1) / kLanes;
+  const std::size_t slices = (particles_.slots.end_of(s) - s * kTile + kLanes - 1) / kLanes;
   report.clear();
-  if (particles_.slots.is_loose(s * kTile)) return run_groups(pass, s, 0, groups, nullptr, nullptr, report);
-  for (std::size_t g = 0; g < groups;) {
+  if (particles_.slots.is_loose(s * kTile)) return run_slices(pass, s, 0, slices, nullptr, nullptr, report);
+  for (std::size_t g = 0; g < slices;) {
     std::size_t end = g + 1;
     if (list_.is_patched(s, g)) {
       const auto rows = list_.rows(s, g);
       const std::uint32_t first_row[2] = {0, static_cast<std::uint32_t>(rows.size() / kLanes)};
-      run_groups(pass, s, g, end, rows.data(), first_row, report);
+      run_slices(pass, s, g, end, rows.data(), first_row, report);
     } else {
-      while (end < groups && !list_.is_patched(s, end)) ++end;
-      run_groups(pass, s, g, end, list_.tile(s).entries, list_.tile(s).first_row.data() + g, report);
+      while (end < slices && !list_.is_patched(s, end)) ++end;
+      run_slices(pass, s, g, end, list_.tile(s).entries, list_.tile(s).first_row.data() + g, report);
     }
     g = end;
   }
 }
 
 template <class Real>
-void CpuBackend<Real>::run_groups(const ForcePass<Real>& pass, std::size_t s, std::size_t g, std::size_t end,
+void CpuBackend<Real>::run_slices(const ForcePass<Real>& pass, std::size_t s, std::size_t g, std::size_t end,
                                   const std::uint32_t* rows, const std::uint32_t* first_row, TileReport& report) const {
   TileWork<Real> work;
   work.first = s * kTile + g * kLanes;
-  work.group_count = end - g;
+  work.slice_count = end - g;
   work.alone = rows == nullptr;
   work.rows = rows;
   work.first_row = first_row;
@@ -107,7 +107,7 @@ void CpuBackend<Real>::run_groups(const ForcePass<Real>& pass, std::size_t s, st
   loops_.force_pass(pass, work);
 }
 
-// The group's first approach that was too fast, if there is one.
+// The slice's first approach that was too fast, if there is one.
 template <class Real>
 Condition CpuBackend<Real>::check_approach(std::size_t s, std::size_t g) const {
   const ContactScan<Real> scan = contact_scan();
@@ -124,7 +124,7 @@ Condition CpuBackend<Real>::check_approach(std::size_t s, std::size_t g) const {
 }
 
 template <class Real>
-void CpuBackend<Real>::apply_boundaries_to_group(std::size_t s, std::size_t g, Departures& left) {
+void CpuBackend<Real>::apply_boundaries_to_slice(std::size_t s, std::size_t g, Departures& left) {
   const std::size_t first = s * kTile + g * kLanes;
   for (std::size_t i = first; i < std::min(first + kLanes, particles_.slots.end_of(s)); ++i) {
     if (!is_vacant(particles_.next[i])) apply_boundaries(particles_.next[i], i, left);

@@ -102,14 +102,14 @@ struct ContactLoop {
     while (row != end) {
       if constexpr (kPeriodic == PeriodicKind::images) {
         add_images(table, load_row(row), acting);
-        row += kGroupLanes;
+        row += kSliceLanes;
       } else {
         Met met[kRowsAtOnce];
         std::size_t count = 0;
         do {
           const Lanes<Real> other = load_row(row);
           meet(table, other, nearest(other), met[count++]);
-          row += kGroupLanes;
+          row += kSliceLanes;
         } while (count < kRowsAtOnce && row != end);
         for (std::size_t k = 0; k < count; ++k) add(met[k], acting);
       }
@@ -186,12 +186,12 @@ struct ContactLoop {
 
   // Loads a row's neighbours, after a prefetch of a later row's.
   HOOKE_HD Lanes<Real> load_row(const std::uint32_t* row) const {
-    prefetch_row(row + kRowsAhead * kGroupLanes);
+    prefetch_row(row + kRowsAhead * kSliceLanes);
     return load_neighbours(pass.buffers.in, row);
   }
 
   // Neighbours come in the order of their ids, which no processor predicts. This prefetches the neighbours of about the
-  // next group; at a tile's end those of the next tile, or whatever comes after the last tile.
+  // next slice; at a tile's end those of the next tile, or whatever comes after the last tile.
   HOOKE_HD void prefetch_row(const std::uint32_t* row) const {
     for (std::size_t lane = 0; lane < P::kLanes; ++lane) {
       prefetch(reinterpret_cast<const char*>(pass.buffers.in) + std::size_t{row[lane]} * 8);
@@ -353,7 +353,7 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
                        PassColumns<Real>& columns, unsigned char& notes, unsigned& far) {
   using P = Pack<Real>;
   const std::size_t first = work.first + slot;
-  const std::size_t group = slot / kGroupLanes, half = slot % kGroupLanes;
+  const std::size_t slice = slot / kSliceLanes, half = slot % kSliceLanes;
 
   const Real* own_record = reinterpret_cast<const Real*>(pass.buffers.in + first);
   const Lanes<Real> own = load_lanes<Real>([=](int lane) { return own_record + 8 * lane; });
@@ -362,8 +362,8 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
   Acting<Real, kMaterials> acting;
   if (!work.alone) {
     const std::uint32_t* rows = work.rows + half;
-    const std::uint32_t* row = rows + std::size_t{work.first_row[group]} * kGroupLanes;
-    const std::uint32_t* end = rows + std::size_t{work.first_row[group + 1]} * kGroupLanes;
+    const std::uint32_t* row = rows + std::size_t{work.first_row[slice]} * kSliceLanes;
+    const std::uint32_t* end = rows + std::size_t{work.first_row[slice + 1]} * kSliceLanes;
     acting = ContactLoop<Real, kMaterials, kPeriodic, false>{pass, own}.run(row, end);
     if (any(!acting.slow)) {
       acting = ContactLoop<Real, kMaterials, kPeriodic, true>{pass, own}.run(row, end);
@@ -390,7 +390,7 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
   const Vec3<P> a = body.a * force + gravity;
   const P dt(pass.rules.dt);
   const unsigned held =
-      pass.buffers.held != nullptr ? static_cast<unsigned>(pass.buffers.held[first / kGroupLanes]) >> half : 0;
+      pass.buffers.held != nullptr ? static_cast<unsigned>(pass.buffers.held[first / kSliceLanes]) >> half : 0;
   Vec3<P> v, x = own.x;
   if (pass.buffers.acceleration != nullptr) {  // velocity Verlet
     v = kick(own.v, a, P(Real(0.5)) * dt);
@@ -446,11 +446,11 @@ bool is_summed(const ForcePass<Real>& pass, int sum) {
 template <class Real, Materials kMaterials, PeriodicKind kPeriodic>
 void run_tile(const ForcePass<Real>& pass, const TileWork<Real>& work) {
   PassColumns<Real> columns;
-  for (std::size_t g = 0; g < work.group_count; ++g) {
+  for (std::size_t g = 0; g < work.slice_count; ++g) {
     unsigned char notes = 0;
     unsigned far = 0;
-    for (std::size_t half = 0; half < kGroupLanes; half += Pack<Real>::kLanes) {
-      run_pack<Real, kMaterials, kPeriodic>(pass, work, g * kGroupLanes + half, columns, notes, far);
+    for (std::size_t half = 0; half < kSliceLanes; half += Pack<Real>::kLanes) {
+      run_pack<Real, kMaterials, kPeriodic>(pass, work, g * kSliceLanes + half, columns, notes, far);
     }
     work.notes[g] = notes;
     work.far[g] = static_cast<std::uint16_t>(far);

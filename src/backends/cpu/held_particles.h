@@ -13,7 +13,7 @@ namespace hooke {
 
 /// Which particles are held still, by their index in memory. Takes no memory and no time where none is held.
 class HeldParticles {
-  static constexpr std::size_t kLanes = kGroupLanes;
+  static constexpr std::size_t kLanes = kSliceLanes;
 
  public:
   /// None of `count` particles is held.
@@ -32,7 +32,7 @@ class HeldParticles {
 
   bool none() const { return lanes_.empty(); }
   bool holds(std::size_t i) const { return !none() && (lanes_[i / kLanes] >> i % kLanes & 1U) != 0; }
-  /// A bit for each of the 16 particles of a group, one entry a group; null where none is held.
+  /// A bit for each of the 16 particles of a slice, one entry a slice; null where none is held.
   const std::uint16_t* lanes() const { return none() ? nullptr : lanes_.data(); }
 
  private:

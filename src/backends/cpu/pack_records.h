@@ -121,7 +121,7 @@ HOOKE_HD Quad<double> load_quads(double, const At& at) {
 
 #endif
 
-// Doubles are stored lane by lane: a group is stored once and loaded a dozen times.
+// Doubles are stored lane by lane: a slice is stored once and loaded a dozen times.
 template <class At>
 HOOKE_HD void store_quads(const Quad<double>& q, const At& at) {
   for (std::size_t lane = 0; lane < Pack<double>::kLanes; ++lane) {

@@ -17,7 +17,7 @@ namespace hooke {
 /// list and never sorted, and a newborn takes the slot of a particle that is gone. Vacant slots hold vacant records.
 class ParticleSlots {
  public:
-  static constexpr std::size_t kLanes = kGroupLanes, kTile = hooke::kTile;
+  static constexpr std::size_t kLanes = kSliceLanes, kTile = hooke::kTile;
 
   /// Lays out so many particles of both kinds, with room for more. With `fixed`, the slot of a loose particle that is
   /// gone is free only after recycle().

@@ -10,16 +10,16 @@
 
 namespace hooke {
 
-void PatchedRows::clear(std::size_t groups) {
-  for (const Patched& m : patched_) at_[m.group] = kNone;
+void PatchedRows::clear(std::size_t slices) {
+  for (const Patched& m : patched_) at_[m.slice] = kNone;
   patched_.clear();
   entries_.clear();
-  if (at_.size() != groups) at_.assign(groups, kNone);
+  if (at_.size() != slices) at_.assign(slices, kNone);
 }
 
-void PatchedRows::reserve(std::size_t groups) {
-  patched_.reserve(groups);
-  entries_.reserve(groups * 24 * kLanes);
+void PatchedRows::reserve(std::size_t slices) {
+  patched_.reserve(slices);
+  entries_.reserve(slices * 24 * kLanes);
 }
 
 // Inserts an entry in order of id index; the last entry of its lane is free.
@@ -43,20 +43,20 @@ void PatchedRows::patch(std::vector<MissingEntry>& missing, const NeighbourList&
   std::sort(missing.begin(), missing.end());
   missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
   for (std::size_t k = 0; k < missing.size();) {
-    const std::size_t group = missing[k].of / kLanes;
+    const std::size_t slice = missing[k].of / kLanes;
     std::size_t end = k, most = 0;  // of one lane
-    for (std::size_t lane_start = k; end < missing.size() && missing[end].of / kLanes == group; ++end) {
+    for (std::size_t lane_start = k; end < missing.size() && missing[end].of / kLanes == slice; ++end) {
       if (missing[end].of != missing[lane_start].of) lane_start = end;
       most = std::max(most, end + 1 - lane_start);
     }
-    const auto rows = list.rows(group / NeighbourList::kGroups, group % NeighbourList::kGroups);
+    const auto rows = list.rows(slice / NeighbourList::kSlices, slice % NeighbourList::kSlices);
     // Overwrites the filler after the previous rows.
     const std::size_t first = entries_.empty() ? 0 : entries_.size() - kBehind, count = rows.size() + most * kLanes;
     entries_.resize(first + count + kBehind, filler);
     std::copy(rows.begin(), rows.end(), entries_.begin() + static_cast<std::ptrdiff_t>(first));
     for (; k < end; ++k) insert(missing[k], entries_.data() + first, count, filler, id_index_of_entry);
-    at_[group] = static_cast<std::uint32_t>(patched_.size());
-    patched_.push_back({group, first, count});
+    at_[slice] = static_cast<std::uint32_t>(patched_.size());
+    patched_.push_back({slice, first, count});
   }
 }
 

@@ -12,7 +12,7 @@
 
 namespace hooke {
 
-/// Whether a lane of a group's rows holds an entry.
+/// Whether a lane of a slice's rows holds an entry.
 inline bool is_in_lane(std::span<const std::uint32_t> rows, std::size_t lane, std::uint32_t entry) {
   for (std::size_t at = lane; at < rows.size(); at += NeighbourList::kLanes) {
     if (rows[at] == entry) return true;
@@ -20,7 +20,7 @@ inline bool is_in_lane(std::span<const std::uint32_t> rows, std::size_t lane, st
   return false;
 }
 
-/// Complete rows of the groups whose rows in the list lack a pair.
+/// Complete rows of the slices whose rows in the list lack a pair.
 class PatchedRows {
   static constexpr std::size_t kLanes = NeighbourList::kLanes;
 
@@ -32,14 +32,14 @@ class PatchedRows {
     friend auto operator<=>(const MissingEntry&, const MissingEntry&) = default;
   };
 
-  void clear(std::size_t groups);
+  void clear(std::size_t slices);
   std::size_t count() const { return patched_.size(); }
-  void reserve(std::size_t groups);
-  bool holds(std::size_t group) const { return at_[group] != kNone; }
-  /// The rows of a group that it holds.
-  std::span<const std::uint32_t> rows(std::size_t group) const {
-    HOOKE_ASSERT(holds(group), group);
-    const Patched& m = patched_[at_[group]];
+  void reserve(std::size_t slices);
+  bool holds(std::size_t slice) const { return at_[slice] != kNone; }
+  /// The rows of a slice that it holds.
+  std::span<const std::uint32_t> rows(std::size_t slice) const {
+    HOOKE_ASSERT(holds(slice), slice);
+    const Patched& m = patched_[at_[slice]];
     return std::span(entries_).subspan(m.first, m.count);
   }
 
@@ -53,14 +53,14 @@ class PatchedRows {
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   static constexpr std::size_t kBehind = kRowsAhead * kLanes;
   struct Patched {
-    std::size_t group, first, count;  // its entries
+    std::size_t slice, first, count;  // its entries
   };
 
   template <class IdIndexOfEntry>
   static void insert(const MissingEntry& missing, std::uint32_t* rows, std::size_t count, std::uint32_t filler,
                      const IdIndexOfEntry& id_index_of_entry);
 
-  std::vector<std::uint32_t> at_;  // by group: index into patched_
+  std::vector<std::uint32_t> at_;  // by slice: index into patched_
   std::vector<Patched> patched_;
   std::vector<std::uint32_t> entries_;  // kRowsAhead rows of `filler` after the last
 };

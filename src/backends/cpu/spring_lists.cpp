@@ -90,11 +90,11 @@ template <class Real>
 void SpringLists<Real>::lay_out(const Record* records, std::size_t count, std::size_t size,
                                 const std::vector<std::uint32_t>& place) {
   HOOKE_ASSERT(count < size, count, size);
-  const std::size_t groups = (count + kLanes - 1) / kLanes;
+  const std::size_t slices = (count + kLanes - 1) / kLanes;
   count_ = count;
-  first_row_.resize(groups + 1);
+  first_row_.resize(slices + 1);
   force_.resize(size);
-  parallel_ranges(groups, kGroups, [&](std::size_t first, std::size_t last) {
+  parallel_ranges(slices, kSlices, [&](std::size_t first, std::size_t last) {
     for (std::size_t g = first; g < last; ++g) {
       std::uint32_t most = 0;
       for (std::size_t i = g * kLanes; i < std::min(count, (g + 1) * kLanes); ++i) {
@@ -105,10 +105,10 @@ void SpringLists<Real>::lay_out(const Record* records, std::size_t count, std::s
     }
   });
   first_row_[0] = 0;
-  for (std::size_t g = 0; g < groups; ++g) first_row_[g + 1] += first_row_[g];
+  for (std::size_t g = 0; g < slices; ++g) first_row_[g + 1] += first_row_[g];
   rows_.resize(first_row_.back());
   const auto filler = record_offset<Real>(static_cast<std::uint32_t>(size - 1));
-  parallel_ranges(groups, kGroups, [&](std::size_t first, std::size_t last) {
+  parallel_ranges(slices, kSlices, [&](std::size_t first, std::size_t last) {
     for (std::size_t g = first; g < last; ++g) {
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
         const std::size_t i = g * kLanes + lane;
@@ -140,17 +140,17 @@ const std::vector<std::pair<std::uint32_t, std::uint32_t>>& SpringLists<Real>::a
     SpringSums part;
     for (std::size_t at = first; at < last; at += kTile) {
       std::array<Real, kTile> power;
-      std::array<unsigned char, kGroups> torn{};
+      std::array<unsigned char, kSlices> torn{};
       SpringWork<Real> work;
       work.first = at;
-      work.group_count = (std::min(kTile, last - at) + kLanes - 1) / kLanes;
+      work.slice_count = (std::min(kTile, last - at) + kLanes - 1) / kLanes;
       work.rows = rows_.data();
       work.first_row = first_row_.data() + at / kLanes;
       work.power = power.data();
       work.torn = torn.data();
       run_(pass_, work);
       part.dissipation.add(power.data(), std::min(kTile, last - at));
-      for (std::size_t g = 0; g < work.group_count; ++g) {
+      for (std::size_t g = 0; g < work.slice_count; ++g) {
         if (torn[g] != 0) finish_torn(records, at / kLanes + g, part);
       }
     }
@@ -227,7 +227,7 @@ void SpringLists<Real>::take(const std::shared_ptr<const Structure>& structure) 
   }
 }
 
-// Removes the springs that tore from a group's rows. Each of a spring's two ends does so; the lower one counts it.
+// Removes the springs that tore from a slice's rows. Each of a spring's two ends does so; the lower one counts it.
 template <class Real>
 void SpringLists<Real>::finish_torn(const Record* records, std::size_t g, SpringSums& sums) {
   for (std::uint32_t r = first_row_[g]; r < first_row_[g + 1]; ++r) {

@@ -23,11 +23,11 @@ namespace hooke {
 
 /// The springs of a scene in the layout of the spring pass. Each particle has one side of every spring that ties it, by
 /// ascending index. After each sort of the particles, the sides are laid out in rows like a neighbour list: row k of a
-/// group of 16 particles holds the k-th side of each particle.
+/// slice of 16 particles holds the k-th side of each particle.
 template <class Real>
 class SpringLists {
   using Record = ParticleRecord<Real>;
-  static constexpr std::size_t kLanes = kGroupLanes, kGroups = kTile / kLanes;
+  static constexpr std::size_t kLanes = kSliceLanes, kSlices = kTile / kLanes;
 
  public:
   static constexpr std::uint32_t kVacant = ParticleState<Real>::kNoSlot;
@@ -64,8 +64,8 @@ class SpringLists {
   /// Adds the number and the energy of the springs that hold.
   void measure(const Record* records, const std::vector<std::uint32_t>& place, MeasurementSums& sums) const;
 
-  /// Adds the energy (J) of the springs that tie the particle of an id index; a spring whose other end is one of `among`
-  /// (indices, ascending) counts half.
+  /// Adds the energy (J) of the springs that tie the particle of an id index; a spring whose other end is one of
+  /// `among` (indices, ascending) counts half.
   void add_energy(const Record* records, const std::vector<std::uint32_t>& place, std::size_t id_index,
                   std::span<const std::uint32_t> among, ExactSum& sum) const;
 
@@ -98,7 +98,7 @@ class SpringLists {
 
   std::size_t count_ = 0;  // particles laid out
   LargeVector<SpringRow<Real>> rows_;
-  std::vector<std::uint32_t> first_row_;  // by group
+  std::vector<std::uint32_t> first_row_;  // by slice
   LargeVector<Vec3<Real>> force_;  // by place, N
   mutable std::mutex mutex_;  // guards totals
 };

@@ -33,7 +33,7 @@ struct SpringRow {
   Real rest_length[16];  // m
 };
 
-/// What every group of a pass needs.
+/// What every slice of a pass needs.
 template <class Real>
 struct SpringPass {
   const ParticleRecord<Real>* records = nullptr;
@@ -45,15 +45,15 @@ struct SpringPass {
   Vec3<Real> length{};  // of the domain, m
 };
 
-/// Consecutive groups of 16 particles.
+/// Consecutive slices of 16 particles.
 template <class Real>
 struct SpringWork {
   std::size_t first = 0;  // first particle
-  std::size_t group_count = 0;
+  std::size_t slice_count = 0;
   SpringRow<Real>* rows = nullptr;            // of the whole list
-  const std::uint32_t* first_row = nullptr;   // group_count + 1, indices into rows
+  const std::uint32_t* first_row = nullptr;   // slice_count + 1, indices into rows
   Real* power = nullptr;  // W, one entry per particle: half of the power that its dampers take out
-  unsigned char* torn = nullptr;  // one entry a group: whether a spring became kTornSpring
+  unsigned char* torn = nullptr;  // one entry a slice: whether a spring became kTornSpring
 };
 
 template <class Real>

@@ -22,11 +22,11 @@ HOOKE_HD void prefetch_partners(const SpringPass<Real>& pass, const SpringRow<Re
 }
 
 template <class Real, bool kPeriodic>
-HOOKE_HD void run_spring_pack(const SpringPass<Real>& pass, const SpringWork<Real>& work, std::size_t group,
+HOOKE_HD void run_spring_pack(const SpringPass<Real>& pass, const SpringWork<Real>& work, std::size_t slice,
                               std::size_t half, unsigned& torn) {
   using P = Pack<Real>;
   constexpr std::uint32_t kAhead = 6;  // rows
-  const std::size_t slot = group * kGroupLanes + half, first = work.first + slot;
+  const std::size_t slot = slice * kSliceLanes + half, first = work.first + slot;
   const char* base = reinterpret_cast<const char*>(pass.records);
   const auto own =
       load_two_quads(Real{}, [&](int lane) { return reinterpret_cast<const Real*>(pass.records + first + lane); });
@@ -36,8 +36,8 @@ HOOKE_HD void run_spring_pack(const SpringPass<Real>& pass, const SpringWork<Rea
   const P nowhere(static_cast<Real>(kVacantPosition)), zero(Real(0));
   Vec3<P> force{zero, zero, zero};
   P power = zero;
-  const std::uint32_t end = work.first_row[group + 1], last = work.first_row[work.group_count];
-  for (std::uint32_t r = work.first_row[group]; r < end; ++r) {
+  const std::uint32_t end = work.first_row[slice + 1], last = work.first_row[work.slice_count];
+  for (std::uint32_t r = work.first_row[slice]; r < end; ++r) {
     SpringRow<Real>& row = work.rows[r];
     if (r + kAhead < last) prefetch_partners(pass, work.rows[r + kAhead], half);
     const auto other = load_two_quads(Real{}, [&](int lane) {
@@ -82,20 +82,20 @@ HOOKE_HD void run_spring_pack(const SpringPass<Real>& pass, const SpringWork<Rea
 }
 
 template <class Real, bool kPeriodic>
-void run_spring_groups(const SpringPass<Real>& pass, const SpringWork<Real>& work) {
-  for (std::size_t group = 0; group < work.group_count; ++group) {
+void run_spring_slices(const SpringPass<Real>& pass, const SpringWork<Real>& work) {
+  for (std::size_t slice = 0; slice < work.slice_count; ++slice) {
     unsigned torn = 0;
-    for (std::size_t half = 0; half < kGroupLanes; half += Pack<Real>::kLanes) {
-      run_spring_pack<Real, kPeriodic>(pass, work, group, half, torn);
+    for (std::size_t half = 0; half < kSliceLanes; half += Pack<Real>::kLanes) {
+      run_spring_pack<Real, kPeriodic>(pass, work, slice, half, torn);
     }
-    work.torn[group] = static_cast<unsigned char>(torn);
+    work.torn[slice] = static_cast<unsigned char>(torn);
   }
 }
 
 template <class Real>
 void choose_spring_pass(const SpringPass<Real>& pass, const SpringWork<Real>& work) {
-  if (pass.any_periodic) return run_spring_groups<Real, true>(pass, work);
-  return run_spring_groups<Real, false>(pass, work);
+  if (pass.any_periodic) return run_spring_slices<Real, true>(pass, work);
+  return run_spring_slices<Real, false>(pass, work);
 }
 
 }  // namespace

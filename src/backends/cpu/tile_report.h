@@ -11,10 +11,10 @@
 
 namespace hooke {
 
-/// What the force pass reports of the groups of one tile beside their new state.
+/// What the force pass reports of the slices of one tile beside their new state.
 struct TileReport {
-  std::array<unsigned char, NeighbourList::kGroups> notes;  // GroupNote bits
-  std::array<std::uint16_t, NeighbourList::kGroups> far;    // a bit a particle
+  std::array<unsigned char, NeighbourList::kSlices> notes;  // SliceNote bits
+  std::array<std::uint16_t, NeighbourList::kSlices> far;    // a bit a particle
   std::array<ExactParts, PassSum::kCount> sums;
 
   void clear() {

@@ -93,14 +93,14 @@ void VerletList<Real>::build(const Record* records, std::size_t count, std::size
 }
 
 template <class Real>
-void VerletList<Real>::note_far(std::size_t group, unsigned far) {
-  HOOKE_ASSERT(group < outlying_.size() && far >> kLanes == 0, group, outlying_.size(), far);
-  const unsigned news = far & ~unsigned{outlying_[group]};
+void VerletList<Real>::note_far(std::size_t slice, unsigned far) {
+  HOOKE_ASSERT(slice < outlying_.size() && far >> kLanes == 0, slice, outlying_.size(), far);
+  const unsigned news = far & ~unsigned{outlying_[slice]};
   if (news == 0) return;
-  outlying_[group] = static_cast<std::uint16_t>(outlying_[group] | far);
+  outlying_[slice] = static_cast<std::uint16_t>(outlying_[slice] | far);
   const std::lock_guard lock(mutex_);
   for (unsigned left = news; left != 0; left &= left - 1) {
-    outliers_.push_back(static_cast<std::uint32_t>(group * kLanes) +
+    outliers_.push_back(static_cast<std::uint32_t>(slice * kLanes) +
                         static_cast<std::uint32_t>(std::countr_zero(left)));
   }
 }
@@ -154,7 +154,7 @@ void VerletList<Real>::strike_exclusions() {
   if (exclusions_->empty()) return;
   parallel_ranges(count_, kLanes, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      const std::span<std::uint32_t> rows = list_.rows_to_edit(i / NeighbourList::kTile, i / kLanes % kGroups);
+      const std::span<std::uint32_t> rows = list_.rows_to_edit(i / NeighbourList::kTile, i / kLanes % kSlices);
       exclusions_->strike(order_[i], rows.data() + i % kLanes, rows.size() / kLanes, kLanes, filler_,
                           [this](std::uint32_t entry) { return order_[entry / record_offset<Real>(1)]; });
     }
@@ -219,11 +219,11 @@ void VerletList<Real>::find_coarseness() {
 // Makes anchors follow the particles, and finds the present outliers.
 template <class Real>
 void VerletList<Real>::follow(const Record* records) {
-  using GroupMotion = typename MotionBounds<Real>::GroupMotion;
+  using WindowMotion = typename MotionBounds<Real>::WindowMotion;
   const Real dt = rules_->view().dt;
   horizon_ = motion_.follow(
       [&](std::size_t w) {
-        GroupMotion motion;
+        WindowMotion motion;
         Box3<Real> extent = Box3<Real>::none();
         for (std::size_t i = w * kWindow; i < std::min((w + 1) * kWindow, count_); ++i) {
           if (is_vacant(records[i])) continue;
@@ -241,17 +241,17 @@ void VerletList<Real>::follow(const Record* records) {
   since_followed_ = 0;
   outliers_.clear();
   if (horizon_ < 0) return invalidate();
-  parallel_ranges(outlying_.size(), kGroups, [&](std::size_t first, std::size_t last) {
+  parallel_ranges(outlying_.size(), kSlices, [&](std::size_t first, std::size_t last) {
     for (std::size_t g = first; g < last; ++g) {
       outlying_[g] = 0;
-      note_far(g, outliers_of_group(records, g));
+      note_far(g, outliers_of_slice(records, g));
     }
   });
 }
 
-// The outliers of a group by its present anchor, and the particles born since the build, one bit per lane.
+// The outliers of a slice by its present anchor, and the particles born since the build, one bit per lane.
 template <class Real>
-unsigned VerletList<Real>::outliers_of_group(const Record* records, std::size_t g) const {
+unsigned VerletList<Real>::outliers_of_slice(const Record* records, std::size_t g) const {
   const std::size_t window = g * kLanes / kWindow;
   const Anchor& anchor = anchors_[window];
   const bool born = g * kLanes >= first_free();

@@ -36,7 +36,7 @@ template <class Real>
 class VerletList {
   using Record = ParticleRecord<Real>;
   static constexpr std::size_t kLanes = NeighbourList::kLanes;
-  static constexpr std::size_t kGroups = NeighbourList::kGroups;
+  static constexpr std::size_t kSlices = NeighbourList::kSlices;
 
  public:
   using Anchor = GroupAnchor<Real>;
@@ -64,11 +64,11 @@ class VerletList {
   /// `scratch`, which is as large as the records.
   void build(const Record* records, std::size_t count, std::size_t end, std::size_t size, std::span<std::byte> scratch);
 
-  /// The rows of group g of tile s, patched where necessary.
+  /// The rows of slice g of tile s, patched where necessary.
   std::span<const std::uint32_t> rows(std::size_t s, std::size_t g) const {
-    return is_patched(s, g) ? patched_.rows(s * kGroups + g) : list_.rows(s, g);
+    return is_patched(s, g) ? patched_.rows(s * kSlices + g) : list_.rows(s, g);
   }
-  bool is_patched(std::size_t s, std::size_t g) const { return patched_.holds(s * kGroups + g); }
+  bool is_patched(std::size_t s, std::size_t g) const { return patched_.holds(s * kSlices + g); }
   const NeighbourList::Tile& tile(std::size_t s) const { return list_.tiles[s]; }
   std::size_t tile_count() const { return list_.tiles.size(); }
   std::size_t entry_count() const { return list_.entry_count(); }
@@ -116,9 +116,9 @@ class VerletList {
   /// Steps since the anchors were set, after one more step.
   Real next_step() const { return static_cast<Real>(steps_ + 1); }
 
-  /// Notes the lanes of a group that are further from their anchor than it allows: `far` has one bit per lane. Any
-  /// thread may call, but only one per group.
-  void note_far(std::size_t group, unsigned far);
+  /// Notes the lanes of a slice that are further from their anchor than it allows: `far` has one bit per lane. Any
+  /// thread may call, but only one per slice.
+  void note_far(std::size_t slice, unsigned far);
   /// Whether particle i, moved by its next step, is further from its anchor than that allows.
   bool is_far(const Record& p, std::size_t i) const { return is_off(p, i, anchors_[i / kWindow], next_step()); }
   /// All particles have moved by a step, and new outliers are noted. is_valid() then tells whether the list holds.
@@ -197,7 +197,7 @@ class VerletList {
   }
 
   void follow(const Record* records);
-  unsigned outliers_of_group(const Record* records, std::size_t g) const;
+  unsigned outliers_of_slice(const Record* records, std::size_t g) const;
 
   OutlierPairs<Real> outlier_pairs(const Record* records) const {
     return {*rules_, records, cells_, slots_, order_.data(), list_, *exclusions_};
@@ -237,7 +237,7 @@ class VerletList {
   MotionBounds<Real> motion_;
   std::vector<Anchor> anchors_;  // by window
   std::vector<Box3<Real>> moved_;  // likewise
-  std::vector<std::uint16_t> outlying_;  // by group: a bit a lane
+  std::vector<std::uint16_t> outlying_;  // by slice: a bit a lane
   PatchedRows patched_;
   std::vector<std::uint32_t> outliers_;
   bool patching_due_ = false;  // rows lack released pairs

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // The search for neighbours, written once and compiled once for each instruction set (HOOKE_ISA). Points of a block are
-// compared with a pack of others at a time; then the rows of each group are sorted by id index side by side, one a
+// compared with a pack of others at a time; then the rows of each slice are sorted by id index side by side, one a
 // lane.
 
 #include <utility>
@@ -13,7 +13,7 @@
 namespace hooke::HOOKE_ISA {
 namespace {
 
-constexpr std::size_t kGroups = kWindow / kGroupLanes;
+constexpr std::size_t kSlices = kWindow / kSliceLanes;
 constexpr std::size_t kTogether = kPackBytes == 64 ? 4 : kPackBytes == 32 ? 2 : 1;  // points that registers hold
 
 // A neighbour's id index and slot in one number that sorts like the id index: the bits of doubles of 1 and above.
@@ -73,10 +73,10 @@ struct Network {
   template <std::size_t... kPair, std::size_t... kRow>
   HOOKE_HD static void sort(std::uint64_t* keys, std::index_sequence<kPair...>, std::index_sequence<kRow...>) {
     [[maybe_unused]] constexpr Pairs kPairs = pairs();
-    for (std::size_t lane = 0; lane < kGroupLanes; lane += Pack<double>::kLanes) {
-      Pack<double> row[kRows] = {load_bits(keys + kRow * kGroupLanes + lane)...};
+    for (std::size_t lane = 0; lane < kSliceLanes; lane += Pack<double>::kLanes) {
+      Pack<double> row[kRows] = {load_bits(keys + kRow * kSliceLanes + lane)...};
       (exchange_rows(row[kPairs.of[kPair].a], row[kPairs.of[kPair].b]), ...);
-      (store_bits(keys + kRow * kGroupLanes + lane, row[kRow]), ...);
+      (store_bits(keys + kRow * kSliceLanes + lane, row[kRow]), ...);
     }
   }
   static void sort_rows(std::uint64_t* keys) {
@@ -96,9 +96,9 @@ void sort_rows(std::uint64_t* keys, std::size_t rows) {
   constexpr std::size_t kMostInRegisters = 16;
   if (rows <= kMostInRegisters) return sort_rows_by_network(keys, rows, std::make_index_sequence<kMostInRegisters>());
   merge_exchange(rows, [&](std::size_t a, std::size_t b) {
-    for (std::size_t lane = 0; lane < kGroupLanes; lane += Pack<double>::kLanes) {
-      std::uint64_t* const at_a = keys + a * kGroupLanes + lane;
-      std::uint64_t* const at_b = keys + b * kGroupLanes + lane;
+    for (std::size_t lane = 0; lane < kSliceLanes; lane += Pack<double>::kLanes) {
+      std::uint64_t* const at_a = keys + a * kSliceLanes + lane;
+      std::uint64_t* const at_b = keys + b * kSliceLanes + lane;
       Pack<double> row_a = load_bits(at_a), row_b = load_bits(at_b);
       exchange_rows(row_a, row_b);
       store_bits(at_a, row_a);
@@ -121,27 +121,27 @@ class Search {
   HOOKE_HD Search(const NeighbourRule<Real>& rule, const WindowSearch<Real>& window) : rule_(rule), window_(window) {}
 
   HOOKE_HD void run() {
-    Group groups[kGroups];
-    for (std::size_t g = 0; g < kGroups; ++g) groups[g].rows = window_.rows + g * window_.row_room * kGroupLanes;
+    Slice slices[kSlices];
+    for (std::size_t g = 0; g < kSlices; ++g) slices[g].rows = window_.rows + g * window_.row_room * kSliceLanes;
     const SearchRange* ranges = window_.ranges;
     std::uint32_t i = window_.first;
     for (const SearchBlock<Real>* at = window_.blocks; i < window_.end; ++at) {
       const SearchBlock<Real>& block = *at;
       middle_ = {P(block.middle.x), P(block.middle.y), P(block.middle.z)};
       const std::size_t count = gather(ranges, ranges + block.range_count);
-      for (; i + kTogether <= block.last; i += kTogether) list_near<kTogether>(i, count, groups);
+      for (; i + kTogether <= block.last; i += kTogether) list_near<kTogether>(i, count, slices);
       if constexpr (kTogether > 2) {
-        for (; i + 2 <= block.last; i += 2) list_near<2>(i, count, groups);
+        for (; i + 2 <= block.last; i += 2) list_near<2>(i, count, slices);
       }
-      for (; i < block.last; ++i) list_near<1>(i, count, groups);
+      for (; i < block.last; ++i) list_near<1>(i, count, slices);
       ranges += block.range_count;
     }
-    for (const Group& group : groups) write_rows(group);
+    for (const Slice& slice : slices) write_rows(slice);
   }
 
  private:
-  // The rows of a group as they are filled.
-  struct Group {
+  // The rows of a slice as they are filled.
+  struct Slice {
     std::uint64_t* rows = nullptr;
     std::size_t count = 0;  // of rows
     std::size_t cleared = 0;  // of rows
@@ -170,7 +170,7 @@ class Search {
       to += range->to - range->from;
     }
     constexpr Real kFar = Real(1e36);
-    for (std::size_t at = to; at < to + kGroupLanes; at += P::kLanes) {
+    for (std::size_t at = to; at < to + kSliceLanes; at += P::kLanes) {
       for (Real* column : {x_, y_, z_}) store(column + at, P(Real(0)));
       if constexpr (!kOneRadius) store(radius_ + at, P(Real(0)));
       store(square_ + at, P(kFar));
@@ -214,7 +214,7 @@ class Search {
   // |x_p - x_i|^2 multiplied out, the test is x_p^2 - 2 x_p x_i < reach^2 - x_i^2. A reach with p's radius in it is
   // multiplied out likewise.
   template <std::size_t kPoints>
-  HOOKE_HD void list_near(std::uint32_t i, std::size_t count, Group* groups) const {
+  HOOKE_HD void list_near(std::uint32_t i, std::size_t count, Slice* slices) const {
     Vec3<P> twice[kPoints];
     P twice_reach[kPoints], limit[kPoints];
     for (std::size_t k = 0; k < kPoints; ++k) {
@@ -237,49 +237,49 @@ class Search {
       }
     }
     for (std::size_t k = 0; k < kPoints; ++k) {
-      put_into_lane(i + static_cast<std::uint32_t>(k), near_ + k * near_room_, near[k], groups);
+      put_into_lane(i + static_cast<std::uint32_t>(k), near_ + k * near_room_, near[k], slices);
     }
   }
 
   // Copies the keys of the candidates `near` into point i's lane; its own key only with list_self.
-  HOOKE_HD void put_into_lane(std::uint32_t i, const std::int32_t* near, std::size_t count, Group* groups) const {
+  HOOKE_HD void put_into_lane(std::uint32_t i, const std::int32_t* near, std::size_t count, Slice* slices) const {
     const std::uint32_t slot = slot_of(i);
     rule_.neighbour_count[slot] = static_cast<std::uint8_t>(count < 255 ? count : 255);
     if (count == 0) return;
-    Group& group = groups[slot % kWindow / kGroupLanes];
-    clear_rows(group, count);
-    std::uint64_t* const lane = group.rows + slot % kGroupLanes;
+    Slice& slice = slices[slot % kWindow / kSliceLanes];
+    clear_rows(slice, count);
+    std::uint64_t* const lane = slice.rows + slot % kSliceLanes;
     std::uint64_t* own = lane;
     const std::uint64_t own_key = row_key(rule_.id_index[i], slot);
     for (std::size_t row = 0; row < count; ++row) {
       const std::uint64_t key = keys_[near[row]];
-      lane[row * kGroupLanes] = key;
-      own = key == own_key ? lane + row * kGroupLanes : own;
+      lane[row * kSliceLanes] = key;
+      own = key == own_key ? lane + row * kSliceLanes : own;
     }
     if (!rule_.list_self) {
       --count;
-      *own = lane[count * kGroupLanes];
-      lane[count * kGroupLanes] = last_key_;
+      *own = lane[count * kSliceLanes];
+      lane[count * kSliceLanes] = last_key_;
     }
-    if (count > group.count) group.count = count;
+    if (count > slice.count) slice.count = count;
   }
 
-  HOOKE_HD void clear_rows(Group& group, std::size_t count) const {
-    for (; group.cleared < count; ++group.cleared) {
-      for (std::size_t lane = 0; lane < kGroupLanes; ++lane) group.rows[group.cleared * kGroupLanes + lane] = last_key_;
+  HOOKE_HD void clear_rows(Slice& slice, std::size_t count) const {
+    for (; slice.cleared < count; ++slice.cleared) {
+      for (std::size_t lane = 0; lane < kSliceLanes; ++lane) slice.rows[slice.cleared * kSliceLanes + lane] = last_key_;
     }
   }
 
-  HOOKE_HD void write_rows(const Group& group) const {
-    std::uint32_t* const entries = window_.room_for_rows(window_.list, group.count);
-    sort_rows(group.rows, group.count);
+  HOOKE_HD void write_rows(const Slice& slice) const {
+    std::uint32_t* const entries = window_.room_for_rows(window_.list, slice.count);
+    sort_rows(slice.rows, slice.count);
     if constexpr (kPackBytes > 16) {
-      for (std::size_t k = 0; k < group.count * kGroupLanes; k += Pack<double>::kLanes) {
-        store(entries + k, lower_half(load_bits(group.rows + k)) * rule_.stride);
+      for (std::size_t k = 0; k < slice.count * kSliceLanes; k += Pack<double>::kLanes) {
+        store(entries + k, lower_half(load_bits(slice.rows + k)) * rule_.stride);
       }
     } else {
-      for (std::size_t k = 0; k < group.count * kGroupLanes; ++k) {
-        entries[k] = static_cast<std::uint32_t>(group.rows[k]) * rule_.stride;
+      for (std::size_t k = 0; k < slice.count * kSliceLanes; ++k) {
+        entries[k] = static_cast<std::uint32_t>(slice.rows[k]) * rule_.stride;
       }
     }
   }

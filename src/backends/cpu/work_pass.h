@@ -21,7 +21,7 @@ struct ForceWork {
   const Vec3<Real>* force = nullptr;             // N
   const Vec3<Real>* acceleration = nullptr;      // velocity Verlet: of the coming kick, m/s^2; else null
   Real kick{};                                   // duration of a kick, s
-  std::size_t count = 0;                         // at most kMost; whole groups of 16 can be read
+  std::size_t count = 0;                         // at most kMost; whole slices of 16 can be read
   bool has_resultant = true;                          // the force itself is summed too
 };
 
