@@ -75,7 +75,7 @@ double peak_memory() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-// Whole pictures, from the frame to the pixels; argument: as balls or as water.
+// Whole pictures, from the reference frame to the pixels; argument: as balls or as water.
 void draw_picture(benchmark::State& state) {
   const Frame frame = make_picture(state.range(0) != 0 ? MaterialLook::water : MaterialLook::ball);
   auto renderer = make_gl_renderer({kWidth, kHeight, 2});
@@ -99,7 +99,7 @@ BENCHMARK(draw_picture)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
 
-// Making a frame of a run's particles.
+// Making a reference frame of a run's particles.
 void prepare_frame(benchmark::State& state) {
   const Pool pool = make_pool(MaterialLook::water);
   const Look look = make_look(pool.scene, pool.particles, ColorBy::material);

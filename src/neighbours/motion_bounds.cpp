@@ -106,40 +106,40 @@ void MotionBounds<Real>::add_motions(std::size_t first, std::span<const WindowMo
 }
 
 template <class Real>
-std::int64_t MotionBounds<Real>::follow_motions(std::span<Anchor> anchors) {
-  HOOKE_ASSERT(anchors.size() >= group_count(), anchors.size(), group_count());
+std::int64_t MotionBounds<Real>::follow_motions(std::span<Frame> frames) {
+  HOOKE_ASSERT(frames.size() >= group_count(), frames.size(), group_count());
   for (int axis = 0; axis < 3; ++axis) spread(levels_[0], std::span(motions_), axis);
-  for (Level& level : levels_) level.boxes.assign(level.grid.key_end(), AnchorRange{});
-  place(anchors);
+  for (Level& level : levels_) level.boxes.assign(level.grid.key_end(), FrameRange{});
+  place(frames);
   for (std::size_t l = 1; l < kLevels; ++l) bound_wider_blocks(levels_[l - 1], levels_[l]);
-  anywhere_ = AnchorRange{};
-  for (const AnchorRange& box : levels_.back().boxes) anywhere_.add(box);
+  anywhere_ = FrameRange{};
+  for (const FrameRange& box : levels_.back().boxes) anywhere_.add(box);
   double steps = anywhere_.steps_within(levels_.back().apart);
   if (!(anywhere_.furthest() < 1000 * skin_)) steps = -1;  // rounding would take too much of the skin
   for (std::size_t l = 0; l < kLevels; ++l) {
     for (int axis = 0; axis < 3; ++axis) spread(levels_[l], std::span(levels_[l].boxes), axis);
     if (l == 0) continue;
-    for (const AnchorRange& box : levels_[l].boxes) steps = std::min(steps, box.steps_within(levels_[l - 1].apart));
+    for (const FrameRange& box : levels_[l].boxes) steps = std::min(steps, box.steps_within(levels_[l - 1].apart));
   }
-  allow(anchors);
+  allow(frames);
   return steps < 0 ? -1 : static_cast<std::int64_t>(std::min(steps, 1e6));
 }
 
-// Gives each window the mean motion around it, and each block the box around its windows' anchors.
+// Gives each window the mean motion around it, and each block the box around its windows' reference frames.
 template <class Real>
-void MotionBounds<Real>::place(std::span<Anchor> anchors) {
+void MotionBounds<Real>::place(std::span<Frame> frames) {
   parallel_ranges(group_count(), kGrain, [&](std::size_t first, std::size_t last) {
     for (std::size_t g = first; g < last; ++g) {
       Motions around;
       for (const std::uint32_t block : blocks_of(g)) around.add(motions_[block]);
       const auto& s = around.sum;
       const Real scale = s[6] > Real(0) ? Real(1) / s[6] : Real(0);
-      anchors[g].offset = {scale * s[0], scale * s[1], scale * s[2]};
-      anchors[g].drift = {scale * s[3], scale * s[4], scale * s[5]};
+      frames[g].offset = {scale * s[0], scale * s[1], scale * s[2]};
+      frames[g].drift = {scale * s[3], scale * s[4], scale * s[5]};
     }
     const std::lock_guard lock(mutex_);
     for (std::size_t g = first; g < last; ++g) {
-      for (const std::uint32_t block : blocks_of(g)) levels_[0].boxes[block].add(AnchorRange::around(anchors[g]));
+      for (const std::uint32_t block : blocks_of(g)) levels_[0].boxes[block].add(FrameRange::around(frames[g]));
     }
   });
 }
@@ -148,16 +148,16 @@ template <class Real>
 void MotionBounds<Real>::bound_wider_blocks(const Level& narrow, Level& wide) {
   for (std::size_t z = 1; z <= count_of(narrow, 2); ++z) {
     for (std::size_t y = 1; y <= count_of(narrow, 1); ++y) {
-      const AnchorRange* from = narrow.boxes.data() + z * stride_of(narrow, 2) + y * stride_of(narrow, 1);
-      AnchorRange* to = wide.boxes.data() + wide.block_of[2][z] + wide.block_of[1][y];
+      const FrameRange* from = narrow.boxes.data() + z * stride_of(narrow, 2) + y * stride_of(narrow, 1);
+      FrameRange* to = wide.boxes.data() + wide.block_of[2][z] + wide.block_of[1][y];
       for (std::size_t x = 1; x <= count_of(narrow, 0); ++x) to[wide.block_of[0][x]].add(from[x]);
     }
   }
 }
 
-// Each particle of a pair gets half of the part of the skin that neighbouring anchors leave.
+// Each particle of a pair gets half of the part of the skin that neighbouring reference frames leave.
 template <class Real>
-void MotionBounds<Real>::allow(std::span<Anchor> anchors) const {
+void MotionBounds<Real>::allow(std::span<Frame> frames) const {
   parallel_ranges(group_count(), kGrain, [&](std::size_t first, std::size_t last) {
     for (std::size_t g = first; g < last; ++g) {
       double apart = 0, growth = 0;
@@ -165,8 +165,8 @@ void MotionBounds<Real>::allow(std::span<Anchor> anchors) const {
         apart = std::max(apart, levels_[0].boxes[block].across(0));
         growth = std::max(growth, levels_[0].boxes[block].across(3));
       }
-      anchors[g].allowance = static_cast<Real>((skin_ - apart) / 2);
-      anchors[g].shrink = static_cast<Real>(growth / 2);
+      frames[g].buffer = static_cast<Real>((skin_ - apart) / 2);
+      frames[g].buffer_loss = static_cast<Real>(growth / 2);
     }
   });
 }

@@ -15,21 +15,21 @@
 #include "hooke/base/parallel.h"
 #include "hooke/base/vec3.h"
 #include "hooke/neighbours/cell_grid.h"
-#include "hooke/neighbours/group_anchor.h"
+#include "hooke/neighbours/reference_frame.h"
 #include "hooke/neighbours/window_search.h"
 
 namespace hooke {
 
-/// How far particles may move from their anchors before a neighbour list can miss a contact. An unlisted pair was at
-/// least its contact distance and a skin apart; to touch now, the two particles must have moved by more than the skin
-/// *relative to each other*. In a pool that sloshes as a whole, or a drop in free flight, they do not.
+/// How far particles may move from their reference frames before a neighbour list can miss a contact. An unlisted pair
+/// was at least its contact distance and a skin apart; to touch now, the two particles must have moved by more than the
+/// skin *relative to each other*. In a pool that sloshes as a whole, or a drop in free flight, they do not.
 ///
-/// Consecutive particles form windows. Each window gets an anchor, a point that moves steadily along with the particles
-/// around. If neighbouring anchors stay close to each other, and every particle stays close to its window's anchor, no
-/// unlisted pair can touch. This class bounds the first condition ahead of time, from the boxes around the anchors of
-/// blocks of space and their neighbours; the pass that moves particles checks the second, with one comparison per
-/// particle. A particle further from its anchor than its window allows needs separate treatment; the other particles
-/// keep their list.
+/// Consecutive particles form windows. Each window gets an reference frame, a point that moves steadily along with the
+/// particles around. If neighbouring reference frames stay close to each other, and every particle stays close to its
+/// window's reference frame, no unlisted pair can touch. This class bounds the first condition ahead of time, from the
+/// boxes around the reference frames of blocks of space and their neighbours; the pass that moves particles checks the
+/// second, with one comparison per particle. A particle further from its reference frame than its window allows needs
+/// separate treatment; the other particles keep their list.
 ///
 /// Particles in blocks that are not adjacent were at least a block apart. For them the same condition applies to blocks
 /// several times as wide, with their distance in place of the skin, and so on for wider blocks.
@@ -43,10 +43,10 @@ class MotionBounds {
     Vec3d min{}, max{};  ///< m, box around the points; a periodic axis must cover its whole period
   };
 
-  using Anchor = GroupAnchor<Real>;
+  using Frame = ReferenceFrame<Real>;
 
-  /// An outlier beyond its allowance by less than this many skins touches only particles whose anchors are close to its
-  /// own; anchors_apart() bounds their distance.
+  /// An outlier beyond its buffer by less than this many skins touches only particles whose reference frames are close
+  /// to its own; frames_apart() bounds their distance.
   static constexpr double kMild = 2;
 
   /// The summed motion of the particles of one window.
@@ -60,10 +60,11 @@ class MotionBounds {
   /// a window.
   void lay_out(const Columns<Real>& position_at_build, std::size_t count, std::size_t window, const Limits& limits);
 
-  /// Lets anchors follow the particles: motion(g) is the WindowMotion of window g. `anchors` has at least one per
-  /// window. Returns for how many steps from now the anchors are valid; negative where they are not valid even now.
+  /// Lets reference frames follow the particles: motion(g) is the WindowMotion of window g. `reference frames` has at
+  /// least one per window. Returns for how many steps from now the reference frames are valid; negative where they are
+  /// not valid even now.
   template <class Motion>
-  std::int64_t follow(const Motion& motion, std::span<Anchor> anchors) {
+  std::int64_t follow(const Motion& motion, std::span<Frame> frames) {
     clear_motions();
     parallel_ranges(group_count(), kGrain, [&](std::size_t first, std::size_t last) {
       std::array<WindowMotion, kGrain> motions;
@@ -73,15 +74,15 @@ class MotionBounds {
         add_motions(start, std::span(motions).first(count));
       }
     });
-    return follow_motions(anchors);
+    return follow_motions(frames);
   }
 
-  /// How far the anchors around a window may be from its own anchor after `steps` steps, m.
-  double anchors_apart(const Anchor& anchor, Real steps) const {
-    return skin_ - 2 * static_cast<double>(anchor.allowance - steps * anchor.shrink);
+  /// How far the reference frames around a window may be from its own reference frame after `steps` steps, m.
+  double frames_apart(const Frame& frame, Real steps) const {
+    return skin_ - 2 * static_cast<double>(frame.buffer - steps * frame.buffer_loss);
   }
 
-  /// The middle of all anchors after `steps` steps, m, and the largest distance of an anchor from it.
+  /// The middle of all reference frames after `steps` steps, m, and the largest distance of an reference frame from it.
   Vec3<Real> middle(Real steps) const;
   double furthest_from_middle(double steps) const {
     return 0.5001 * (anywhere_.across(0) + steps * anywhere_.across(3));
@@ -93,16 +94,16 @@ class MotionBounds {
 
   // Bounds of offsets (m, 0 to 2) and drifts (m a step, 3 to 5); initially empty. The lower bounds, in front, are
   // stored with the opposite sign, so that all bounds grow.
-  struct AnchorRange {
+  struct FrameRange {
     static constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
     std::array<Real, 12> edge = {-kInfinite, -kInfinite, -kInfinite, -kInfinite, -kInfinite, -kInfinite,
                                  -kInfinite, -kInfinite, -kInfinite, -kInfinite, -kInfinite, -kInfinite};
 
-    static AnchorRange around(const Anchor& a) {
+    static FrameRange around(const Frame& a) {
       const Vec3<Real>&u = a.offset, &v = a.drift;
       return {{-u.x, -u.y, -u.z, -v.x, -v.y, -v.z, u.x, u.y, u.z, v.x, v.y, v.z}};
     }
-    void add(const AnchorRange& box) {
+    void add(const FrameRange& box) {
       for (std::size_t e = 0; e < 12; ++e) edge[e] = edge[e] < box.edge[e] ? box.edge[e] : edge[e];
     }
     bool empty() const { return edge[0] == -kInfinite; }
@@ -123,7 +124,8 @@ class MotionBounds {
       }
       return most;
     }
-    // Number of steps before two anchors in the box can be further apart than `apart`; negative if they are already.
+    // Number of steps before two reference frames in the box can be further apart than `apart`; negative if they are
+    // already.
     double steps_within(double apart) const {
       const double now = across(0), growth = across(3);
       if (!(now <= apart)) return -1;
@@ -141,8 +143,8 @@ class MotionBounds {
 
   struct Level {
     CellGrid grid;
-    double apart = 0;  // m: how far anchors of blocks that are not adjacent may separate
-    std::vector<AnchorRange> boxes;
+    double apart = 0;  // m: how far reference frames of blocks that are not adjacent may separate
+    std::vector<FrameRange> boxes;
     std::array<std::vector<std::size_t>, 3> block_of;  // by index of a narrower block along an axis: a term of a key
   };
 
@@ -162,21 +164,22 @@ class MotionBounds {
     return std::span(blocks_).subspan(first_block_[g], first_block_[g + 1] - first_block_[g]);
   }
 
-  // The steps of follow(): add motions of consecutive windows to their blocks, on any thread; then move the anchors.
+  // The steps of follow(): add motions of consecutive windows to their blocks, on any thread; then move the reference
+  // frames.
   void clear_motions();
   void add_motions(std::size_t first, std::span<const WindowMotion> motions);
-  std::int64_t follow_motions(std::span<Anchor> anchors);
+  std::int64_t follow_motions(std::span<Frame> frames);
 
-  void place(std::span<Anchor> anchors);
+  void place(std::span<Frame> frames);
   static void bound_wider_blocks(const Level& narrow, Level& wide);
 
   template <class T>
   static void spread(const Level& level, std::span<T> blocks, int axis);
-  void allow(std::span<Anchor> anchors) const;
+  void allow(std::span<Frame> frames) const;
 
   std::array<Level, kLevels> levels_;
   double skin_ = 0;  // m
-  AnchorRange anywhere_;  // around all anchors
+  FrameRange anywhere_;  // around all reference frames
   std::vector<Motions> motions_;
   std::vector<std::uint32_t> blocks_, first_block_;  // of each window
   std::mutex mutex_;  // guards sums over blocks

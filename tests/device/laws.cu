@@ -6,7 +6,7 @@
 
 #include "hooke/core/rules_view.h"
 #include "hooke/neighbours/grid_geometry.h"
-#include "hooke/neighbours/group_anchor.h"
+#include "hooke/neighbours/reference_frame.h"
 #include "hooke/neighbours/layout.h"
 #include "hooke/physics/attraction.h"
 #include "hooke/physics/collider.h"
@@ -30,7 +30,7 @@ struct Particle {
 // One call of each law, on numbers unknown to the compiler, so that it can't fold anything.
 template <class Real>
 __device__ Vec3<Real> all_laws(const Particle<Real>& i, const Particle<Real>& p, const ContactLaw<Real>& law,
-                               const PlacedCollider<Real>& collider, const GroupAnchor<Real>& anchor,
+                               const PlacedCollider<Real>& collider, const ReferenceFrame<Real>& frame,
                                const Vec3<Real>& period, Real k) {
   const Vec3<Real> x_ip = nearest_displacement(i.x, p.x, period), w = p.v - i.v;
   const Real distance = sqrt_of(dot(x_ip, x_ip));
@@ -47,7 +47,7 @@ __device__ Vec3<Real> all_laws(const Particle<Real>& i, const Particle<Real>& p,
   for_each_collider_face(collider, i.x, [&](const ColliderFace<Real>& face) {
     force += contact_forces(k - face.distance, face.normal, face.velocity - i.v, law.linear).total();
   });
-  force += anchor.limit2(k) * anchor.at(k);
+  force += frame.limit2(k) * frame.at(k);
   const Vec3<Real> v = kick(i.v, force, k);
   const Vec3<Real> x = drift(i.x, v, k);
   return {wrap_coordinate(x.x, Real(0), k), x.y, x.z};
@@ -55,15 +55,15 @@ __device__ Vec3<Real> all_laws(const Particle<Real>& i, const Particle<Real>& p,
 
 template <class Real>
 __global__ void laws(Particle<Real>* particles, const ContactLaw<Real>* law, const PlacedCollider<Real>* collider,
-                     const GroupAnchor<Real>* anchor, Vec3<Real> period, Real k) {
+                     const ReferenceFrame<Real>* frame, Vec3<Real> period, Real k) {
   const unsigned i = blockIdx.x * blockDim.x + threadIdx.x;
-  particles[i].a = all_laws(particles[i], particles[i + 1], *law, *collider, *anchor, period, k);
+  particles[i].a = all_laws(particles[i], particles[i + 1], *law, *collider, *frame, period, k);
 }
 
 template __global__ void laws(Particle<float>*, const ContactLaw<float>*, const PlacedCollider<float>*,
-                              const GroupAnchor<float>*, Vec3<float>, float);
+                              const ReferenceFrame<float>*, Vec3<float>, float);
 template __global__ void laws(Particle<double>*, const ContactLaw<double>*, const PlacedCollider<double>*,
-                              const GroupAnchor<double>*, Vec3<double>, double);
+                              const ReferenceFrame<double>*, Vec3<double>, double);
 
 // Which cell a particle is in, how many cells its surroundings meet, and what it has with its own kind.
 template <class Real>

@@ -28,7 +28,7 @@ Vec3d noise(std::uint64_t i, double size) {
   return {size * (2 * u[0] - 1), size * (2 * u[1] - 1), size * (2 * u[2] - 1)};
 }
 
-// Points in a box of `size`, and anchors that follow their motion.
+// Points in a box of `size`, and reference frames that follow their motion.
 class Bounded {
  public:
   Bounded(std::size_t count, const Vec3d& size, bool periodic) : size_(size), periodic_(periodic) {
@@ -48,7 +48,7 @@ class Bounded {
     }
     bounds_.lay_out({columns[0].data(), columns[1].data(), columns[2].data()}, count, kGroup,
                     {kDiameter, kSkin, {periodic, periodic, periodic}, {0, 0, 0}, size});
-    anchors_.resize((count + kGroup - 1) / kGroup);
+    frames_.resize((count + kGroup - 1) / kGroup);
   }
 
   // Point `gone` does not exist any more.
@@ -65,13 +65,13 @@ class Bounded {
           }
           return sum;
         },
-        anchors_);
+        frames_);
   }
 
-  // Whether point i, moved by u, is further from its anchor than allowed, `steps` steps after follow().
+  // Whether point i, moved by u, is further from its reference frame than allowed, `steps` steps after follow().
   bool outliers(std::size_t i, const Vec3d& u, double steps) const {
-    const Vec3d off = u - anchors_[i / kGroup].at(steps);
-    return !(dot(off, off) <= anchors_[i / kGroup].limit2(steps));
+    const Vec3d off = u - frames_[i / kGroup].at(steps);
+    return !(dot(off, off) <= frames_[i / kGroup].limit2(steps));
   }
   std::size_t outlier_count(const Motion& motion, double followed, double steps) const {
     std::size_t count = 0;
@@ -93,7 +93,7 @@ class Bounded {
   }
 
   const MotionBounds<double>& bounds() const { return bounds_; }
-  const std::vector<GroupAnchor<double>>& anchors() const { return anchors_; }
+  const std::vector<ReferenceFrame<double>>& frames() const { return frames_; }
   const std::vector<Vec3d>& points() const { return x_; }
   double distance(Vec3d d) const {
     for (int axis = 0; axis < 3 && periodic_; ++axis) {
@@ -108,7 +108,7 @@ class Bounded {
   bool periodic_;
   std::vector<Vec3d> x_;
   MotionBounds<double> bounds_;
-  std::vector<GroupAnchor<double>> anchors_;
+  std::vector<ReferenceFrame<double>> frames_;
 };
 
 struct Setting {
@@ -130,7 +130,7 @@ const Motion kMotions[] = {
     [](const Vec3d& x, std::uint64_t, double t) { return Vec3d{x.x < 4 ? 0.02 * t * t : -0.02 * t * t, 1, 0}; },
 };
 
-// Of two points that touch without being listed, at least one is an outlier, as long as the anchors are good.
+// Of two points that touch without being listed, at least one is an outlier, as long as the reference frames are good.
 TEST(MotionBounds, NeverMissATouchOfTwoThatAreNoOutliers) {
   int questions = 0, kept = 0;
   for (const Setting& setting : kSettings) {
@@ -170,12 +170,12 @@ TEST(MotionBounds, SayWhereNeighboursOfOutliersAre) {
         for (const auto& [a, b] : bounded.touching(motion, steps)) {
           for (const auto& [i, p] : {std::pair{a, b}, std::pair{b, a}}) {
             if (!bounded.outliers(i, moved(i), steps) || bounded.outliers(p, moved(p), steps)) continue;
-            const GroupAnchor<double>& anchor = bounded.anchors()[i / kGroup];
-            const Vec3d off = moved(i) - anchor.at(steps), now = bounded.points()[i] + moved(i);
+            const ReferenceFrame<double>& frame = bounded.frames()[i / kGroup];
+            const Vec3d off = moved(i) - frame.at(steps), now = bounded.points()[i] + moved(i);
             const bool is_mild = std::sqrt(dot(off, off)) < MotionBounds<double>::kMild * kSkin;
-            const Vec3d drift = is_mild ? anchor.at(steps) : bounded.bounds().middle(steps);
+            const Vec3d drift = is_mild ? frame.at(steps) : bounded.bounds().middle(steps);
             const double apart =
-                is_mild ? bounded.bounds().anchors_apart(anchor, steps) : bounded.bounds().furthest_from_middle(steps);
+                is_mild ? bounded.bounds().frames_apart(frame, steps) : bounded.bounds().furthest_from_middle(steps);
             ASSERT_LE(bounded.distance(bounded.points()[p] - (now - drift)), kDiameter + kSkin / 2 + apart);
             ++(is_mild ? mild : far);
           }
@@ -236,7 +236,7 @@ TEST(MotionBounds, IgnoreTheDeparted) {
   EXPECT_EQ(bounded.outlier_count(motion, 1, 0), 1U) << "all but the one that is gone are where they were";
 }
 
-// Anchors very far from the listed positions would be too coarse because of rounding.
+// Frames very far from the listed positions would be too coarse because of rounding.
 TEST(MotionBounds, GiveUpAfterAVeryLongWay) {
   Bounded bounded(300, {9, 9, 9}, false);
   EXPECT_LT(bounded.follow([](const Vec3d&, std::uint64_t, double t) { return Vec3d{t, 0, 0}; }, 1e6), 0);

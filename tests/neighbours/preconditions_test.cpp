@@ -70,13 +70,13 @@ TEST(NeighboursPreconditions, LevelsAreTheLists) {
   EXPECT_ASSERTS(other.lay_out({0, 0, 0}, {4, 4, 4}, kNoAxis, std::span(&flat, 1), 10), "level.cell = 0");
 }
 
-TEST(NeighboursPreconditions, EachGroupHasAnAnchor) {
+TEST(NeighboursPreconditions, EachWindowHasAFrame) {
   MotionBounds<double> bounds;
   const double zeros[2] = {0, 0};
   MotionBounds<double>::Limits limits;
   limits.max = {4, 4, 4};
   bounds.lay_out({zeros, zeros, zeros}, 2, 1, limits);
-  std::vector<MotionBounds<double>::Anchor> one(1);
+  std::vector<MotionBounds<double>::Frame> one(1);
   const auto still = [](std::size_t) { return MotionBounds<double>::WindowMotion{}; };
   EXPECT_ASSERTS((void)bounds.follow(still, one), "anchors.size() = 1, group_count() = 2");
   EXPECT_ASSERTS(bounds.lay_out({zeros, zeros, zeros}, 2, 0, limits), "group > 0");

@@ -150,7 +150,8 @@ TYPED_TEST(ContactForceOf, PushesCoincidentCentresApartByTheirIds) {
   }
 }
 
-// Frames that move with a velocity at which nothing rounds give the same bits; other frames the same up to rounding.
+// Frames that move with a velocity at which nothing rounds give the same bits; other reference frames the same up to
+// rounding.
 TYPED_TEST(ContactForceOf, IsTheSameInAMovingFrame) {
   using R = TypeParam;
   constexpr R kEpsilon = std::numeric_limits<R>::epsilon();

@@ -256,12 +256,12 @@ HOOKE_HD Mask<Real> left_domain(const ForcePass<Real>& pass, const Vec3<Pack<Rea
   return out;
 }
 
-// Mask of lanes further from their expected position than their anchor allows; NaN counts as far.
+// Mask of lanes further from their expected position than their reference frame allows; NaN counts as far.
 template <class Real, PeriodicKind kPeriodic>
 HOOKE_HD Mask<Real> is_far(const ForcePass<Real>& pass, const Vec3<Pack<Real>>& x, std::size_t first) {
   using P = Pack<Real>;
-  const GroupAnchor<Real>& anchor = pass.buffers.anchors[first / kWindow];
-  const Vec3<Real> moved = anchor.at(pass.buffers.next_step);
+  const ReferenceFrame<Real>& frame = pass.buffers.frames[first / kWindow];
+  const Vec3<Real> moved = frame.at(pass.buffers.next_step);
   const Vec3<P> expected{load(pass.buffers.position_at_build.x + first) + P(moved.x),
                          load(pass.buffers.position_at_build.y + first) + P(moved.y),
                          load(pass.buffers.position_at_build.z + first) + P(moved.z)};
@@ -275,7 +275,7 @@ HOOKE_HD Mask<Real> is_far(const ForcePass<Real>& pass, const Vec3<Pack<Real>>& 
            displacement(x.y, expected.y, pass.rules.periodic[1], pass.rules.length.y),
            displacement(x.z, expected.z, pass.rules.periodic[2], pass.rules.length.z)};
   }
-  return !(dot(off, off) <= P(anchor.limit2(pass.buffers.next_step)));
+  return !(dot(off, off) <= P(frame.limit2(pass.buffers.next_step)));
 }
 
 // Whether any lane may touch other particles, or touches a wall or a collider.

@@ -71,9 +71,9 @@ void VerletList<Real>::build(const Record* records, std::size_t count, std::size
   std::copy(std::begin(rules_->view().periodic), std::end(rules_->view().periodic), limits_.periodic);
   // The order within a window does not matter.
   motion_.lay_out({columns.x, columns.y, columns.z}, count, kWindow, limits_);
-  // Slots after the last particle are always far (allowance -1).
-  anchors_.assign((end_ + kWindow - 1) / kWindow, Anchor{{}, {}, Real(-1), {}});
-  moved_.resize(anchors_.size());
+  // Slots after the last particle are always far (buffer -1).
+  frames_.assign((end_ + kWindow - 1) / kWindow, Frame{{}, {}, Real(-1), {}});
+  moved_.resize(frames_.size());
   outlying_.assign(room / kLanes, 0);
   patched_.clear(outlying_.size());
   released_.clear();
@@ -216,7 +216,7 @@ void VerletList<Real>::find_coarseness() {
   coarseness_ = 8 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * furthest;
 }
 
-// Makes anchors follow the particles, and finds the present outliers.
+// Makes reference frames follow the particles, and finds the present outliers.
 template <class Real>
 void VerletList<Real>::follow(const Record* records) {
   using WindowMotion = typename MotionBounds<Real>::WindowMotion;
@@ -236,7 +236,7 @@ void VerletList<Real>::follow(const Record* records) {
         moved_[w] = extent;
         return motion;
       },
-      anchors_);
+      frames_);
   steps_ = 0;
   since_followed_ = 0;
   outliers_.clear();
@@ -249,17 +249,17 @@ void VerletList<Real>::follow(const Record* records) {
   });
 }
 
-// The outliers of a slice by its present anchor, and the particles born since the build, one bit per lane.
+// The outliers of a slice by its present reference frame, and the particles born since the build, one bit per lane.
 template <class Real>
 unsigned VerletList<Real>::outliers_of_slice(const Record* records, std::size_t g) const {
   const std::size_t window = g * kLanes / kWindow;
-  const Anchor& anchor = anchors_[window];
+  const Frame& frame = frames_[window];
   const bool born = g * kLanes >= first_free();
   unsigned far = 0;
-  if (!born && furthest2(moved_[window], anchor.offset) <= anchor.limit2(Real(0))) return far;
+  if (!born && furthest2(moved_[window], frame.offset) <= frame.limit2(Real(0))) return far;
   const std::size_t end = born ? (g + 1) * kLanes : std::min((g + 1) * kLanes, count_);
   for (std::size_t i = g * kLanes; i < end; ++i) {
-    if (!is_vacant(records[i]) && (born || is_off(records[i], i, anchor, Real(0)))) far |= 1U << i % kLanes;
+    if (!is_vacant(records[i]) && (born || is_off(records[i], i, frame, Real(0)))) far |= 1U << i % kLanes;
   }
   return far;
 }
@@ -274,10 +274,10 @@ auto VerletList<Real>::place_of(const Record* records) const {
   const double anywhere = half + motion_.furthest_from_middle(static_cast<double>(steps_));
   return [=, this](std::size_t i) -> Place {
     if (i < count_) {
-      const Anchor& anchor = anchors_[i / kWindow];
-      const Vec3<Real> off = displacement(records[i], i, anchor.at(steps));
+      const Frame& frame = frames_[i / kWindow];
+      const Vec3<Real> off = displacement(records[i], i, frame.at(steps));
       if (static_cast<double>(dot(off, off)) < mild * mild) {
-        return {vec_cast<double>(records[i].x - anchor.at(steps)), half + motion_.anchors_apart(anchor, steps)};
+        return {vec_cast<double>(records[i].x - frame.at(steps)), half + motion_.frames_apart(frame, steps)};
       }
     }
     return {vec_cast<double>(records[i].x - middle), anywhere};

@@ -27,9 +27,9 @@
 namespace hooke {
 
 /// A neighbour list with a skin (Verlet, "Computer experiments on classical fluids", Phys. Rev. 159, 98, 1967), and the
-/// checks that make it valid for many steps. While every particle stays near its anchor (motion_bounds.h), the list
-/// misses nothing. Outliers are handled one by one: in every step, the particles that touch each outlier are searched
-/// for, and rows that lack the pair are patched. A new list is built when the outliers cost more than that.
+/// checks that make it valid for many steps. While every particle stays near its reference frame (motion_bounds.h), the
+/// list misses nothing. Outliers are handled one by one: in every step, the particles that touch each outlier are
+/// searched for, and rows that lack the pair are patched. A new list is built when the outliers cost more than that.
 ///
 /// Which pairs are listed at what time changes no result: pairs that don't touch add an exact zero.
 template <class Real>
@@ -39,7 +39,7 @@ class VerletList {
   static constexpr std::size_t kSlices = NeighbourList::kSlices;
 
  public:
-  using Anchor = GroupAnchor<Real>;
+  using Frame = ReferenceFrame<Real>;
 
   /// Excluded pairs are never listed.
   void configure(const PassRules<Real>& rules, WindowSearchFunction<Real> search, const Exclusions& exclusions) {
@@ -111,16 +111,16 @@ class VerletList {
 
   // Moving ----------------------------------------------------------------------------------------------------------
 
-  const Anchor* anchors() const { return anchors_.data(); }  ///< one per window
+  const Frame* frames() const { return frames_.data(); }  ///< one per window
   Columns<Real> position_at_build() const { return position_at_build_.columns(); }
-  /// Steps since the anchors were set, after one more step.
+  /// Steps since the reference frames were set, after one more step.
   Real next_step() const { return static_cast<Real>(steps_ + 1); }
 
-  /// Notes the lanes of a slice that are further from their anchor than it allows: `far` has one bit per lane. Any
-  /// thread may call, but only one per slice.
+  /// Notes the lanes of a slice that are further from their reference frame than it allows: `far` has one bit per lane.
+  /// Any thread may call, but only one per slice.
   void note_far(std::size_t slice, unsigned far);
-  /// Whether particle i, moved by its next step, is further from its anchor than that allows.
-  bool is_far(const Record& p, std::size_t i) const { return is_off(p, i, anchors_[i / kWindow], next_step()); }
+  /// Whether particle i, moved by its next step, is further from its reference frame than that allows.
+  bool is_far(const Record& p, std::size_t i) const { return is_off(p, i, frames_[i / kWindow], next_step()); }
   /// All particles have moved by a step, and new outliers are noted. is_valid() then tells whether the list holds.
   void moved(const Record* records);
 
@@ -191,9 +191,9 @@ class VerletList {
   Vec3<Real> displacement(const Record& p, std::size_t i, const Vec3<Real>& expected) const {
     return nearest_displacement(p.x, position_at_build_[i] + expected, rules_->view().period);
   }
-  bool is_off(const Record& p, std::size_t i, const Anchor& anchor, Real steps) const {
-    const Vec3<Real> off = displacement(p, i, anchor.at(steps));
-    return !(dot(off, off) <= anchor.limit2(steps));
+  bool is_off(const Record& p, std::size_t i, const Frame& frame, Real steps) const {
+    const Vec3<Real> off = displacement(p, i, frame.at(steps));
+    return !(dot(off, off) <= frame.limit2(steps));
   }
 
   void follow(const Record* records);
@@ -235,7 +235,7 @@ class VerletList {
 
   typename MotionBounds<Real>::Limits limits_;
   MotionBounds<Real> motion_;
-  std::vector<Anchor> anchors_;  // by window
+  std::vector<Frame> frames_;  // by window
   std::vector<Box3<Real>> moved_;  // likewise
   std::vector<std::uint16_t> outlying_;  // by slice: a bit a lane
   PatchedRows patched_;
