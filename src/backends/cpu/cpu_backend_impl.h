@@ -118,9 +118,9 @@ class CpuBackend final : public Backend {
   void run_slices(const ForcePass<Real>& pass, std::size_t s, std::size_t g, std::size_t end, const std::uint32_t* rows,
                   const std::uint32_t* first_row, TileReport& report) const;
 
-  // The rows of a slice in the neighbour list; loose slices have none.
+  // The rows of a slice in the neighbour list; noninteracting slices have none.
   std::span<const std::uint32_t> rows_of(std::size_t s, std::size_t g) const {
-    if (particles_.slots.is_loose(s * kTile)) return {};
+    if (particles_.slots.is_noninteracting(s * kTile)) return {};
     return list_.rows(s, g);
   }
 

@@ -26,7 +26,7 @@ void CpuBackend<Real>::half_kick_and_drift() {
           p.v = kick(p.v, particles_.acceleration[i], Real(0.5) * dt);
           p.x = drift(p.x, p.v, dt);
         }
-        if (list_.is_valid() && !particles_.slots.is_loose(i) && list_.is_far(p, i))
+        if (list_.is_valid() && !particles_.slots.is_noninteracting(i) && list_.is_far(p, i))
           far |= 1U << i % kLanes;  // checked for all: a removal must not hide a NaN
         if (!held) apply_boundaries(p, i, left);
       }
@@ -66,23 +66,24 @@ Condition CpuBackend<Real>::sort_by_cell() {
   const Stopwatch sorting(times_.sort);
   Box3d box;
   const Condition condition =
-      bounding_box(particles_.records.data(), particles_.slots.listed_end(), particles_.ids, box);
+      bounding_box(particles_.records.data(), particles_.slots.interacting_end(), particles_.ids, box);
   if (!condition.good()) return condition;
   for (int axis = 0; axis < 3; ++axis) {
-    if (particles_.count() > particles_.loose_count() && !rules_.view().periodic[axis]) continue;
+    if (particles_.count() > particles_.noninteracting_count() && !rules_.view().periodic[axis]) continue;
     component(box.min, axis) = component(rules_.view().min, axis);
     component(box.max, axis) = component(rules_.view().max, axis);
   }
-  particles_.reorder(list_.sort(particles_.records.data(), particles_.slots.listed_end(), box, particles_.scratch()));
+  particles_.reorder(
+      list_.sort(particles_.records.data(), particles_.slots.interacting_end(), box, particles_.scratch()));
   return {};
 }
 
 template <class Real>
 void CpuBackend<Real>::list_neighbours() {
   const Stopwatch listing(times_.list);
-  const std::size_t count = particles_.slots.listed_end();
+  const std::size_t count = particles_.slots.interacting_end();
   const bool births = particles_.room_for_births(true) > 0;
-  const std::size_t end = births ? std::min(particles_.slots.first_loose(), count + count / 16 + 256) : count;
+  const std::size_t end = births ? std::min(particles_.slots.first_noninteracting(), count + count / 16 + 256) : count;
   list_.build(particles_.records.data(), count, end / kLanes * kLanes, particles_.records.size(), particles_.scratch());
   particles_.end_scratch();
 }

@@ -77,7 +77,7 @@ template <class Real>
 void CpuBackend<Real>::run_tile(const ForcePass<Real>& pass, std::size_t s, TileReport& report) const {
   const std::size_t slices = (particles_.slots.end_of(s) - s * kTile + kLanes - 1) / kLanes;
   report.clear();
-  if (particles_.slots.is_loose(s * kTile)) return run_slices(pass, s, 0, slices, nullptr, nullptr, report);
+  if (particles_.slots.is_noninteracting(s * kTile)) return run_slices(pass, s, 0, slices, nullptr, nullptr, report);
   for (std::size_t g = 0; g < slices;) {
     std::size_t end = g + 1;
     if (list_.is_patched(s, g)) {

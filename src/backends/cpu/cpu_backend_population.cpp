@@ -29,7 +29,7 @@ void CpuBackend<Real>::edit(std::span<const ParticleAt> edited) {
     HOOKE_ASSERT(slot != particles_.kNoSlot, to.id);
     const Vec3<Real> before = particles_.records[slot].x;
     particles_.set(slot, to.position, to.velocity);
-    if (!particles_.slots.is_loose(slot) && particles_.records[slot].x != before) list_.note_moved(slot);
+    if (!particles_.slots.is_noninteracting(slot) && particles_.records[slot].x != before) list_.note_moved(slot);
   }
 }
 
@@ -53,8 +53,9 @@ RemovalSums CpuBackend<Real>::insert(const ParticleSet& newborn) {
   std::vector<std::uint32_t> touching;
   for (std::size_t k = 0; k < newborn.size(); ++k) {
     const Material& m = scene_.materials[newborn.material[k]];
-    const std::size_t slot = !m.interacts ? particles_.slots.take_loose()
-                                          : particles_.slots.take_listed(list_.is_valid() ? list_.first_free() : 0);
+    const std::size_t slot = !m.interacts
+                                 ? particles_.slots.take_noninteracting()
+                                 : particles_.slots.take_interacting(list_.is_valid() ? list_.first_free() : 0);
     const std::size_t id_index = particles_.add(slot, newborn, k);
     applied_.add(particles_, slot, m.fixed);
     if (m.interacts) {
@@ -107,7 +108,7 @@ RemovalSums CpuBackend<Real>::remove_sunk() {
 
 template <class Real>
 void CpuBackend<Real>::find_inside(const Box3d& box, std::vector<Occupant>& out) const {
-  for_ranges(particles_.slots.listed_end(), kTile, [&](std::size_t first, std::size_t last) {
+  for_ranges(particles_.slots.interacting_end(), kTile, [&](std::size_t first, std::size_t last) {
     std::vector<Occupant> found;
     for (std::size_t i = first; i < last; ++i) {
       const Record& p = particles_.records[i];
@@ -154,7 +155,7 @@ RemovalSums CpuBackend<Real>::let_go(Departures& leaving) {
 // rebuild the list, `slots` is updated to the particles' new indices.
 template <class Real>
 void CpuBackend<Real>::add_elastic(std::vector<std::uint32_t>& slots, ExactSum& sum) {
-  const auto is_listed = [&](std::uint32_t slot) { return !particles_.slots.is_loose(slot); };
+  const auto is_listed = [&](std::uint32_t slot) { return !particles_.slots.is_noninteracting(slot); };
   if (applied_.springs().empty() && std::none_of(slots.begin(), slots.end(), is_listed)) return;
   if (neighbours_stale() && !rebuild_under(slots)) return;
   std::sort(slots.begin(), slots.end());

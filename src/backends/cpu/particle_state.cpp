@@ -23,14 +23,15 @@ void ParticleState<Real>::place(const ParticleSet& particles, std::size_t births
   ++changes_;
   slot_of_id_index_.clear();
   const bool tied = scene_->structure != nullptr;  // the structure refers to slots, until the next layout
-  slots.lay_out(count_ - loose_count_, room_for_births(true) + births, loose_count_, room_for_births(false) + births,
-                tied);
+  slots.lay_out(count_ - noninteracting_count_, room_for_births(true) + births, noninteracting_count_,
+                room_for_births(false) + births, tied);
   records.resize(slots.room() + ParticleSlots::kLanes);  // a pack more, for searches to read; the last is the filler
   next.resize(records.size());
   acceleration.assign(verlet() ? records.size() : 0, {Real(0), Real(0), Real(0)});
-  std::size_t next_listed = 0, next_loose = slots.first_loose();
+  std::size_t next_interacting = 0, next_noninteracting = slots.first_noninteracting();
   for (std::size_t k = 0; k < particles.size(); ++k) {
-    const std::size_t slot = scene_->materials[particles.material[k]].interacts ? next_listed++ : next_loose++;
+    const std::size_t slot =
+        scene_->materials[particles.material[k]].interacts ? next_interacting++ : next_noninteracting++;
     const std::size_t id_index = scene_->emitters.empty() ? k : ids.find(particles.id[k]);
     put(slot, id_index, particles, k);
     if (verlet() && !particles.acceleration.empty()) acceleration[slot] = vec_cast<Real>(particles.acceleration[k]);
@@ -78,8 +79,8 @@ void ParticleState<Real>::download(const ParticleColumns<Out>& out) const {
 
 template <class Real>
 void ParticleState<Real>::reorder(std::span<const std::uint32_t> order) {
-  HOOKE_ASSERT(order.size() >= count_ - loose_count_, order.size(), count_, loose_count_);
-  slots.set_listed(count_ - loose_count_);
+  HOOKE_ASSERT(order.size() >= count_ - noninteracting_count_, order.size(), count_, noninteracting_count_);
+  slots.set_interacting(count_ - noninteracting_count_);
   ++changes_;
   slot_of_id_index_.clear();
   permute(records, next, order);
@@ -101,18 +102,18 @@ std::size_t ParticleState<Real>::room_for_births(bool listed) const {
     expected += expected_population(e, static_cast<double>(scene_->steps) * scene_->time_step);
   }
   if (!any) return 0;
-  const std::size_t there = listed ? count_ - loose_count_ : loose_count_;
+  const std::size_t there = listed ? count_ - noninteracting_count_ : noninteracting_count_;
   const auto wanted = static_cast<std::size_t>(std::min(kMost, 1.1 * expected)) + kTile;
   return std::max(there / 2, wanted - std::min(wanted, there)) + kTile;
 }
 
 template <class Real>
 bool ParticleState<Real>::has_room_for(const ParticleSet& newborn) const {
-  std::size_t loose = 0;
-  for (const std::uint16_t m : newborn.material) loose += scene_->materials[m].interacts ? 0 : 1;
+  std::size_t noninteracting = 0;
+  for (const std::uint16_t m : newborn.material) noninteracting += scene_->materials[m].interacts ? 0 : 1;
   // Ids of removed particles stay in the table until it is mostly theirs.
   const bool many_gone = ids.size() + newborn.size() > 4 * count_ + 65536;
-  return !many_gone && slots.has_room(newborn.size() - loose, loose);
+  return !many_gone && slots.has_room(newborn.size() - noninteracting, noninteracting);
 }
 
 template <class Real>
@@ -165,11 +166,11 @@ void ParticleState<Real>::remove(std::size_t slot) {
 
 template <class Real>
 void ParticleState<Real>::recount() {
-  count_ = loose_count_ = 0;
+  count_ = noninteracting_count_ = 0;
   mass_ = {};
   for (std::size_t m = 0; m < count_of_.size(); ++m) {
     count_ += count_of_[m];
-    if (!scene_->materials[m].interacts) loose_count_ += count_of_[m];
+    if (!scene_->materials[m].interacts) noninteracting_count_ += count_of_[m];
     mass_.add_product(static_cast<double>(count_of_[m]), scene_->materials[m].mass);
   }
 }
@@ -201,8 +202,8 @@ void ParticleState<Real>::fill_unused(LargeVector<Record>& all) const {
     std::fill(all.begin() + static_cast<std::ptrdiff_t>(first), all.begin() + static_cast<std::ptrdiff_t>(last),
               vacant_record<Real>(Real(0)));
   };
-  fill(slots.listed_end(), slots.first_loose());
-  fill(slots.loose_end(), all.size() - 1);
+  fill(slots.interacting_end(), slots.first_noninteracting());
+  fill(slots.noninteracting_end(), all.size() - 1);
   all.back() = filler_record<Real>();
 }
 
@@ -210,15 +211,16 @@ template <class Real>
 template <class T>
 void ParticleState<Real>::permute(LargeVector<T>& column, LargeVector<T>& scratch,
                                   std::span<const std::uint32_t> order) const {
-  parallel_ranges(slots.listed_end(), kTile, [&](std::size_t first, std::size_t last) {
+  parallel_ranges(slots.interacting_end(), kTile, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) scratch[i] = column[order[i]];
   });
-  parallel_ranges(slots.loose_end() - slots.first_loose(), kTile, [&](std::size_t first, std::size_t last) {
-    const auto at = [&](auto& of, std::size_t i) {
-      return of.begin() + static_cast<std::ptrdiff_t>(slots.first_loose() + i);
-    };
-    std::copy(at(column, first), at(column, last), at(scratch, first));
-  });
+  parallel_ranges(slots.noninteracting_end() - slots.first_noninteracting(), kTile,
+                  [&](std::size_t first, std::size_t last) {
+                    const auto at = [&](auto& of, std::size_t i) {
+                      return of.begin() + static_cast<std::ptrdiff_t>(slots.first_noninteracting() + i);
+                    };
+                    std::copy(at(column, first), at(column, last), at(scratch, first));
+                  });
   column.swap(scratch);
 }
 

@@ -41,7 +41,7 @@ class ParticleState {
   const Material& material_of(const Record& p) const { return scene_->materials[static_cast<std::size_t>(p.material)]; }
 
   std::size_t count() const { return count_; }  ///< particles
-  std::size_t loose_count() const { return loose_count_; }  ///< particles that touch none
+  std::size_t noninteracting_count() const { return noninteracting_count_; }  ///< particles that touch none
   const ExactSum& mass() const { return mass_; }  ///< of all, kg
 
   /// Replaces all particles by these, of the scene, laid out in order of their ids, with room for births, for `births`
@@ -57,7 +57,7 @@ class ParticleState {
   template <class Out>
   void download(const ParticleColumns<Out>& out) const;
 
-  /// Moves the record in slot order[k] to listed slot k; vacant records come last. Loose particles stay.
+  /// Moves the record in slot order[k] to listed slot k; vacant records come last. Noninteracting particles stay.
   void reorder(std::span<const std::uint32_t> order);
 
   /// How many more particles of a kind there should be slots for: the births still expected, or half the present number
@@ -103,7 +103,7 @@ class ParticleState {
   const Scene* scene_ = nullptr;
   const PassRules<Real>* rules_ = nullptr;
   std::vector<std::uint64_t> count_of_;  // particles by material
-  std::size_t count_ = 0, loose_count_ = 0;
+  std::size_t count_ = 0, noninteracting_count_ = 0;
   std::uint64_t changes_ = 0;
   ExactSum mass_;  // kg
   mutable std::vector<std::uint32_t> slot_of_id_index_;  // by find_slots(); empty where slots have changed since
