@@ -16,7 +16,7 @@ enum class Cause : unsigned char {
   collider,         ///< colliders likewise
   drag,
   gravity,
-  hold,        ///< what keeps held particles still
+  hold,        ///< what keeps pinned particles still
   springs,     ///< springs of the scene's structure, their dampers included
   field,  ///< fields: wind, and pushes that depend on position
   attraction,

@@ -18,7 +18,7 @@ namespace hooke {
 
 /// Steps a simulation on a thread of its own, as fast as it goes, for a window or another reader: neither waits for the
 /// other. Commands are carried out between steps, in the order in which they came; the latest state
-/// lies in a mailbox. No lock is held across a step or a command. Any thread may call any member but finish() and the
+/// lies in a mailbox. No lock is pinned across a step or a command. Any thread may call any member but finish() and the
 /// destructor, which are the last call.
 ///
 ///     hooke::SimulationThread thread(std::move(simulation));

@@ -87,8 +87,8 @@ std::vector<Finding> validate(const Structure& structure, bool single) {
     std::string fault = fault_of(structure.springs[i], single);
     if (!fault.empty()) findings.push_back({fmt::format("spring {}", i), std::move(fault)});
   }
-  const auto& held = structure.held;
-  if (std::adjacent_find(held.begin(), held.end(), std::greater_equal<>()) != held.end()) {
+  const auto& pinned = structure.pinned;
+  if (std::adjacent_find(pinned.begin(), pinned.end(), std::greater_equal<>()) != pinned.end()) {
     findings.push_back({"held", "ids must be unique and ascending"});
   }
   std::size_t end = 0;
@@ -116,7 +116,7 @@ std::vector<Finding> check_ids(const Structure& structure, const ParticleSet& pa
     check(structure.springs.a[i], where);
     check(structure.springs.b[i], where);
   }
-  for (const std::uint64_t id : structure.held) check(id, [] { return std::string("held"); });
+  for (const std::uint64_t id : structure.pinned) check(id, [] { return std::string("held"); });
   for (std::size_t k = 0; k < structure.surfaces.size(); ++k) {
     for (const std::uint64_t id : structure.surfaces[k].particles) {
       check(id, [k] { return fmt::format("surface {}", k); });

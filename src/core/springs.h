@@ -72,7 +72,7 @@ struct SpringGroup {
 struct Structure {
   SpringSet springs;
   std::vector<SpringGroup> groups;  ///< names of springs in messages; without a group, their particles name them
-  std::vector<std::uint64_t> held;  ///< ids of particles that no force moves, ascending
+  std::vector<std::uint64_t> pinned;  ///< ids of particles that no force moves, ascending
   std::vector<Surface> surfaces;
 
   friend bool operator==(const Structure&, const Structure&) = default;

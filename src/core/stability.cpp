@@ -170,7 +170,7 @@ void consider_springs(const Structure& structure, const Scene& scene, const Part
   std::size_t worst = particles.size();
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const std::uint64_t id = particles.id[i];
-    if (std::binary_search(structure.held.begin(), structure.held.end(), id)) continue;
+    if (std::binary_search(structure.pinned.begin(), structure.pinned.end(), id)) continue;
     const double mass = scene.materials[particles.material[i]].mass;
     if (smallest.consider_springs(stiffness[i], damping[i], mass, id)) worst = i;
   }

@@ -27,13 +27,13 @@ void SpringSums::add(const SpringSums& other) {
   broken += other.broken;
 }
 
-void AppliedSums::add_held(double mass, const Vec3d& held, const Vec3d& kicked, double seconds) {
+void AppliedSums::add_pinned(double mass, const Vec3d& pinned, const Vec3d& kicked, double seconds) {
   HOOKE_ASSERT(mass > 0 && seconds > 0, mass, seconds);
-  const Vec3d given = (mass / seconds) * (held - kicked);
+  const Vec3d given = (mass / seconds) * (pinned - kicked);
   Rates& hold = (*this)[Cause::hold];
   hold.force.add(given);
-  hold.power.add(2 * dot(given, held));
-  hold.next_power.add(2 * dot(given, held));
+  hold.power.add(2 * dot(given, pinned));
+  hold.next_power.add(2 * dot(given, pinned));
 }
 
 void AppliedSums::add(const AppliedSums& other) {

@@ -76,8 +76,8 @@ struct AppliedSums {
     return of[static_cast<std::size_t>(cause) - kPassCauses];
   }
 
-  /// A held particle, which kept its velocity `held` in place of `kicked` (m/s) over `seconds` (> 0).
-  void add_held(double mass, const Vec3d& held, const Vec3d& kicked, double seconds);
+  /// A pinned particle, which kept its velocity `pinned` in place of `kicked` (m/s) over `seconds` (> 0).
+  void add_pinned(double mass, const Vec3d& pinned, const Vec3d& kicked, double seconds);
   void add(const AppliedSums& other);
 
   std::array<Rates, kCauses - kPassCauses> of;

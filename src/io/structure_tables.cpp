@@ -37,7 +37,7 @@ void write_structure(hid_t file, const SimulationState& state) {
   for (std::size_t i = 0; i < mode.size(); ++i) mode[i] = static_cast<std::uint8_t>(s.springs.mode[i]);
   write_column(file, "spring_mode", mode);
   write_column(file, "broken_springs", state.broken_springs);
-  write_column(file, "held", s.held);
+  write_column(file, "held", s.pinned);
   nlohmann::json surfaces = nlohmann::json::array();
   std::vector<std::uint64_t> particles;
   std::vector<std::uint32_t> triangles;
@@ -68,7 +68,7 @@ void read_structure(hid_t file, const std::filesystem::path& path, SimulationSta
     s.springs.mode.push_back(static_cast<SpringMode>(mode));
   }
   state.broken_springs = hdf5::read_array<std::uint64_t>(file, "broken_springs");
-  s.held = hdf5::read_array<std::uint64_t>(file, "held");
+  s.pinned = hdf5::read_array<std::uint64_t>(file, "held");
 
   const auto particles = hdf5::read_array<std::uint64_t>(file, "surface_particles");
   const auto triangles = hdf5::read_array<std::uint32_t>(file, "surface_triangles");

@@ -138,7 +138,7 @@ class Cloth {
   }
 
   void hold(std::uint64_t index) {
-    maker_.structure.held.push_back(first_ + index);
+    maker_.structure.pinned.push_back(first_ + index);
     maker_.particles.velocity[maker_.particles.find(first_ + index)] = {0, 0, 0};
   }
 

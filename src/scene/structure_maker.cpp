@@ -98,9 +98,9 @@ std::shared_ptr<const Structure> load_structure(const Json& json, const Scene& s
   section("bodies", &StructureMaker::add_bodies);
   section("springs", &StructureMaker::add_springs);
   if (maker.structure == Structure{}) return nullptr;
-  std::vector<std::uint64_t>& held = maker.structure.held;
-  std::sort(held.begin(), held.end());
-  held.erase(std::unique(held.begin(), held.end()), held.end());
+  std::vector<std::uint64_t>& pinned = maker.structure.pinned;
+  std::sort(pinned.begin(), pinned.end());
+  pinned.erase(std::unique(pinned.begin(), pinned.end()), pinned.end());
   return std::make_shared<Structure>(std::move(maker.structure));
 }
 

@@ -52,7 +52,7 @@ struct StructureMaker {
 /// The entry's "break_strain", or infinity.
 double break_strain_of(const Json& entry);
 
-/// The springs and held particles of a scene; adds the particles of its cloths and bodies to `particles`. Null where
+/// The springs and pinned particles of a scene; adds the particles of its cloths and bodies to `particles`. Null where
 /// there are none.
 std::shared_ptr<const Structure> load_structure(const Json& json, const Scene& scene,
                                                 const std::filesystem::path& folder, const LoadOptions& options,

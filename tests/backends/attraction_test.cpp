@@ -46,7 +46,7 @@ class AttractingBalls : public testing::TestWithParam<Kind> {
     for (std::size_t i = 0; i + 40 < particles_.size(); i += 40) {
       structure->springs.push_back({particles_.id[i], particles_.id[i + 7], 1, 50, 0.5});
     }
-    structure->held = {particles_.id[11]};
+    structure->pinned = {particles_.id[11]};
     scene_.structure = structure;
   }
 

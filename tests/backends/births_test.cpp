@@ -335,8 +335,8 @@ TEST(Sinks, TakeWhoIsInsideAndNobodyElse) {
   }
 }
 
-// Springs tie sparks to each other and to other particles, some are held, all attract each other. When a particle dies
-// or sinks, its springs go with it, and the particle that takes its place in memory is not tied.
+// Springs tie sparks to each other and to other particles, some are pinned, all attract each other. When a particle
+// dies or sinks, its springs go with it, and the particle that takes its place in memory is not tied.
 TEST(Sparks, FeelSpringsAndAttraction) {
   for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
     Scene scene = busy_scene({Boundary::spring, integrator, Precision::double_precision});
@@ -347,7 +347,7 @@ TEST(Sparks, FeelSpringsAndAttraction) {
     for (std::size_t i = 0; i < p.size(); ++i) {
       if (i % 3 != 0) p.material[i] = spark;
       if (i + 1 < p.size() && i % 6 != 5) structure->springs.push_back({p.id[i], p.id[i + 1], 0.5, 30, 0.1});
-      if (i % 31 == 7) structure->held.push_back(p.id[i]);
+      if (i % 31 == 7) structure->pinned.push_back(p.id[i]);
       p.velocity[i] = i % 31 == 7 ? Vec3d{0, 0, 0} : Vec3d{0.5, 0, random4(2, i)[0]};
     }
     scene.structure = structure;

@@ -182,8 +182,8 @@ INSTANTIATE_TEST_SUITE_P(All, Spray,
                                           testing::Values("portable", "avx2", "avx512")),
                          spray_name);
 
-// A stream passes some grains that are held. Held grains stay where they are while their surroundings move on: the held
-// grains are the outliers.
+// A stream passes some grains that are pinned. Held grains stay where they are while their surroundings move on: the
+// pinned grains are the outliers.
 class Stream : public testing::TestWithParam<std::tuple<Integrator, Precision, Boundary>> {};
 
 TEST_P(Stream, MissesNoContactWithGrainsThatAreHeld) {
@@ -199,9 +199,9 @@ TEST_P(Stream, MissesNoContactWithGrainsThatAreHeld) {
   scene.domain.boundary = {boundary, Boundary::spring, boundary};
   ParticleSet particles = lattice(scene, {28, 12, 28}, {-5.3, -2.2, -5.3}, 0.39, 0.02, 25);
   for (std::size_t i = 0; i < particles.size(); ++i) {
-    const bool held = particles.id[i] % 300 == 7;
-    particles.material[i] = held ? 1 : 0;
-    particles.velocity[i] = held ? Vec3d{0, 0, 0} : Vec3d{5, 0, 2} + noise(particles.id[i], 0.1);
+    const bool pinned = particles.id[i] % 300 == 7;
+    particles.material[i] = pinned ? 1 : 0;
+    particles.velocity[i] = pinned ? Vec3d{0, 0, 0} : Vec3d{5, 0, 2} + noise(particles.id[i], 0.1);
   }
   Simulation simulation = simulate(scene, particles, {"cpu", precision, 2, "", true});
   for (int step = 1; step <= 40; ++step) {

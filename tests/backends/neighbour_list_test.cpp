@@ -136,7 +136,7 @@ class Lists {
     return near;
   }
 
-  // On every available instruction set, into a list that may have held other points before.
+  // On every available instruction set, into a list that may have pinned other points before.
   void check(bool list_self, NeighbourList& list) {
     std::vector<std::vector<std::uint32_t>> near;
     for (std::size_t i = 0; i < setting_.count; ++i) near.push_back(expected(i));

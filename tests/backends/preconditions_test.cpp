@@ -10,9 +10,9 @@
 
 #include "hooke/backends/cpu/attraction_tree.h"
 #include "hooke/backends/cpu/exclusions.h"
-#include "hooke/backends/cpu/held_particles.h"
 #include "hooke/backends/cpu/id_table.h"
 #include "hooke/backends/cpu/particle_slots.h"
+#include "hooke/backends/cpu/pinned_particles.h"
 #include "hooke/backends/cpu/threads.h"
 #include "hooke/core/backend.h"
 #include "support/assertions.h"
@@ -86,8 +86,8 @@ TEST(CpuPreconditions, PairsAreOfRanksAndKeptApart) {
 }
 
 TEST(CpuPreconditions, HeldParticlesAreThere) {
-  HeldParticles held;
-  EXPECT_ASSERTS(held.hold(3), "i = 3");
+  PinnedParticles pinned;
+  EXPECT_ASSERTS(pinned.hold(3), "i = 3");
 }
 
 TEST(CpuPreconditions, SlotsAreTakenWhereThereIsRoom) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// Springs and held particles: the CPU back end against the reference, and the same bits on any threads and instruction
-// set.
+// Springs and pinned particles: the CPU back end against the reference, and the same bits on any threads and
+// instruction set.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ std::shared_ptr<const Structure> tie_lattice(const ParticleSet& p) {
     if (i / kEdge % kEdge != kEdge - 1) tie(i, i + kEdge);
     if (i / (kEdge * kEdge) != kEdge - 1) tie(i, i + kEdge * kEdge);
   }
-  for (std::size_t i = 0; i < p.size(); i += 37) structure->held.push_back(p.id[i]);
+  for (std::size_t i = 0; i < p.size(); i += 37) structure->pinned.push_back(p.id[i]);
   return structure;
 }
 

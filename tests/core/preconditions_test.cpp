@@ -150,7 +150,7 @@ TEST(CorePreconditions, SumsAreOfSteps) {
   LedgerSums ledger;
   EXPECT_ASSERTS(ledger.book_step({}, still), "next_kick = 0");
   AppliedSums applied;
-  EXPECT_ASSERTS(applied.add_held(0, {0, 0, 0}, {0, 0, 0}, 1), "mass = 0, seconds = 1");
+  EXPECT_ASSERTS(applied.add_pinned(0, {0, 0, 0}, {0, 0, 0}, 1), "mass = 0, seconds = 1");
   ColliderLoadSums loads;
   loads.add_contact(2, {0, 0, 0}, {1, 0, 0});
   EXPECT_ASSERTS((void)loads.result(2), "loads_.rbegin()->first = 2, count = 2");

@@ -67,7 +67,7 @@ TEST(LedgerSums, BookAppliedCausesLikeTheOthers) {
   applied.springs.dissipation.add(10);
   applied.springs.broken_energy.add(3);
   applied.springs.broken = 2;
-  applied.add_held(2, {1, 0, 0}, {4, 0, 0}, 0.25);  // -24 N, which moves at 1 m/s
+  applied.add_pinned(2, {1, 0, 0}, {4, 0, 0}, 0.25);  // -24 N, which moves at 1 m/s
   StepReport once, twice;
   once.applied = twice.applied = applied;
   twice.applied->add(applied);

@@ -82,7 +82,7 @@ SimulationState state(std::int64_t step, std::size_t n) {
   for (std::uint64_t i = 0; i < n; ++i) {
     structure->springs.push_back({3 * i + 1, 3 * i + 4, 0.1 * static_cast<double>(i + 1), 1e3 / 3, 0.7, 0.5,
                                   static_cast<SpringMode>(i % 3), i % 2 == 0});
-    if (i % 5 == 0) structure->held.push_back(3 * i + 1);
+    if (i % 5 == 0) structure->pinned.push_back(3 * i + 1);
     if (i % 7 == 0) s.broken_springs.push_back(i);
   }
   structure->surfaces = {{"linen", {1, 4, 7}, {0, 1, 2}}, {"silk", {10, 13, 16, 19}, {0, 1, 2, 1, 2, 3}}};

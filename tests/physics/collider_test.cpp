@@ -252,16 +252,16 @@ TEST(SetColliderMotion, MovesItByHand) {
   add(ball, {0, 0.4, 0}, {0, 0, 0});
   Simulation simulation = simulate(scene, ball, kCpuDouble);
   EXPECT_NEAR(measured(simulation).colliders[0].force.y, -100, 1e-9);
-  HeldMotion held;
-  held.position = {0, 0.1, 0};
-  held.velocity = {7, 0, 0};
-  ASSERT_TRUE(simulation.set_collider_motion("thing", held));
+  HeldMotion pinned;
+  pinned.position = {0, 0.1, 0};
+  pinned.velocity = {7, 0, 0};
+  ASSERT_TRUE(simulation.set_collider_motion("thing", pinned));
   EXPECT_NEAR(measured(simulation).colliders[0].force.y, -200, 1e-9);
   EXPECT_NEAR(measured(simulation).colliders[0].force.x, -35, 1e-9) << "dragged along at 7 m/s by 5 N s/m";
   EXPECT_EQ(simulation.collider_poses()[0].pivot, (Vec3d{0, 0.1, 0}));
-  EXPECT_FALSE(simulation.set_collider_motion("nothing", held));
-  held.position.x = NAN;
-  EXPECT_FALSE(simulation.set_collider_motion("thing", held));
+  EXPECT_FALSE(simulation.set_collider_motion("nothing", pinned));
+  pinned.position.x = NAN;
+  EXPECT_FALSE(simulation.set_collider_motion("thing", pinned));
 }
 
 }  // namespace

@@ -171,12 +171,12 @@ TEST(Energy, OfContactsAndSpringsThatVanishIsBooked) {
         ASSERT_TRUE(advance(simulation, 1));
         const Measurements after = measured(simulation);
         EXPECT_EQ(simulation.particle_count(), block.particles.size() - (sinks ? 12 : 16));
-        const double held = before.elastic_energy + before.spring_energy;
+        const double pinned = before.elastic_energy + before.spring_energy;
         EXPECT_LT(after.springs, before.springs);
         const double rounding = engine.precision == Precision::single_precision ? 1e-5 : 1e-6;
-        EXPECT_NEAR(simulation.ledger().removed_elastic, held - after.elastic_energy - after.spring_energy,
-                    rounding * held);
-        EXPECT_NEAR(accounted_energy(simulation), simulation.initial_energy(), rounding * held);
+        EXPECT_NEAR(simulation.ledger().removed_elastic, pinned - after.elastic_energy - after.spring_energy,
+                    rounding * pinned);
+        EXPECT_NEAR(accounted_energy(simulation), simulation.initial_energy(), rounding * pinned);
       }
     }
   }

@@ -18,10 +18,10 @@ constexpr double kStiffness = 900, kMass1 = 1, kMass2 = 3, kRest = 4;
 constexpr double kEffective = kMass1 * kMass2 / (kMass1 + kMass2);
 
 std::shared_ptr<const Structure> structure_of(const std::vector<Spring>& springs,
-                                              std::vector<std::uint64_t> held = {}) {
+                                              std::vector<std::uint64_t> pinned = {}) {
   auto structure = std::make_shared<Structure>();
   for (const Spring& s : springs) structure->springs.push_back(s);
-  structure->held = std::move(held);
+  structure->pinned = std::move(pinned);
   return structure;
 }
 
@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(All, SpringModes,
                                                           SpringMode::extension),
                                           testing::Values(0.0, 5.0)));
 
-// A chain of masses between two held ends. At rest the tension's horizontal part is the same in every link, its
+// A chain of masses between two pinned ends. At rest the tension's horizontal part is the same in every link, its
 // vertical part differs by m g from link to link, and each link is as long as its tension makes it: the discrete
 // catenary.
 TEST(Springs, HangInADiscreteCatenary) {
@@ -239,8 +239,8 @@ TEST(Springs, ReachAcrossPeriodicFaces) {
 TEST(Springs, ThatMakeNoSenseAreRefused) {
   Scene scene = open_scene();
   const ParticleSet particles = pair_on_x(scene, -1, {0, 0, 0}, {0, 0, 0});
-  const auto refused = [&](const Spring& spring, std::vector<std::uint64_t> held = {}) {
-    scene.structure = structure_of({spring}, std::move(held));
+  const auto refused = [&](const Spring& spring, std::vector<std::uint64_t> pinned = {}) {
+    scene.structure = structure_of({spring}, std::move(pinned));
     const auto made = Simulation::create(scene, particles, make_backend(kCpuDouble));
     return made ? std::string() : made.error().findings.front().message;
   };

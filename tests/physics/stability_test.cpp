@@ -128,7 +128,7 @@ TEST(StableStep, IsThatOfAChainOfSprings) {
       add(particles, {1.5 * static_cast<double>(i) + (i % 2 == 0 ? 1e-6 : -1e-6), 0, 0}, {0, 0, 0});
       if (i > 1) structure->springs.push_back({i - 1, i, 1.5, 1000, damping});
     }
-    structure->held = {1};
+    structure->pinned = {1};
     scene.structure = structure;
     const StableStep stable = stable_step(scene, particles);
     EXPECT_DOUBLE_EQ(stable.seconds, critical_step(4 * 1000, 4 * damping));
@@ -167,7 +167,7 @@ TEST(StableStep, NamesTheGroupsOfSprings) {
   EXPECT_EQ(stable_step(scene, particles).limit,
             "stiffness of the springs around particle 3 (springs[0] and springs[1]" + whose);
   structure->springs.stiffness[1] = 0;
-  structure->held = {3};
+  structure->pinned = {3};
   EXPECT_EQ(stable_step(scene, particles).limit, "stiffness of the springs around particle 4 (springs[1]" + whose);
 }
 

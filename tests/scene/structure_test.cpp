@@ -98,7 +98,7 @@ TEST(SceneStructure, MakesAGridOfACloth) {
     EXPECT_EQ(s.springs.damping[i], 0.5);
   }
   // Particle 0 has id 3: the corner at the end of the first side is index 4, the opposite side 15 to 19.
-  EXPECT_EQ(s.held, (std::vector<std::uint64_t>{7, 9, 18, 19, 20, 21, 22}));
+  EXPECT_EQ(s.pinned, (std::vector<std::uint64_t>{7, 9, 18, 19, 20, 21, 22}));
   EXPECT_EQ(p.velocity[2], (Vec3d{0, -1, 0}));
   EXPECT_EQ(p.velocity[p.find(7)], (Vec3d{0, 0, 0}));
   ASSERT_EQ(s.surfaces.size(), 1U);
@@ -120,7 +120,7 @@ TEST(SceneStructure, MakesAClothOfAMesh) {
   // Four triangles have nine edges. Three edges are shared, opposite corners: 1-5 by 2 and 4, 2-5 by 1 and 6, 2-6 by 3
   // and 5.
   EXPECT_EQ(counts(s), (std::map<double, int>{{100, 9}, {5, 3}}));
-  EXPECT_EQ(s.held, (std::vector<std::uint64_t>{3}));
+  EXPECT_EQ(s.pinned, (std::vector<std::uint64_t>{3}));
   EXPECT_EQ(s.surfaces[0].triangles, (std::vector<std::uint32_t>{0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4}));
 }
 

@@ -35,24 +35,24 @@ void AppliedForces<Real>::bind(const Particles& particles) {
   const IdTable& ids = particles.ids;
   springs_.bind(ids);
   fields_.bind(ids);
-  held_id_indices_.clear();
-  held_ = {};
-  std::vector<std::uint32_t>& held = held_id_indices_;
+  pinned_id_indices_.clear();
+  pinned_ = {};
+  std::vector<std::uint32_t>& pinned = pinned_id_indices_;
   if (structure_) {
-    for (const std::uint64_t id : structure_->held) {
+    for (const std::uint64_t id : structure_->pinned) {
       const std::size_t id_index = ids.find(id);
-      if (id_index < ids.size()) held.push_back(static_cast<std::uint32_t>(id_index));
+      if (id_index < ids.size()) pinned.push_back(static_cast<std::uint32_t>(id_index));
     }
   }
   for (std::size_t i = 0; any_fixed_ && i < particles.slots.end(); ++i) {
     const Record& p = particles.records[i];
     if (!is_vacant(p) && fixed_[static_cast<std::size_t>(p.material)]) {
-      held.push_back(static_cast<std::uint32_t>(id_index_of(p.id_index)));
+      pinned.push_back(static_cast<std::uint32_t>(id_index_of(p.id_index)));
     }
   }
-  if (held.empty()) return;
+  if (pinned.empty()) return;
   particles.find_slots();
-  find_held(particles);
+  find_pinned(particles);
 }
 
 template <class Real>
@@ -60,10 +60,10 @@ void AppliedForces<Real>::add(const Particles& particles, std::size_t slot, bool
   const std::size_t id_indices = particles.ids.size();
   springs_.grow(id_indices);
   fields_.grow(id_indices);
-  if (!fixed) return held_.release(slot);
-  if (held_.none()) held_.clear(particles.slots.room());
-  held_.hold(slot);
-  held_id_indices_.push_back(static_cast<std::uint32_t>(id_indices - 1));
+  if (!fixed) return pinned_.release(slot);
+  if (pinned_.none()) pinned_.clear(particles.slots.room());
+  pinned_.hold(slot);
+  pinned_id_indices_.push_back(static_cast<std::uint32_t>(id_indices - 1));
 }
 
 template <class Real>
@@ -73,7 +73,7 @@ void AppliedForces<Real>::lay_out(const Particles& particles) {
   if (!springs_.empty()) {
     springs_.lay_out(records.data(), particles.slots.room(), records.size(), particles.slots_by_id_index());
   }
-  if (!held_.none()) find_held(particles);
+  if (!pinned_.none()) find_pinned(particles);
 }
 
 template <class Real>
@@ -125,22 +125,22 @@ void AppliedForces<Real>::measure(const Particles& particles, MeasurementSums& s
 }
 
 template <class Real>
-void AppliedForces<Real>::find_held(const Particles& particles) {
-  held_.clear(particles.slots.room());
-  for (const std::uint32_t id_index : held_id_indices_) {
+void AppliedForces<Real>::find_pinned(const Particles& particles) {
+  pinned_.clear(particles.slots.room());
+  for (const std::uint32_t id_index : pinned_id_indices_) {
     const std::uint32_t slot = particles.slots_by_id_index()[id_index];
-    if (slot != Particles::kNoSlot) held_.hold(slot);
+    if (slot != Particles::kNoSlot) pinned_.hold(slot);
   }
 }
 
 template <class Real>
 void AppliedForces<Real>::hold_still(std::size_t first, std::size_t last, const Record* before, Record* after,
                                      Vec3<Real>* acceleration, AppliedSums& sums) const {
-  if (held_.none()) return;
+  if (pinned_.none()) return;
   for (std::size_t i = first; i < last; ++i) {
-    if (!held_.holds(i) || is_vacant(before[i])) continue;
-    sums.add_held(mass_[static_cast<std::size_t>(before[i].material)], vec_cast<double>(before[i].v),
-                  vec_cast<double>(after[i].v), kick_);
+    if (!pinned_.holds(i) || is_vacant(before[i])) continue;
+    sums.add_pinned(mass_[static_cast<std::size_t>(before[i].material)], vec_cast<double>(before[i].v),
+                    vec_cast<double>(after[i].v), kick_);
     after[i] = before[i];
     if (acceleration != nullptr) acceleration[i] = {Real(0), Real(0), Real(0)};
   }

@@ -13,10 +13,10 @@
 #include "hooke/backends/cpu/attraction_forces.h"
 #include "hooke/backends/cpu/external_forces.h"
 #include "hooke/backends/cpu/field_forces.h"
-#include "hooke/backends/cpu/held_particles.h"
 #include "hooke/backends/cpu/isa.h"
 #include "hooke/backends/cpu/particle_record.h"
 #include "hooke/backends/cpu/particle_state.h"
+#include "hooke/backends/cpu/pinned_particles.h"
 #include "hooke/backends/cpu/spring_lists.h"
 #include "hooke/base/assert.h"
 #include "hooke/base/huge_pages.h"
@@ -40,11 +40,11 @@ class AppliedForces {
 
   SpringLists<Real>& springs() { return springs_; }
   const SpringLists<Real>& springs() const { return springs_; }
-  const HeldParticles& held() const { return held_; }
+  const PinnedParticles& pinned() const { return pinned_; }
 
-  /// Whether no such force acts and no particle is held.
+  /// Whether no such force acts and no particle is pinned.
   bool none() const {
-    return springs_.empty() && fields_.empty() && attraction_.empty() && held_.none() && external_.empty();
+    return springs_.empty() && fields_.empty() && attraction_.empty() && pinned_.none() && external_.empty();
   }
 
   /// Backend::set_external_forces().
@@ -54,13 +54,13 @@ class AppliedForces {
     return external_.set(particles, ids, forces);
   }
 
-  /// After a new layout of all particles: finds the particles of springs and cloths, and those that are held.
+  /// After a new layout of all particles: finds the particles of springs and cloths, and those that are pinned.
   void bind(const Particles& particles);
 
   /// A new particle is in `slot`, with the last id index. No spring ties it, but it may be fixed.
   void add(const Particles& particles, std::size_t slot, bool fixed);
 
-  bool needs_layout() const { return !springs_.empty() || fields_.needs_places() || !held_.none(); }
+  bool needs_layout() const { return !springs_.empty() || fields_.needs_places() || !pinned_.none(); }
 
   /// After a sort of the particles.
   void lay_out(const Particles& particles);
@@ -77,8 +77,8 @@ class AppliedForces {
     return acting_.empty() ? nullptr : acting_.size() == 1 ? acting_.front().force : total_.data();
   }
 
-  /// After the pass over particles `first` to `last` - 1, of one tile: puts held particles back to where they were, and
-  /// adds the work of each force. `acceleration` (velocity Verlet, else null) is that of the coming half kick.
+  /// After the pass over particles `first` to `last` - 1, of one tile: puts pinned particles back to where they were,
+  /// and adds the work of each force. `acceleration` (velocity Verlet, else null) is that of the coming half kick.
   void finish(std::size_t first, std::size_t last, const Record* before, Record* after, Vec3<Real>* acceleration,
               AppliedSums& sums) const;
   void measure(const Particles& particles, MeasurementSums& sums);
@@ -98,7 +98,7 @@ class AppliedForces {
     const Vec3<Real>* force;  // N
   };
 
-  void find_held(const Particles& particles);
+  void find_pinned(const Particles& particles);
   void hold_still(std::size_t first, std::size_t last, const Record* before, Record* after, Vec3<Real>* acceleration,
                   AppliedSums& sums) const;
   void add_work(const Acting& acting, std::size_t first, std::size_t last, const Record* before, const Record* after,
@@ -116,8 +116,8 @@ class AppliedForces {
   WorkPassFunction<Real> work_pass_ = nullptr;
   std::vector<Acting> acting_;  // in the order of their sum
   LargeVector<Vec3<Real>> total_;  // their sum, where several act
-  std::vector<std::uint32_t> held_id_indices_;
-  HeldParticles held_;
+  std::vector<std::uint32_t> pinned_id_indices_;
+  PinnedParticles pinned_;
 };
 
 extern template class AppliedForces<float>;

@@ -101,7 +101,8 @@ class CpuBackend final : public Backend {
   void list_neighbours();
   void follow_motion();
 
-  // Springs, fields, attraction and held particles -------------------------------------------------------------------
+  // Springs, fields, attraction and pinned particles
+  // -------------------------------------------------------------------
 
   void lay_out_structure();
   void apply_others(bool may_tear, StepReport& report);

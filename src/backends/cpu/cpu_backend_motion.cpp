@@ -21,14 +21,14 @@ void CpuBackend<Real>::half_kick_and_drift() {
       for (std::size_t i = start; i < std::min(start + kLanes, last); ++i) {
         Record& p = particles_.records[i];
         if (is_vacant(p)) continue;
-        const bool held = applied_.held().holds(i);
-        if (!held) {
+        const bool pinned = applied_.pinned().holds(i);
+        if (!pinned) {
           p.v = kick(p.v, particles_.acceleration[i], Real(0.5) * dt);
           p.x = drift(p.x, p.v, dt);
         }
         if (list_.is_valid() && !particles_.slots.is_noninteracting(i) && list_.is_far(p, i))
           far |= 1U << i % kLanes;  // checked for all: a removal must not hide a NaN
-        if (!held) apply_boundaries(p, i, left);
+        if (!pinned) apply_boundaries(p, i, left);
       }
       if (far != 0) list_.note_far(start / kLanes, far);
     }

@@ -55,8 +55,8 @@ template <class Real>
 ForcePass<Real> CpuBackend<Real>::make_pass(Vec3<Real>* acceleration) {
   return {rules_.constants(),
           colliders_.view(),
-          {particles_.records.data(), particles_.next.data(), acceleration, applied_.forces(), applied_.held().lanes(),
-           list_.position_at_build(), list_.frames(), list_.next_step()}};
+          {particles_.records.data(), particles_.next.data(), acceleration, applied_.forces(),
+           applied_.pinned().lanes(), list_.position_at_build(), list_.frames(), list_.next_step()}};
 }
 
 // Sums the forces that the pass adds. Pairs whose spring broke may touch from the next step on.

@@ -389,8 +389,8 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
   forces.weight = body.c * gravity;
   const Vec3<P> a = body.a * force + gravity;
   const P dt(pass.rules.dt);
-  const unsigned held =
-      pass.buffers.held != nullptr ? static_cast<unsigned>(pass.buffers.held[first / kSliceLanes]) >> half : 0;
+  const unsigned pinned =
+      pass.buffers.pinned != nullptr ? static_cast<unsigned>(pass.buffers.pinned[first / kSliceLanes]) >> half : 0;
   Vec3<P> v, x = own.x;
   if (pass.buffers.acceleration != nullptr) {  // velocity Verlet
     v = kick(own.v, a, P(Real(0.5)) * dt);
@@ -403,7 +403,7 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
     if (any(present & left_domain(pass, x))) notes |= kLeftDomain;
     if (!work.alone) {
       // Held particles are put back after the pass.
-      const Vec3<P> to = held != 0 ? select_vector(lanes_of<Real>(held), own.x, x) : x;
+      const Vec3<P> to = pinned != 0 ? select_vector(lanes_of<Real>(pinned), own.x, x) : x;
       far |= bits(present & is_far<Real, kPeriodic>(pass, to, first)) << half;
     }
   }
@@ -416,9 +416,9 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
   // Held particles keep their velocity.
   Vec3<P> after = v, next = v;
   if (pass.buffers.acceleration != nullptr) next = select_vector(present, kick(v, a, P(Real(0.5)) * dt), zero);
-  if (held != 0) {
-    after = select_vector(lanes_of<Real>(held), own.v, v);
-    next = select_vector(lanes_of<Real>(held), own.v, next);
+  if (pinned != 0) {
+    after = select_vector(lanes_of<Real>(pinned), own.v, v);
+    next = select_vector(lanes_of<Real>(pinned), own.v, next);
   }
   forces.put_powers(0, own.v + after, pass.rules.has_drag, touching, columns);
   if (pass.buffers.acceleration != nullptr) {

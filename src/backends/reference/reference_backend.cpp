@@ -127,7 +127,7 @@ class ReferenceBackend final : public Backend {
     HOOKE_ASSERT(verlet());
     const Stopwatch drifting(times_.drift);
     for (std::size_t i = 0; i < p_.size(); ++i) {
-      if (is_held(i)) continue;
+      if (is_pinned(i)) continue;
       p_.velocity[i] = kick(p_.velocity[i], p_.acceleration[i], scene_.time_step / 2);
       p_.position[i] = drift(p_.position[i], p_.velocity[i], scene_.time_step);
     }
@@ -160,8 +160,8 @@ class ReferenceBackend final : public Backend {
     for (std::size_t i = 0; i < p_.size(); ++i) {
       const Vec3d before = p_.velocity[i];
       const Vec3d kicked = kick(before, forces.a[i], kick_time);
-      if (is_held(i)) {
-        report.applied->add_held(material(i).mass, before, kicked, kick_time);
+      if (is_pinned(i)) {
+        report.applied->add_pinned(material(i).mass, before, kicked, kick_time);
         forces.a[i] = {0, 0, 0};
       } else {
         p_.velocity[i] = kicked;
@@ -178,9 +178,10 @@ class ReferenceBackend final : public Backend {
     Forces forces = accelerations(now, report);
     report.condition = {};  // nothing moves yet: the first step reports it
     for (std::size_t i = 0; i < p_.size(); ++i) {
-      if (is_held(i)) {
+      if (is_pinned(i)) {
         const Vec3d& v = p_.velocity[i];
-        report.applied->add_held(material(i).mass, v, kick(v, forces.a[i], scene_.time_step / 2), scene_.time_step / 2);
+        report.applied->add_pinned(material(i).mass, v, kick(v, forces.a[i], scene_.time_step / 2),
+                                   scene_.time_step / 2);
         forces.a[i] = {0, 0, 0};
       }
       add_work(forces, i, p_.velocity[i], kick(p_.velocity[i], forces.a[i], scene_.time_step / 2), *report.applied);
@@ -255,7 +256,7 @@ class ReferenceBackend final : public Backend {
   };
 
   bool verlet() const { return scene_.integrator == Integrator::velocity_verlet; }
-  bool is_held(std::size_t i) const { return material(i).fixed || springs_.is_held(p_.id[i]); }
+  bool is_pinned(std::size_t i) const { return material(i).fixed || springs_.is_pinned(p_.id[i]); }
   const Material& material(std::size_t i) const { return scene_.materials[p_.material[i]]; }
   ContactLaw<double> pair(std::size_t i, std::size_t p) const {
     return law_of(rules_.pair(p_.material[i], p_.material[p]));
@@ -389,10 +390,10 @@ class ReferenceBackend final : public Backend {
     };
     const double dt = scene_.time_step;
     const Vec3d& v = p_.velocity[i];
-    const bool held = is_held(i);
-    const Vec3d after = held ? v : kick(v, a, verlet() ? dt / 2 : dt);
+    const bool pinned = is_pinned(i);
+    const Vec3d after = pinned ? v : kick(v, a, verlet() ? dt / 2 : dt);
     add_powers(sums.power, v, after);
-    if (verlet()) add_powers(sums.next_power, after, held ? v : kick(after, a, dt / 2));
+    if (verlet()) add_powers(sums.next_power, after, pinned ? v : kick(after, a, dt / 2));
   }
 
   // Adds the work of the applied forces on particle i in a kick from `before` to `after`, and in the coming half kick.
@@ -468,7 +469,7 @@ class ReferenceBackend final : public Backend {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < p_.size(); ++i) {
       if (goes[i]) {
-        const bool kicked = verlet() && kick_to_come && !springs_.is_held(p_.id[i]);
+        const bool kicked = verlet() && kick_to_come && !springs_.is_pinned(p_.id[i]);
         const Vec3d v = kicked ? kick(p_.velocity[i], p_.acceleration[i], scene_.time_step / 2) : p_.velocity[i];
         removed.add_particle(material(i).mass, p_.position[i], v, scene_.gravity);
         continue;

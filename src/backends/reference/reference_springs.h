@@ -107,8 +107,8 @@ class ReferenceSprings {
     return false;
   }
 
-  bool is_held(std::uint64_t id) const {
-    return structure_ && std::binary_search(structure_->held.begin(), structure_->held.end(), id);
+  bool is_pinned(std::uint64_t id) const {
+    return structure_ && std::binary_search(structure_->pinned.begin(), structure_->pinned.end(), id);
   }
 
  private:
