@@ -55,7 +55,7 @@ class CellGrid : private GridGeometry {
 
   /// key_of() of the points first to last - 1, in a grid of less than 2^32 cells. Plain loops that compilers vectorise.
   template <class Real>
-  void keys_of(const Columns<Real>& points, std::size_t first, std::size_t last, std::uint32_t* keys) const {
+  void keys_of(const Vec3Columns<Real>& points, std::size_t first, std::size_t last, std::uint32_t* keys) const {
     HOOKE_ASSERT(first <= last, first, last);
     HOOKE_ASSERT(key_end() <= std::uint64_t{1} << 32U, key_end());
     std::fill(keys, keys + (last - first), 0U);

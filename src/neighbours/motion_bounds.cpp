@@ -12,7 +12,7 @@
 namespace hooke {
 
 template <class Real>
-void MotionBounds<Real>::lay_out(const Columns<Real>& position_at_build, std::size_t count, std::size_t window,
+void MotionBounds<Real>::lay_out(const Vec3Columns<Real>& position_at_build, std::size_t count, std::size_t window,
                                  const Limits& limits) {
   HOOKE_ASSERT(window > 0);
   HOOKE_ASSERT(limits.diameter > 0 && limits.skin >= 0, limits.diameter, limits.skin);
@@ -60,7 +60,8 @@ void MotionBounds<Real>::map_blocks(const Level& narrow, Level& wide) {
 
 // Finds the narrowest blocks that hold points of each window.
 template <class Real>
-void MotionBounds<Real>::find_blocks(const Columns<Real>& position_at_build, std::size_t count, std::size_t window) {
+void MotionBounds<Real>::find_blocks(const Vec3Columns<Real>& position_at_build, std::size_t count,
+                                     std::size_t window) {
   const std::size_t windows = (count + window - 1) / window;
   std::vector<std::vector<std::uint32_t>> chunks((windows + kGrain - 1) / kGrain);
   first_block_.assign(windows + 1, 0);

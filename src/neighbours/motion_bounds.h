@@ -58,7 +58,7 @@ class MotionBounds {
 
   /// Takes the positions of the points when the list was built, m, in cell order; `window` (> 0) consecutive points are
   /// a window.
-  void lay_out(const Columns<Real>& position_at_build, std::size_t count, std::size_t window, const Limits& limits);
+  void lay_out(const Vec3Columns<Real>& position_at_build, std::size_t count, std::size_t window, const Limits& limits);
 
   /// Lets reference frames follow the particles: motion(g) is the WindowMotion of window g. `reference frames` has at
   /// least one per window. Returns for how many steps from now the reference frames are valid; negative where they are
@@ -158,7 +158,7 @@ class MotionBounds {
   }
 
   static void map_blocks(const Level& narrow, Level& wide);
-  void find_blocks(const Columns<Real>& position_at_build, std::size_t count, std::size_t window);
+  void find_blocks(const Vec3Columns<Real>& position_at_build, std::size_t count, std::size_t window);
   std::size_t group_count() const { return first_block_.size() - 1; }
   std::span<const std::uint32_t> blocks_of(std::size_t g) const {
     return std::span(blocks_).subspan(first_block_[g], first_block_[g + 1] - first_block_[g]);

@@ -23,7 +23,7 @@ class ColumnStore {
     z_[i] = value.z;
   }
   Vec3<Real> operator[](std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
-  Columns<Real> columns() const { return {x_.data(), y_.data(), z_.data()}; }
+  Vec3Columns<Real> columns() const { return {x_.data(), y_.data(), z_.data()}; }
 
  private:
   LargeVector<Real> x_, y_, z_;

@@ -289,7 +289,7 @@ HOOKE_HD constexpr int power_of(Cause cause) { return static_cast<int>(cause); }
 // What is summed over a tile's particles, one column each. A pack that touches nothing of a kind is left out of the
 // kind's columns.
 template <class Real>
-struct PassColumns {
+struct SumBuffers {
   std::size_t count = 0, contact_count = 0, wall_count = 0, collider_count = 0;
   alignas(64) Real of[PassSum::kCount][ExactParts::kMost];
 
@@ -326,7 +326,7 @@ struct Forces {
 
   // Writes the powers at twice a mean velocity to the columns from `first` on.
   HOOKE_HD void put_powers(int first, const Vec3<P>& twice_mean, bool has_drag, const Touching& touching,
-                           PassColumns<Real>& to) const {
+                           SumBuffers<Real>& to) const {
     if (touching.others) put_contacts(first, contacts, twice_mean, to);
     to.put(first + power_of(Cause::gravity), dot(weight, twice_mean));
     if (has_drag) to.put(first + power_of(Cause::drag), dot(drag, twice_mean));
@@ -336,13 +336,13 @@ struct Forces {
 
  private:
   HOOKE_HD static void put_contacts(int first, const ContactForces<P>& by, const Vec3<P>& twice_mean,
-                                    PassColumns<Real>& to) {
+                                    SumBuffers<Real>& to) {
     to.put(first + power_of(Cause::contact_spring), dot(by.spring, twice_mean));
     to.put(first + power_of(Cause::contact_shear), dot(by.shear, twice_mean));
     to.put(first + power_of(Cause::contact_damping), dot(by.damping, twice_mean));
   }
   HOOKE_HD static void put_contacts(int first, const SurfaceForces<P>& by, const Vec3<P>& twice_mean,
-                                    PassColumns<Real>& to) {
+                                    SumBuffers<Real>& to) {
     put_contacts(first, by.linear, twice_mean, to);
     to.put(first + power_of(Cause::contact_friction), dot(by.friction, twice_mean));
   }
@@ -350,7 +350,7 @@ struct Forces {
 
 template <class Real, Materials kMaterials, PeriodicKind kPeriodic>
 HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, std::size_t slot,
-                       PassColumns<Real>& columns, unsigned char& notes, unsigned& far) {
+                       SumBuffers<Real>& columns, unsigned char& notes, unsigned& far) {
   using P = Pack<Real>;
   const std::size_t first = work.first + slot;
   const std::size_t slice = slot / kSliceLanes, half = slot % kSliceLanes;
@@ -445,7 +445,7 @@ bool is_summed(const ForcePass<Real>& pass, int sum) {
 
 template <class Real, Materials kMaterials, PeriodicKind kPeriodic>
 void run_tile(const ForcePass<Real>& pass, const TileWork<Real>& work) {
-  PassColumns<Real> columns;
+  SumBuffers<Real> columns;
   for (std::size_t g = 0; g < work.slice_count; ++g) {
     unsigned char notes = 0;
     unsigned far = 0;

@@ -112,7 +112,7 @@ class VerletList {
   // Moving ----------------------------------------------------------------------------------------------------------
 
   const Frame* frames() const { return frames_.data(); }  ///< one per window
-  Columns<Real> position_at_build() const { return position_at_build_.columns(); }
+  Vec3Columns<Real> position_at_build() const { return position_at_build_.columns(); }
   /// Steps since the reference frames were set, after one more step.
   Real next_step() const { return static_cast<Real>(steps_ + 1); }
 
