@@ -19,10 +19,10 @@ Real real(double value) {
 }
 
 template <class Real>
-PairRow<Real> row_of(const ContactLaw<double>& law, Real reach) {
+PairRow<Real> row_of(const ContactLaw<double>& law, Real contact_distance) {
   const auto& [linear, surface] = law;
   return {real<Real>(linear.stiffness), real<Real>(linear.shear),
-          real<Real>(linear.damping),   reach,
+          real<Real>(linear.damping),   contact_distance,
           real<Real>(surface.friction), real<Real>(surface.tension),
           real<Real>(surface.cohesion), real<Real>(surface.range)};
 }
@@ -97,8 +97,8 @@ void Rules<Real>::compile_domain(const Domain& domain) {
     if (!view_.periodic[axis]) continue;
     component(view_.period, axis) = component(view_.length, axis);
     const double length = component(view_.length, axis);
-    view_.images[axis] = static_cast<int>(2 * largest_reach() / length) + 1;
-    const bool only_nearest = length > 4.001 * largest_reach();
+    view_.images[axis] = static_cast<int>(2 * largest_interaction_radius() / length) + 1;
+    const bool only_nearest = length > 4.001 * largest_interaction_radius();
     if (!only_nearest) view_.periodic_kind = PeriodicKind::images;
     if (view_.periodic_kind == PeriodicKind::none) view_.periodic_kind = PeriodicKind::nearest;
     rounding_ = std::max(rounding_, 4 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * length);

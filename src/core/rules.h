@@ -44,11 +44,11 @@ class Rules {
   /// Particles act on each other, and walls on them, across gaps up to this, m.
   double widest_range() const { return widest_range_; }
 
-  /// A particle's reach, m: two particles act on each other only within the sum of their reaches.
-  double reach_of(std::size_t material) const { return materials_[material].radius + widest_range_ / 2; }
-  double largest_reach() const { return largest_touching_ + widest_range_ / 2; }
+  /// A particle's contact_distance, m: two particles act on each other only within the sum of their reaches.
+  double interaction_radius(std::size_t material) const { return materials_[material].radius + widest_range_ / 2; }
+  double largest_interaction_radius() const { return largest_touching_ + widest_range_ / 2; }
   /// Largest distance from a particle's centre at which a wall or a collider acts on it, m.
-  double largest_reach_of_bodies() const { return largest_radius_ + widest_range_; }
+  double largest_body_distance() const { return largest_radius_ + widest_range_; }
   /// A bound on the rounding of a displacement across a periodic axis, m.
   double rounding() const { return rounding_; }
 

@@ -20,7 +20,7 @@ namespace hooke {
 template <class Real>
 struct alignas(8 * sizeof(Real)) PairRow {
   Real stiffness, shear, damping;           // N/m, N s/m, N s/m
-  Real reach;                               // r_i + r_p, or r_i, m
+  Real contact_distance;                               // r_i + r_p, or r_i, m
   Real friction, tension, cohesion, range;  // of surfaces: 1, N, N, m
 };
 

@@ -70,7 +70,7 @@ template <class Real>
 __global__ void grid(const Particle<Real>* particles, const GridGeometry geometry, const RulesView<Real> rules,
                      std::uint64_t* keys) {
   const unsigned i = blockIdx.x * blockDim.x + threadIdx.x;
-  const Vec3d x = vec_cast<double>(particles[i].x), around{rules.pairs[0].reach, rules.pairs[0].reach, 0};
+  const Vec3d x = vec_cast<double>(particles[i].x), around{rules.pairs[0].contact_distance, rules.pairs[0].contact_distance, 0};
   std::uint64_t cells = 0;
   geometry.for_path_ranges(x - around, x + around,
                            [&](const GridGeometry::KeyRange& range) { cells += range.last - range.first + 1; });

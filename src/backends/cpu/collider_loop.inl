@@ -46,7 +46,7 @@ struct ColliderLoop {
       const auto pair = load_pairs<Real, kMaterials>(
           pass.rules.collider_pairs + std::size_t{pass.colliders.index[c]} * pass.rules.material_count, own.material);
       for_each_collider_face(collider, own.x, [&](const ColliderFace<P>& face) {
-        const P overlap = pair.reach - face.distance;
+        const P overlap = pair.contact_distance - face.distance;
         const Mask<Real> here = near & acts<Real>(overlap, pair.law);
         if (!any(here)) return;
         touched = true;

@@ -39,7 +39,7 @@ void measure_particle(const ContactScan<Real>& scan, std::size_t i, std::span<co
   const Vec3d v = vec_cast<double>(p.v);
   sums.add_particle(scene.materials[scan.material_of(i)].mass, vec_cast<double>(p.x), v, scene.gravity);
   scan.for_each_contact(i, rows, [&](std::size_t q, const Vec3d&, double overlap) {
-    sums.add_contact_side(law_of(scan.pair(i, q)), overlap, scan.pair(i, q).reach);
+    sums.add_contact_side(law_of(scan.pair(i, q)), overlap, scan.pair(i, q).contact_distance);
   });
   scan.for_each_wall(i, [&](const Vec3d& normal, double overlap) {
     const ContactLaw<double> law = law_of(scan.wall(i));

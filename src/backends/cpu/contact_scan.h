@@ -44,8 +44,8 @@ class ContactScan {
       for_each_image(vec_cast<double>(records_[i].x), vec_cast<double>(records_[p].x), images_,
                      [&](const ImageIndex& image, const Vec3d& x_ip) {
                        if (i == p && image == ImageIndex{}) return;
-                       const auto [overlap, normal] =
-                           pair_geometry(x_ip, row.reach, records_[i].id_index > records_[p].id_index ? 1.0 : -1.0);
+                       const auto [overlap, normal] = pair_geometry(
+                           x_ip, row.contact_distance, records_[i].id_index > records_[p].id_index ? 1.0 : -1.0);
                        if (overlap > -static_cast<double>(row.range)) visit(p, normal, overlap);
                      });
     }
@@ -54,7 +54,7 @@ class ContactScan {
   /// visit(normal, overlap) for every wall that acts on particle i.
   template <class Visit>
   void for_each_wall(std::size_t i, const Visit& visit) const {
-    hooke::for_each_wall(walls_, vec_cast<double>(records_[i].x), wall(i).reach, wall(i).range,
+    hooke::for_each_wall(walls_, vec_cast<double>(records_[i].x), wall(i).contact_distance, wall(i).range,
                          [&](int, const Vec3d& normal, double overlap) { visit(normal, overlap); });
   }
 
@@ -68,7 +68,7 @@ class ContactScan {
       const std::size_t index = colliders_.index[c];
       const PairRow<Real>& row = this->collider(i, index);
       for_each_collider_face(collider, x, [&](const ColliderFace<double>& face) {
-        const double overlap = static_cast<double>(row.reach) - face.distance;
+        const double overlap = static_cast<double>(row.contact_distance) - face.distance;
         if (overlap > -static_cast<double>(row.range)) visit(index, face, overlap);
       });
     }

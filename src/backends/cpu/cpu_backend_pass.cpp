@@ -48,7 +48,7 @@ template <class Real>
 void CpuBackend<Real>::place_at(const Instant& now) {
   applied_.set_time(now.time);
   if (scene_.colliders.empty()) return;
-  colliders_ = place_colliders<Real>(scene_, now.poses, rules_.largest_reach_of_bodies());
+  colliders_ = place_colliders<Real>(scene_, now.poses, rules_.largest_body_distance());
 }
 
 template <class Real>

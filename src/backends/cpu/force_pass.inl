@@ -121,7 +121,7 @@ struct ContactLoop {
   HOOKE_HD void meet(const Table& table, const Lanes<Real>& other, const Vec3<P>& x_pi, Met& met) const {
     const typename Table::Pair pair = table.lookup(other.material);
     const P distance = sqrt_of(dot(x_pi, x_pi));
-    met.overlap = pair.reach - distance;
+    met.overlap = pair.contact_distance - distance;
     if constexpr (kTies) {
       met.way = contact_normal(-x_pi, distance, select(own.id_index > other.id_index, P(Real(1)), P(Real(-1))));
       met.scale = P(Real(1));
@@ -224,8 +224,8 @@ struct WallLoop {
     for (int axis = 0; axis < 3; ++axis) {
       if (!pass.rules.wall[axis]) continue;
       const P& x = component(own.x, axis);
-      face(axis, Real(1), lower_wall_overlap(x, P(component(pass.rules.min, axis)), pair.reach));
-      face(axis, Real(-1), upper_wall_overlap(x, P(component(pass.rules.max, axis)), pair.reach));
+      face(axis, Real(1), lower_wall_overlap(x, P(component(pass.rules.min, axis)), pair.contact_distance));
+      face(axis, Real(-1), upper_wall_overlap(x, P(component(pass.rules.max, axis)), pair.contact_distance));
     }
     return force;
   }

@@ -29,7 +29,7 @@ void OutlierPairs<Real>::note_missing(std::size_t i, std::size_t p, std::vector<
 template <class Real>
 void OutlierPairs<Real>::find_around(std::uint32_t i, const Place& place, std::span<const std::uint16_t> outlying,
                                      std::vector<MissingEntry>& missing) const {
-  cells_.for_points_near(place.at, place.range + reach_of(i) + margin(), [&](std::size_t k) {
+  cells_.for_points_near(place.at, place.range + interaction_radius(i) + margin(), [&](std::size_t k) {
     const std::size_t p = slots_.slot_of(k);
     const bool other_is_outlier = (outlying[p / kLanes] >> p % kLanes & 1U) != 0;
     if (!other_is_outlier && touch(i, p)) note_missing(i, p, missing);
@@ -44,7 +44,7 @@ void OutlierPairs<Real>::find_among(std::span<const std::uint32_t> outliers, Roo
   using Outlier = typename Room::Outlier;
   std::vector<Outlier>& sorted = room.sorted;
   sorted.clear();
-  const auto reach = static_cast<Real>(2 * rules_.largest_reach() + margin());
+  const auto reach = static_cast<Real>(2 * rules_.largest_interaction_radius() + margin());
   for (const std::uint32_t i : outliers) {
     if (!is_vacant(records_[i])) add_with_images(i, records_[i].x, 0, reach, sorted);
   }

@@ -110,17 +110,23 @@ class OutlierPairs {
   }
 
   /// Whether two particles overlap where they are now.
-  bool overlap(std::size_t i, std::size_t p) const { return are_nearer(i, p, reach_of(i) + reach_of(p)); }
+  bool overlap(std::size_t i, std::size_t p) const {
+    return are_nearer(i, p, interaction_radius(i) + interaction_radius(p));
+  }
 
  private:
-  double reach_of(std::size_t i) const { return rules_.reach_of(static_cast<std::size_t>(records_[i].material)); }
+  double interaction_radius(std::size_t i) const {
+    return rules_.interaction_radius(static_cast<std::size_t>(records_[i].material));
+  }
   double margin() const { return 1e-3 * rules_.smallest_touching(); }  // covers the force pass's different rounding
   static bool is_somewhere(const Record& p) {
     const auto near = [](Real x) { return std::abs(x) < static_cast<Real>(kFurthest); };
     return near(p.x.x) && near(p.x.y) && near(p.x.z);
   }
 
-  bool touch(std::size_t i, std::size_t p) const { return are_nearer(i, p, reach_of(i) + reach_of(p) + margin()); }
+  bool touch(std::size_t i, std::size_t p) const {
+    return are_nearer(i, p, interaction_radius(i) + interaction_radius(p) + margin());
+  }
 
   bool are_nearer(std::size_t i, std::size_t p, double reach) const {
     const Vec3<Real> d = nearest_displacement(records_[i].x, records_[p].x, rules_.view().period);

@@ -14,12 +14,12 @@ constexpr bool are_few(Materials m) { return m == Materials::few || m == Materia
 template <class Real>
 struct LinearPair {
   ContactCoefficients<Pack<Real>> law;
-  Pack<Real> reach;
+  Pack<Real> contact_distance;
 };
 template <class Real>
 struct SurfacePair {
   ContactLaw<Pack<Real>> law;
-  Pack<Real> reach;
+  Pack<Real> contact_distance;
 };
 
 // With one material, all pairs follow the same linear law.
@@ -27,7 +27,7 @@ struct TheLaw {};
 template <class Real>
 struct OnlyPair {
   TheLaw law;
-  Pack<Real> reach;
+  Pack<Real> contact_distance;
 };
 
 // Copies a law register by register: GCC 12 copies a whole law through memory, 8 bytes at a time.
@@ -77,7 +77,7 @@ struct PairTable<Real, Materials::one> {
   using P = Pack<Real>;
   using Pair = OnlyPair<Real>;
   HOOKE_HD PairTable(const ForcePass<Real>& pass, const P&) : only(*pass.rules.pairs) {}
-  HOOKE_HD Pair lookup(const P&) const { return {{}, P(only.reach)}; }
+  HOOKE_HD Pair lookup(const P&) const { return {{}, P(only.contact_distance)}; }
   const PairRow<Real>& only;
 };
 template <class Real>
@@ -89,13 +89,13 @@ struct PairTable<Real, Materials::few> {
         stiffness(pass.rules.few->stiffness),
         shear(pass.rules.few->shear),
         damping(pass.rules.few->damping),
-        reach(pass.rules.few->reach) {}
+        contact_distance(pass.rules.few->contact_distance) {}
   HOOKE_HD Pair lookup(const P& material) const {
     const P at = first + material;
-    return {{stiffness.lookup(at), shear.lookup(at), damping.lookup(at)}, reach.lookup(at)};
+    return {{stiffness.lookup(at), shear.lookup(at), damping.lookup(at)}, contact_distance.lookup(at)};
   }
   P first;
-  SmallTable<Real> stiffness, shear, damping, reach;
+  SmallTable<Real> stiffness, shear, damping, contact_distance;
 };
 template <class Real>
 struct PairTable<Real, Materials::few_surfaces> {
@@ -110,7 +110,8 @@ struct PairTable<Real, Materials::few_surfaces> {
   HOOKE_HD Pair lookup(const P& material) const {
     const LinearPair<Real> pair = linear.lookup(material);
     const P at = linear.first + material;
-    return {{pair.law, {friction.lookup(at), tension.lookup(at), cohesion.lookup(at), range.lookup(at)}}, pair.reach};
+    return {{pair.law, {friction.lookup(at), tension.lookup(at), cohesion.lookup(at), range.lookup(at)}},
+            pair.contact_distance};
   }
   PairTable<Real, Materials::few> linear;
   SmallTable<Real> friction, tension, cohesion, range;
@@ -122,7 +123,7 @@ HOOKE_HD auto wall_pairs_of(const ForcePass<Real>& pass, const Lanes<Real>& own)
   using P = Pack<Real>;
   if constexpr (kMaterials == Materials::one) {
     const PairRow<Real>& m = *pass.rules.wall_pairs;
-    return LinearPair<Real>{{P(m.stiffness), P(m.shear), P(m.damping)}, P(m.reach)};
+    return LinearPair<Real>{{P(m.stiffness), P(m.shear), P(m.damping)}, P(m.contact_distance)};
   } else {
     return load_pairs<Real, kMaterials>(pass.rules.wall_pairs, own.material);
   }

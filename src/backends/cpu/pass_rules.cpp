@@ -28,7 +28,7 @@ void PassRules<Real>::find_few() {
     columns.stiffness[k] = pair.stiffness;
     columns.shear[k] = pair.shear;
     columns.damping[k] = pair.damping;
-    columns.reach[k] = pair.reach;
+    columns.contact_distance[k] = pair.contact_distance;
     columns.friction[k] = pair.friction;
     columns.tension[k] = pair.tension;
     columns.cohesion[k] = pair.cohesion;
@@ -54,7 +54,7 @@ void PassRules<Real>::find_levels() {
   level_of_.assign(this->material_count(), 0);
   double smallest = 0;  // of the level
   for (const std::size_t m : by_radius) {
-    const double radius = this->reach_of(m);
+    const double radius = this->interaction_radius(m);
     if (level_radius_.empty() || radius > 1.5 * smallest) {
       level_radius_.push_back(radius);
       smallest = radius;
@@ -73,9 +73,9 @@ void PassRules<Real>::find_clear_range(int axis) {
     const auto outward = [](double x, Real end) {
       return std::nextafter(std::nextafter(static_cast<Real>(x), end), end);
     };
-    const double reach = this->largest_reach_of_bodies();
-    from = outward(component(constants_.min, axis) + reach, kInfinite);
-    to = outward(component(constants_.max, axis) - reach, -kInfinite);
+    const double contact_distance = this->largest_body_distance();
+    from = outward(component(constants_.min, axis) + contact_distance, kInfinite);
+    to = outward(component(constants_.max, axis) - contact_distance, -kInfinite);
   }
   component(constants_.clear_of_walls_from, axis) = from;
   component(constants_.clear_of_walls_to, axis) = to;

@@ -57,14 +57,14 @@ void VerletList<Real>::build(const Record* records, std::size_t count, std::size
     columns.fill(slots_, first, last, position_at_build_, id_indices.data());
     if (columns.radius == nullptr) return;
     for (std::size_t p = first; p < last; ++p) {
-      columns.radius[p] = static_cast<Real>(reach_of(records[slots_.slot_of(p)]));
+      columns.radius[p] = static_cast<Real>(interaction_radius(records[slots_.slot_of(p)]));
     }
   });
   build_neighbour_list(cells_, neighbour_rule(columns), search_, list_);
   strike_exclusions();
   list_.add_empty_tiles((end_ + NeighbourList::kTile - 1) / NeighbourList::kTile);
 
-  limits_.diameter = 2 * rules_->largest_reach();
+  limits_.diameter = 2 * rules_->largest_interaction_radius();
   find_coarseness();
   // A thousandth covers the rounding of displacements.
   limits_.skin = std::max(0.0, 0.999 * skin_ - 2 * rules_->rounding() - coarseness_);
@@ -136,7 +136,7 @@ std::uint64_t VerletList<Real>::count_missed(const Record* records) const {
     for (std::size_t i = first; i < last; ++i) {
       if (is_vacant(records[i])) continue;
       const auto rows = this->rows(i / NeighbourList::kTile, i % NeighbourList::kTile / kLanes);
-      cells.for_points_near(vec_cast<double>(records[i].x), reach_of(records[i]), [&](std::size_t k) {
+      cells.for_points_near(vec_cast<double>(records[i].x), interaction_radius(records[i]), [&](std::size_t k) {
         const std::uint32_t p = order[k];
         if (p != i && pairs.overlap(i, p) &&
             !exclusions_->hold(id_index_of(records[i].id_index), id_index_of(records[p].id_index)) &&
@@ -196,7 +196,7 @@ NeighbourRule<Real> VerletList<Real>::neighbour_rule(const SearchColumns& column
   rule.place = slots_.places();
   rule.neighbour_count = slots_.neighbour_counts();
   rule.reach = static_cast<Real>(kRounding * rules_->smallest_touching() +
-                                 (columns.radius == nullptr ? 2 * rules_->largest_reach() : 0) + skin_);
+                                 (columns.radius == nullptr ? 2 * rules_->largest_interaction_radius() : 0) + skin_);
   std::copy(std::begin(rules_->view().periodic), std::end(rules_->view().periodic), rule.periodic);
   rule.length = rules_->view().length;
   rule.list_self = rules_->view().periodic_kind == PeriodicKind::images;

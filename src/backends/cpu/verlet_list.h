@@ -149,7 +149,9 @@ class VerletList {
   static constexpr double kFirstSkin = 0.25, kThinnestSkin = 0.06, kThickestSkin = 0.4;
   static constexpr double kBuildOverSkin = 7.4;  // cost of a build over what a skin of one diameter adds to a pass
 
-  double reach_of(const Record& p) const { return rules_->reach_of(static_cast<std::size_t>(p.material)); }
+  double interaction_radius(const Record& p) const {
+    return rules_->interaction_radius(static_cast<std::size_t>(p.material));
+  }
 
   double best_skin() const;
   void choose_skin();

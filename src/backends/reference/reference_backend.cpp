@@ -498,7 +498,7 @@ class ReferenceBackend final : public Backend {
   }
 
   void place_colliders_at(const Instant& now) {
-    colliders_ = hooke::place_colliders<double>(scene_, now.poses, rules_.largest_reach_of_bodies());
+    colliders_ = hooke::place_colliders<double>(scene_, now.poses, rules_.largest_body_distance());
   }
 
   Scene scene_;
