@@ -26,7 +26,7 @@ void AppliedForces<Real>::configure(const Scene& scene, const RulesView<Real>& r
   fields_.configure(scene);
   attraction_.configure(scene, loops.attraction);
   external_.clear();
-  acting_.clear();
+  applied_.clear();
   work_pass_ = loops.work_pass;
 }
 
@@ -83,26 +83,26 @@ const typename AppliedForces<Real>::Pairs& AppliedForces<Real>::apply(const Part
   const std::size_t count = particles.slots.end();
   static const Pairs kNone;
   const Pairs* released = &kNone;
-  acting_.clear();
+  applied_.clear();
   if (!springs_.empty()) {
     released = &springs_.apply(records.data(), may_tear, sums);
-    acting_.push_back({Cause::springs, springs_.forces()});
+    applied_.push_back({Cause::springs, springs_.forces()});
   }
   if (!fields_.empty()) {
     fields_.apply(records, count, particles.slots_by_id_index());
-    acting_.push_back({Cause::field, fields_.forces()});
+    applied_.push_back({Cause::field, fields_.forces()});
   }
   if (!attraction_.empty()) {
     attraction_.apply(records, count, particles.count(), particles.ids);
-    acting_.push_back({Cause::attraction, attraction_.forces()});
+    applied_.push_back({Cause::attraction, attraction_.forces()});
   }
-  if (!external_.empty()) acting_.push_back({Cause::external, external_.column(particles)});
-  if (acting_.size() > 1) {
+  if (!external_.empty()) applied_.push_back({Cause::external, external_.column(particles)});
+  if (applied_.size() > 1) {
     total_.resize(records.size());
     parallel_ranges(count, kTile, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
-        total_[i] = acting_[0].force[i];
-        for (std::size_t k = 1; k < acting_.size(); ++k) total_[i] += acting_[k].force[i];
+        total_[i] = applied_[0].force[i];
+        for (std::size_t k = 1; k < applied_.size(); ++k) total_[i] += applied_[k].force[i];
       }
     });
   }
@@ -114,7 +114,7 @@ void AppliedForces<Real>::finish(std::size_t first, std::size_t last, const Reco
                                  Vec3<Real>* acceleration, AppliedSums& sums) const {
   HOOKE_ASSERT(last - first <= kTile, first, last);
   hold_still(first, last, before, after, acceleration, sums);
-  for (const Acting& acting : acting_) add_work(acting, first, last, before, after, acceleration, sums);
+  for (const AppliedForce& applied : applied_) add_work(applied, first, last, before, after, acceleration, sums);
 }
 
 template <class Real>
@@ -147,16 +147,17 @@ void AppliedForces<Real>::hold_still(std::size_t first, std::size_t last, const 
 }
 
 template <class Real>
-void AppliedForces<Real>::add_work(const Acting& acting, std::size_t first, std::size_t last, const Record* before,
-                                   const Record* after, const Vec3<Real>* acceleration, AppliedSums& sums) const {
-  const bool has_resultant = acting.cause != Cause::springs;  // spring forces sum to 0
+void AppliedForces<Real>::add_work(const AppliedForce& applied, std::size_t first, std::size_t last,
+                                   const Record* before, const Record* after, const Vec3<Real>* acceleration,
+                                   AppliedSums& sums) const {
+  const bool has_resultant = applied.cause != Cause::springs;  // spring forces sum to 0
   std::array<ExactParts, WorkSum::count> parts;
   for (ExactParts& part : parts) part.count = 0;
   work_pass_(
-      {before + first, after + first, acting.force + first, acceleration == nullptr ? nullptr : acceleration + first,
+      {before + first, after + first, applied.force + first, acceleration == nullptr ? nullptr : acceleration + first,
        static_cast<Real>(kick_), last - first, has_resultant},
       parts.data());
-  AppliedSums::Rates& rates = sums[acting.cause];
+  AppliedSums::Rates& rates = sums[applied.cause];
   const auto add = [&](int sum, ExactSum& to) {
     const ExactParts& part = parts[static_cast<std::size_t>(sum)];
     to.add(part.values, part.count);

@@ -50,7 +50,7 @@ class AppliedForces {
   /// Backend::set_external_forces().
   std::optional<std::uint64_t> set_external(const Particles& particles, std::span<const std::uint64_t> ids,
                                             std::span<const Vec3d> forces) {
-    acting_.clear();
+    applied_.clear();
     return external_.set(particles, ids, forces);
   }
 
@@ -74,7 +74,7 @@ class AppliedForces {
 
   /// N, in the order of the records; null where nothing acts.
   const Vec3<Real>* forces() const {
-    return acting_.empty() ? nullptr : acting_.size() == 1 ? acting_.front().force : total_.data();
+    return applied_.empty() ? nullptr : applied_.size() == 1 ? applied_.front().force : total_.data();
   }
 
   /// After the pass over particles `first` to `last` - 1, of one tile: puts pinned particles back to where they were,
@@ -93,7 +93,7 @@ class AppliedForces {
   }
 
  private:
-  struct Acting {
+  struct AppliedForce {
     Cause cause;
     const Vec3<Real>* force;  // N
   };
@@ -101,8 +101,8 @@ class AppliedForces {
   void find_pinned(const Particles& particles);
   void hold_still(std::size_t first, std::size_t last, const Record* before, Record* after, Vec3<Real>* acceleration,
                   AppliedSums& sums) const;
-  void add_work(const Acting& acting, std::size_t first, std::size_t last, const Record* before, const Record* after,
-                const Vec3<Real>* acceleration, AppliedSums& sums) const;
+  void add_work(const AppliedForce& applied, std::size_t first, std::size_t last, const Record* before,
+                const Record* after, const Vec3<Real>* acceleration, AppliedSums& sums) const;
 
   std::shared_ptr<const Structure> structure_;
   double kick_ = 0;  // s
@@ -114,7 +114,7 @@ class AppliedForces {
   AttractionForces<Real> attraction_;
   ExternalForces<Real> external_;
   WorkPassFunction<Real> work_pass_ = nullptr;
-  std::vector<Acting> acting_;  // in the order of their sum
+  std::vector<AppliedForce> applied_;  // in the order of their sum
   LargeVector<Vec3<Real>> total_;  // their sum, where several act
   std::vector<std::uint32_t> pinned_id_indices_;
   PinnedParticles pinned_;

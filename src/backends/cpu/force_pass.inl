@@ -65,7 +65,7 @@ HOOKE_HD Quad<Real> load_rows(const Row* table, const Pack<Real>& index, int par
 
 // What other particles do to the lanes' particles.
 template <class Real, Materials kMaterials>
-struct Acting {
+struct ContactSums {
   Contacts<Real, kMaterials> contacts;
   // True where every contact's approach speed is at most the limit; false on NaN, i.e. coincident centres.
   Mask<Real> slow = Pack<Real>(Real(0)) == Pack<Real>(Real(0));
@@ -73,7 +73,7 @@ struct Acting {
 
 // The lanes' particles and one neighbour of each: what a contact needs, after every slow operation.
 template <class Real, class Law>
-struct Meeting {
+struct PairState {
   using P = Pack<Real>;
   P overlap;    // m, below 0 where they do not touch
   Vec3<P> way;  // way * scale is the contact's normal
@@ -88,7 +88,7 @@ template <class Real, Materials kMaterials, PeriodicKind kPeriodic, bool kTies>
 struct ContactLoop {
   using P = Pack<Real>;
   using Table = PairTable<Real, kMaterials>;
-  using Met = Meeting<Real, decltype(Table::Pair::law)>;
+  using Met = PairState<Real, decltype(Table::Pair::law)>;
   const ForcePass<Real>& pass;
   const Lanes<Real>& own;
 
@@ -96,12 +96,12 @@ struct ContactLoop {
   // wait for them would keep the processor from looking further ahead.
   static constexpr std::size_t kRowsAtOnce = 8;
 
-  HOOKE_HD Acting<Real, kMaterials> run(const std::uint32_t* row, const std::uint32_t* end) const {
-    Acting<Real, kMaterials> acting;
+  HOOKE_HD ContactSums<Real, kMaterials> run(const std::uint32_t* row, const std::uint32_t* end) const {
+    ContactSums<Real, kMaterials> sums;
     const Table table(pass, own.material);
     while (row != end) {
       if constexpr (kPeriodic == PeriodicKind::images) {
-        add_images(table, load_row(row), acting);
+        add_images(table, load_row(row), sums);
         row += kSliceLanes;
       } else {
         Met met[kRowsAtOnce];
@@ -111,10 +111,10 @@ struct ContactLoop {
           meet(table, other, nearest(other), met[count++]);
           row += kSliceLanes;
         } while (count < kRowsAtOnce && row != end);
-        for (std::size_t k = 0; k < count; ++k) add(met[k], acting);
+        for (std::size_t k = 0; k < count; ++k) add(met[k], sums);
       }
     }
-    return acting;
+    return sums;
   }
 
   // Number by number: GCC 12 may copy a whole struct byte by byte.
@@ -149,7 +149,7 @@ struct ContactLoop {
   }
 
   // Adds all images of a neighbour, which may be the lane's particle itself.
-  HOOKE_HD void add_images(const Table& table, const Lanes<Real>& other, Acting<Real, kMaterials>& acting) const {
+  HOOKE_HD void add_images(const Table& table, const Lanes<Real>& other, ContactSums<Real, kMaterials>& sums) const {
     const Mask<Real> itself = own.id_index == other.id_index;
     for (int sx = -pass.rules.images[0]; sx <= pass.rules.images[0]; ++sx) {
       for (int sy = -pass.rules.images[1]; sy <= pass.rules.images[1]; ++sy) {
@@ -162,7 +162,7 @@ struct ContactLoop {
           // No particle touches itself.
           if (sx == 0 && sy == 0 && sz == 0)
             met.overlap = select(itself, P(static_cast<Real>(-kVacantPosition)), met.overlap);
-          add(met, acting);
+          add(met, sums);
         }
       }
     }
@@ -170,18 +170,18 @@ struct ContactLoop {
 
   // The law's inputs are 0 where nothing acts, so the linear law's results are 0: fewer masks than one for each of the
   // results.
-  HOOKE_HD void add(const Met& met, Acting<Real, kMaterials>& acting) const {
+  HOOKE_HD void add(const Met& met, ContactSums<Real, kMaterials>& sums) const {
     const Mask<Real> here = acts<Real>(met.overlap, met.law);
     const P overlap = only_where(here, met.overlap);
     const Vec3<P> normal = only_where(here, met.scale) * met.way;
     const Vec3<P> w = only_where(here, met.w);
     if constexpr (have_surfaces(kMaterials)) {
-      acting.contacts.add(here, contact_forces(overlap, normal, w, met.law));
+      sums.contacts.add(here, contact_forces(overlap, normal, w, met.law));
     } else {
-      acting.contacts.add(contact_vectors(overlap, normal, w), met.law);
+      sums.contacts.add(contact_vectors(overlap, normal, w), met.law);
     }
     // NaN, where centres coincide, is not slow. Pairs that only cohesion joins are checked, too.
-    acting.slow = acting.slow & (dot(w, normal) <= P(pass.rules.speed_limit));
+    sums.slow = sums.slow & (dot(w, normal) <= P(pass.rules.speed_limit));
   }
 
   // Loads a row's neighbours, after a prefetch of a later row's.
@@ -279,7 +279,7 @@ HOOKE_HD Mask<Real> is_far(const ForcePass<Real>& pass, const Vec3<Pack<Real>>& 
 }
 
 // Whether any lane may touch other particles, or touches a wall or a collider.
-struct Touching {
+struct TouchFlags {
   bool others = true, wall = false, collider = false;
 };
 
@@ -309,11 +309,11 @@ struct SumBuffers {
     put(sum + 1, a.y);
     put(sum + 2, a.z);
   }
-  HOOKE_HD void end_pack(const Touching& touching) {
+  HOOKE_HD void end_pack(const TouchFlags& touches) {
     count += Pack<Real>::kLanes;
-    if (touching.others) contact_count += Pack<Real>::kLanes;
-    if (touching.wall) wall_count += Pack<Real>::kLanes;
-    if (touching.collider) collider_count += Pack<Real>::kLanes;
+    if (touches.others) contact_count += Pack<Real>::kLanes;
+    if (touches.wall) wall_count += Pack<Real>::kLanes;
+    if (touches.collider) collider_count += Pack<Real>::kLanes;
   }
 };
 
@@ -325,13 +325,13 @@ struct Forces {
   Vec3<P> walls, colliders, drag, weight;
 
   // Writes the powers at twice a mean velocity to the columns from `first` on.
-  HOOKE_HD void put_powers(int first, const Vec3<P>& twice_mean, bool has_drag, const Touching& touching,
+  HOOKE_HD void put_powers(int first, const Vec3<P>& twice_mean, bool has_drag, const TouchFlags& touches,
                            SumBuffers<Real>& to) const {
-    if (touching.others) put_contacts(first, contacts, twice_mean, to);
+    if (touches.others) put_contacts(first, contacts, twice_mean, to);
     to.put(first + power_of(Cause::gravity), dot(weight, twice_mean));
     if (has_drag) to.put(first + power_of(Cause::drag), dot(drag, twice_mean));
-    if (touching.wall) to.put(first + power_of(Cause::wall), dot(walls, twice_mean));
-    if (touching.collider) to.put(first + power_of(Cause::collider), dot(colliders, twice_mean));
+    if (touches.wall) to.put(first + power_of(Cause::wall), dot(walls, twice_mean));
+    if (touches.collider) to.put(first + power_of(Cause::collider), dot(colliders, twice_mean));
   }
 
  private:
@@ -353,30 +353,30 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
                        SumBuffers<Real>& columns, unsigned char& notes, unsigned& far) {
   using P = Pack<Real>;
   const std::size_t first = work.first + slot;
-  const std::size_t slice = slot / kSliceLanes, half = slot % kSliceLanes;
+  const std::size_t slice = slot / kSliceLanes, lane_offset = slot % kSliceLanes;
 
   const Real* own_record = reinterpret_cast<const Real*>(pass.buffers.in + first);
   const Lanes<Real> own = load_lanes<Real>([=](int lane) { return own_record + 8 * lane; });
   const Mask<Real> present = own.x.x < P(static_cast<Real>(kVacantPosition));
 
-  Acting<Real, kMaterials> acting;
+  ContactSums<Real, kMaterials> sums;
   if (!work.alone) {
-    const std::uint32_t* rows = work.rows + half;
+    const std::uint32_t* rows = work.rows + lane_offset;
     const std::uint32_t* row = rows + std::size_t{work.first_row[slice]} * kSliceLanes;
     const std::uint32_t* end = rows + std::size_t{work.first_row[slice + 1]} * kSliceLanes;
-    acting = ContactLoop<Real, kMaterials, kPeriodic, false>{pass, own}.run(row, end);
-    if (any(!acting.slow)) {
-      acting = ContactLoop<Real, kMaterials, kPeriodic, true>{pass, own}.run(row, end);
+    sums = ContactLoop<Real, kMaterials, kPeriodic, false>{pass, own}.run(row, end);
+    if (any(!sums.slow)) {
+      sums = ContactLoop<Real, kMaterials, kPeriodic, true>{pass, own}.run(row, end);
     }
   }
-  Mask<Real> too_fast = !acting.slow;
+  Mask<Real> too_fast = !sums.slow;
 
-  const auto by_contacts = acting.contacts.forces(pass);
+  const auto by_contacts = sums.contacts.forces(pass);
   Forces<Real, std::remove_const_t<decltype(by_contacts)>> forces{by_contacts, {}, {}, {}, {}};
-  Touching touching;
-  touching.others = !work.alone;
-  forces.walls = WallLoop<Real, kMaterials>{pass, own, present}.run(too_fast, touching.wall);
-  forces.colliders = ColliderLoop<Real, kMaterials>{pass, own, present}.run(too_fast, touching.collider);
+  TouchFlags touches;
+  touches.others = !work.alone;
+  forces.walls = WallLoop<Real, kMaterials>{pass, own, present}.run(too_fast, touches.wall);
+  forces.colliders = ColliderLoop<Real, kMaterials>{pass, own, present}.run(too_fast, touches.collider);
   const Quad<Real> body = body_of<Real, kMaterials>(pass, own);
   Vec3<P> force = (forces.contacts.total() + forces.walls) + forces.colliders;
   if (pass.rules.has_drag) {
@@ -389,8 +389,9 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
   forces.weight = body.c * gravity;
   const Vec3<P> a = body.a * force + gravity;
   const P dt(pass.rules.dt);
-  const unsigned pinned =
-      pass.buffers.pinned != nullptr ? static_cast<unsigned>(pass.buffers.pinned[first / kSliceLanes]) >> half : 0;
+  const unsigned pinned = pass.buffers.pinned != nullptr
+                              ? static_cast<unsigned>(pass.buffers.pinned[first / kSliceLanes]) >> lane_offset
+                              : 0;
   Vec3<P> v, x = own.x;
   if (pass.buffers.acceleration != nullptr) {  // velocity Verlet
     v = kick(own.v, a, P(Real(0.5)) * dt);
@@ -404,7 +405,7 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
     if (!work.alone) {
       // Held particles are put back after the pass.
       const Vec3<P> to = pinned != 0 ? select_vector(lanes_of<Real>(pinned), own.x, x) : x;
-      far |= bits(present & is_far<Real, kPeriodic>(pass, to, first)) << half;
+      far |= bits(present & is_far<Real, kPeriodic>(pass, to, first)) << lane_offset;
     }
   }
   if (any(too_fast)) notes |= kApproachTooFast;
@@ -420,14 +421,14 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
     after = select_vector(lanes_of<Real>(pinned), own.v, v);
     next = select_vector(lanes_of<Real>(pinned), own.v, next);
   }
-  forces.put_powers(0, own.v + after, pass.rules.has_drag, touching, columns);
+  forces.put_powers(0, own.v + after, pass.rules.has_drag, touches, columns);
   if (pass.buffers.acceleration != nullptr) {
-    forces.put_powers(PassSum::kNext, after + next, pass.rules.has_drag, touching, columns);
+    forces.put_powers(PassSum::kNext, after + next, pass.rules.has_drag, touches, columns);
   }
-  if (touching.wall) columns.put(PassSum::kWallForce, forces.walls);
-  if (touching.collider) columns.put(PassSum::kColliderForce, forces.colliders);
+  if (touches.wall) columns.put(PassSum::kWallForce, forces.walls);
+  if (touches.collider) columns.put(PassSum::kColliderForce, forces.colliders);
   if (pass.rules.has_drag) columns.put(PassSum::kDragForce, select_vector(present, forces.drag, zero));
-  columns.end_pack(touching);
+  columns.end_pack(touches);
   Real* out_record = reinterpret_cast<Real*>(pass.buffers.out + first);
   const TwoQuads<Real> record{{x.x, x.y, x.z, own.material}, {v.x, v.y, v.z, own.id_index}};
   store_two_quads(record, [=](int lane) { return out_record + 8 * lane; });
@@ -449,8 +450,8 @@ void run_tile(const ForcePass<Real>& pass, const TileWork<Real>& work) {
   for (std::size_t g = 0; g < work.slice_count; ++g) {
     unsigned char notes = 0;
     unsigned far = 0;
-    for (std::size_t half = 0; half < kSliceLanes; half += Pack<Real>::kLanes) {
-      run_pack<Real, kMaterials, kPeriodic>(pass, work, g * kSliceLanes + half, columns, notes, far);
+    for (std::size_t lane_offset = 0; lane_offset < kSliceLanes; lane_offset += Pack<Real>::kLanes) {
+      run_pack<Real, kMaterials, kPeriodic>(pass, work, g * kSliceLanes + lane_offset, columns, notes, far);
     }
     work.notes[g] = notes;
     work.far[g] = static_cast<std::uint16_t>(far);

@@ -23,16 +23,16 @@ struct SurfacePair {
 };
 
 // With one material, all pairs follow the same linear law.
-struct TheLaw {};
+struct UniformLaw {};
 template <class Real>
-struct OnlyPair {
-  TheLaw law;
+struct UniformPair {
+  UniformLaw law;
   Pack<Real> contact_distance;
 };
 
 // Copies a law register by register: GCC 12 copies a whole law through memory, 8 bytes at a time.
 template <class Real>
-HOOKE_HD void keep(TheLaw, TheLaw&) {}
+HOOKE_HD void keep(UniformLaw, UniformLaw&) {}
 template <class Real>
 HOOKE_HD void keep(const ContactCoefficients<Pack<Real>>& law, ContactCoefficients<Pack<Real>>& to) {
   to.stiffness.v = law.stiffness.v;
@@ -75,7 +75,7 @@ struct PairTable {
 template <class Real>
 struct PairTable<Real, Materials::one> {
   using P = Pack<Real>;
-  using Pair = OnlyPair<Real>;
+  using Pair = UniformPair<Real>;
   HOOKE_HD PairTable(const ForcePass<Real>& pass, const P&) : only(*pass.rules.pairs) {}
   HOOKE_HD Pair lookup(const P&) const { return {{}, P(only.contact_distance)}; }
   const PairRow<Real>& only;
@@ -173,7 +173,7 @@ struct Contacts<Real, Materials::one, false> {
   using P = Pack<Real>;
   ContactVectors<P> sum;
 
-  HOOKE_HD void add(const ContactVectors<P>& contact, TheLaw) { sum += contact; }
+  HOOKE_HD void add(const ContactVectors<P>& contact, UniformLaw) { sum += contact; }
   HOOKE_HD ContactForces<P> forces(const ForcePass<Real>& pass) const {
     const PairRow<Real>& pair = *pass.rules.pairs;
     return contact_forces(sum, ContactCoefficients<P>{P(pair.stiffness), P(pair.shear), P(pair.damping)});
@@ -199,7 +199,7 @@ HOOKE_HD Mask<Real> acts(const Pack<Real>& overlap, const ContactCoefficients<Pa
   return overlap > Pack<Real>(Real(0));
 }
 template <class Real>
-HOOKE_HD Mask<Real> acts(const Pack<Real>& overlap, TheLaw) {
+HOOKE_HD Mask<Real> acts(const Pack<Real>& overlap, UniformLaw) {
   return overlap > Pack<Real>(Real(0));
 }
 template <class Real>

@@ -229,17 +229,17 @@ class ReferenceBackend final : public Backend {
 
  private:
   // A cause whose forces are found for all particles at once.
-  struct Acting {
+  struct AppliedForce {
     Cause cause;
     std::vector<Vec3d> force;  // N, one per particle; empty where the scene has no such force
   };
   struct Forces {
     std::vector<Vec3d> a;  // m/s^2
-    std::vector<Acting> applied;  // in the order of their sum
+    std::vector<AppliedForce> applied;  // in the order of their sum
   };
 
   // A particle and its partner: another particle, a wall or a face of a collider.
-  struct Meeting {
+  struct Contact {
     Condition::Kind kind;  // what to report where the approach is too fast
     std::uint64_t partner;  // id, or index of the collider
     double overlap;  // m
@@ -276,10 +276,10 @@ class ReferenceBackend final : public Backend {
     out.applied.push_back({Cause::attraction, attraction_.forces(p_)});
     out.applied.push_back({Cause::external, external_forces()});
     for (std::size_t i = 0; i < p_.size(); ++i) {
-      const std::vector<Meeting> meetings = meetings_of(i);
-      const ParticleForces forces = forces_on(i, meetings, out.applied);
+      const std::vector<Contact> contacts = contacts_of(i);
+      const ParticleForces forces = forces_on(i, contacts, out.applied);
       out.a.push_back((1 / material(i).mass) * total(forces) + scene_.gravity);
-      report.condition = Condition::first(report.condition, check_approach(i, meetings));
+      report.condition = Condition::first(report.condition, check_approach(i, contacts));
       report.mass.add(material(i).mass);
       book(i, forces, out.a[i], report.sums);
     }
@@ -306,10 +306,10 @@ class ReferenceBackend final : public Backend {
   }
 
   // In canonical order: other particles by id and image, walls, colliders.
-  std::vector<Meeting> meetings_of(std::size_t i) const {
+  std::vector<Contact> contacts_of(std::size_t i) const {
     const Vec3d& v = p_.velocity[i];
     const double radius = material(i).radius;
-    std::vector<Meeting> all;
+    std::vector<Contact> all;
     for_each_contact(i, [&](std::size_t p, const Vec3d& normal, double overlap) {
       all.push_back({Condition::Kind::approach_too_fast, p_.id[p], overlap, normal, p_.velocity[p] - v, pair(i, p),
                      std::min(radius, material(p).radius)});
@@ -324,14 +324,14 @@ class ReferenceBackend final : public Backend {
     return all;
   }
 
-  // Summed in the order of the meetings, cause by cause. In a scene of one material, contacts are summed before their
+  // Summed in the order of the contacts, cause by cause. In a scene of one material, contacts are summed before their
   // coefficients are applied: the definition, not a shortcut (docs/theory.md section 2).
-  ParticleForces forces_on(std::size_t i, const std::vector<Meeting>& meetings,
-                           const std::vector<Acting>& applied) const {
+  ParticleForces forces_on(std::size_t i, const std::vector<Contact>& contacts,
+                           const std::vector<AppliedForce>& applied) const {
     const bool linear = rules_.view().linear, alike = linear && rules_.material_count() == 1;
     ParticleForces on;
     ContactVectors<double> vectors;
-    for (const Meeting& m : meetings) {
+    for (const Contact& m : contacts) {
       const auto force = [&] { return contact_forces(m.overlap, m.normal, m.w, m.law); };
       const auto linear_force = [&] { return contact_forces(m.overlap, m.normal, m.w, m.law.linear); };
       if (m.kind == Condition::Kind::approach_too_fast) {
@@ -349,8 +349,8 @@ class ReferenceBackend final : public Backend {
     }
     if (alike) on.contacts.linear = contact_forces(vectors, pair(i, i).linear);
     on.drag = drag_force(p_.velocity[i], material(i).drag);
-    for (const Acting& acting : applied) {
-      if (!acting.force.empty()) on.applied += acting.force[i];
+    for (const AppliedForce& applied_force : applied) {
+      if (!applied_force.force.empty()) on.applied += applied_force.force[i];
     }
     return on;
   }
@@ -361,9 +361,9 @@ class ReferenceBackend final : public Backend {
   }
 
   // The first approach that a step can't resolve, if there is one.
-  Condition check_approach(std::size_t i, const std::vector<Meeting>& meetings) const {
+  Condition check_approach(std::size_t i, const std::vector<Contact>& contacts) const {
     Condition found;
-    for (const Meeting& m : meetings) {
+    for (const Contact& m : contacts) {
       const double approach = dot(m.w, m.normal);
       if (m.overlap > 0 && approach > m.radius / scene_.time_step) {
         found = Condition::first(found, {m.kind, p_.id[i], m.partner, approach});
@@ -398,13 +398,13 @@ class ReferenceBackend final : public Backend {
 
   // Adds the work of the applied forces on particle i in a kick from `before` to `after`, and in the coming half kick.
   void add_work(const Forces& forces, std::size_t i, const Vec3d& before, const Vec3d& after, AppliedSums& sums) const {
-    for (const Acting& acting : forces.applied) {
-      if (acting.force.empty()) continue;
-      const Vec3d& force = acting.force[i];
-      AppliedSums::Rates& rates = sums[acting.cause];
+    for (const AppliedForce& applied_force : forces.applied) {
+      if (applied_force.force.empty()) continue;
+      const Vec3d& force = applied_force.force[i];
+      AppliedSums::Rates& rates = sums[applied_force.cause];
       rates.power.add(dot(force, before + after));
       if (verlet()) rates.next_power.add(dot(force, after + kick(after, forces.a[i], scene_.time_step / 2)));
-      if (acting.cause != Cause::springs) rates.force.add(force);  // spring forces sum to 0
+      if (applied_force.cause != Cause::springs) rates.force.add(force);  // spring forces sum to 0
     }
   }
 
