@@ -305,7 +305,6 @@ class ContactSearch {
   Walls walls_;
   CellGrid grid_;
   std::vector<std::uint64_t> keys_;  // of cells, ascending
-  std::vector<std::uint32_t> order_;  // index into the set of the k-th sphere
   std::vector<Sphere> spheres_;  // by cell
 };
 

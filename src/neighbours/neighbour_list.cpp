@@ -156,10 +156,18 @@ void NeighbourList::clear(std::size_t tile_count) {
   begun_.clear();
 }
 
-// Memory for at least `entries` entries. Any thread may call.
+// Memory for at least `entries` entries: the rest of a block where one is large enough. Any thread may call.
 std::span<std::uint32_t> NeighbourList::new_block(std::size_t entries) {
   constexpr std::size_t kBehind = kRowsAhead * kLanes;
   const std::lock_guard lock(mutex_);
+  const auto rest = std::find_if(begun_.begin(), begun_.end(), [&](const auto& left) {
+    return left.size() >= std::max(entries, kBlock / 2);  // a tile that starts in little room must move soon
+  });
+  if (rest != begun_.end()) {
+    const std::span<std::uint32_t> found = *rest;
+    begun_.erase(rest);
+    return found;
+  }
   if (blocks_in_use_ == blocks_.size()) blocks_.emplace_back();
   LargeVector<std::uint32_t>& block = blocks_[blocks_in_use_++];
   if (block.size() < entries + kBehind) block.resize(std::max(kBlock, entries + kBehind));
@@ -184,9 +192,12 @@ std::uint32_t* NeighbourList::Writer::next_slice(std::size_t rows) {
   HOOKE_ASSERT(slice_ < kSlices, slice_);
   const std::size_t entries = rows * kLanes;
   if (to_.size() < entries) {
+    // The tile moves to where it has twice the room that it takes now, so that one of many rows moves a few times only,
+    // and leaves its place to others.
     const std::size_t written = static_cast<std::size_t>(to_.data() - tile_);
-    const std::span<std::uint32_t> block = list_.new_block(written + entries);
+    const std::span<std::uint32_t> block = list_.new_block(written > 0 ? 2 * written + entries : entries);
     std::copy_n(tile_, written, block.data());
+    if (written + to_.size() >= kBlock / 2) list_.put_back({tile_, written + to_.size()});
     to_ = block.subspan(written);
     tile_ = block.data();
   }

@@ -11,7 +11,7 @@
 namespace hooke {
 
 struct RenderSettings {
-  int width = 1280;  ///< pixels, 1 to 16,384
+  int width = 1280;  ///< pixels, at least 1 and no more than OpenGL can draw
   int height = 720;
   /// Along each side of a pixel: a pixel is the mean of samples squared; 1 to 4.
   int samples = 2;
