@@ -11,12 +11,11 @@
 
 namespace hooke {
 
-/// Sums over kicks of equal length of what the forces did.
+/// What the forces do in kicks of equal length, summed over these; or, times that length, over all kicks.
 struct KickSums {
-  ByCause<ExactSum> twice_power;    ///< at twice the mean of the velocities before and after the kick, W
-  ByCause<ExactVectorSum> force;    ///< N
-  ExactSum mass;                    ///< that gravity pulls at, kg
-  ExactSum spring_dissipation;      ///< W
+  ByCause<ExactSum> twice_power;    ///< at twice the mean of the velocities before and after the kick, W (J)
+  ByCause<ExactVectorSum> force;    ///< N (N s)
+  ExactSum spring_dissipation;      ///< W (J)
 
   friend bool operator==(const KickSums&, const KickSums&) = default;
 };
