@@ -44,7 +44,7 @@ class Rules {
   /// Particles act on each other, and walls on them, across gaps up to this, m.
   double widest_range() const { return widest_range_; }
 
-  /// A particle's contact_distance, m: two particles act on each other only within the sum of their reaches.
+  /// Interaction radius of a material's particles, m: two particles act on each other only within the sum of theirs.
   double interaction_radius(std::size_t material) const { return materials_[material].radius + widest_range_ / 2; }
   double largest_interaction_radius() const { return largest_touching_ + widest_range_ / 2; }
   /// Largest distance from a particle's centre at which a wall or a collider acts on it, m.

@@ -222,8 +222,9 @@ template <class Real>
 void build_neighbour_list(const CellList& cells, const NeighbourRule<Real>& rule,
                           WindowSearchFunction<Real> search_window, NeighbourList& list) {
   HOOKE_ASSERT(search_window != nullptr);
-  HOOKE_ASSERT(cells.point_count() == 0 || (rule.at.x != nullptr && rule.id_index != nullptr && rule.place != nullptr),
-               cells.point_count());
+  HOOKE_ASSERT(
+      cells.point_count() == 0 || (rule.at.x != nullptr && rule.id_index != nullptr && rule.slot_in_window != nullptr),
+      cells.point_count());
   const std::size_t count = cells.point_count();
   list.clear((count + NeighbourList::kTile - 1) / NeighbourList::kTile);
 

@@ -100,7 +100,7 @@ class Lists {
     rule_.at = {x_.data(), y_.data(), z_.data()};
     rule_.radius = setting.ratio == 1 ? nullptr : radii_.data();
     rule_.id_index = id_indices_.data();
-    rule_.place = places_.data();
+    rule_.slot_in_window = places_.data();
     rule_.neighbour_count = neighbour_counts_.data();
     rule_.reach = static_cast<Real>((kSkin + (setting.ratio == 1 ? 2 : 0)) * setting.radius);
     std::copy(std::begin(setting.periodic), std::end(setting.periodic), rule_.periodic);

@@ -50,12 +50,12 @@ void FieldForces<Real>::bind(const IdTable& ids) {
 
 template <class Real>
 void FieldForces<Real>::apply(const LargeVector<Record>& records, std::size_t count,
-                              const std::vector<std::uint32_t>& place) {
+                              const std::vector<std::uint32_t>& slot_of) {
   force_.resize(records.size());
   bool none_yet = true;
   for (const PlacedField<Real>& field : place_fields<Real>(scene_, time_)) {
     const bool on_sheets = field.blows_on_sheets() && !triangles_.empty();
-    if (on_sheets) apply_to_triangles(field, records, place);
+    if (on_sheets) apply_to_triangles(field, records, slot_of);
     parallel_ranges(count, kTile, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
         const Record& p = records[i];
@@ -74,7 +74,7 @@ void FieldForces<Real>::apply(const LargeVector<Record>& records, std::size_t co
 
 template <class Real>
 void FieldForces<Real>::apply_to_triangles(const PlacedField<Real>& field, const LargeVector<Record>& records,
-                                           const std::vector<std::uint32_t>& place) {
+                                           const std::vector<std::uint32_t>& slot_of) {
   constexpr Real kThird = Real(1.0 / 3);
   parallel_ranges(triangles_.size(), kTile, [&](std::size_t first, std::size_t last) {
     for (std::size_t t = first; t < last; ++t) {
@@ -82,7 +82,7 @@ void FieldForces<Real>::apply_to_triangles(const PlacedField<Real>& field, const
       const Record* corner[3];
       bool whole = true;
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t at = place[triangles_[t][k]];
+        const std::uint32_t at = slot_of[triangles_[t][k]];
         whole = whole && at < records.size() && !is_vacant(records[at]);
         corner[k] = &records[whole ? at : 0];
       }

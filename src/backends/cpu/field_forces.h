@@ -26,7 +26,7 @@ class FieldForces {
   void configure(const Scene& scene);
 
   bool empty() const { return scene_.fields.empty(); }
-  /// Whether apply() reads `place`.
+  /// Whether apply() reads `slot_of`.
   bool needs_places() const { return !triangles_.empty(); }
 
   /// Finds the triangles whose three corners are particles of these ids; the others are left out.
@@ -39,8 +39,8 @@ class FieldForces {
 
   void set_time(double seconds) { time_ = seconds; }
 
-  /// Sums the forces on the first `count` records; `place` is the slot of each id index (needs_places()).
-  void apply(const LargeVector<Record>& records, std::size_t count, const std::vector<std::uint32_t>& place);
+  /// Sums the forces on the first `count` records; `slot_of` is the slot of each id index (needs_places()).
+  void apply(const LargeVector<Record>& records, std::size_t count, const std::vector<std::uint32_t>& slot_of);
 
   /// N, in the order of the records; one for each record, unused records included.
   const Vec3<Real>* forces() const { return force_.data(); }
@@ -49,7 +49,7 @@ class FieldForces {
   using Triangle = std::array<std::uint32_t, 3>;  // id indices
 
   void apply_to_triangles(const PlacedField<Real>& field, const LargeVector<Record>& records,
-                          const std::vector<std::uint32_t>& place);
+                          const std::vector<std::uint32_t>& slot_of);
 
   Scene scene_;  // the parts that fields need
   Vec3<Real> period_{};  // m

@@ -27,9 +27,10 @@ void OutlierPairs<Real>::note_missing(std::size_t i, std::size_t p, std::vector<
 
 // Finds the particles that touch an outlier and are not outliers.
 template <class Real>
-void OutlierPairs<Real>::find_around(std::uint32_t i, const Place& place, std::span<const std::uint16_t> outlying,
+void OutlierPairs<Real>::find_around(std::uint32_t i, const SearchCentre& centre,
+                                     std::span<const std::uint16_t> outlying,
                                      std::vector<MissingEntry>& missing) const {
-  cells_.for_points_near(place.at, place.range + interaction_radius(i) + margin(), [&](std::size_t k) {
+  cells_.for_points_near(centre.at, centre.range + interaction_radius(i) + margin(), [&](std::size_t k) {
     const std::size_t p = slots_.slot_of(k);
     const bool other_is_outlier = (outlying[p / kLanes] >> p % kLanes & 1U) != 0;
     if (!other_is_outlier && touch(i, p)) note_missing(i, p, missing);

@@ -63,15 +63,15 @@ class OutlierPairs {
 
   /// Where to search for particles that may touch an outlier: they were listed nearer to `at` (m) than `range` (m) plus
   /// the two radii.
-  struct Place {
+  struct SearchCentre {
     Vec3d at;
     double range;
   };
 
   /// Patches the rows of the particles in `missing`, of outliers, and of the particles that an outlier touches.
-  /// Particles without a bit in `outlying` are searched for around place_of(i). False where an outlier is lost.
-  template <class PlaceOf>
-  bool find(std::span<const std::uint32_t> outliers, std::span<const std::uint16_t> outlying, const PlaceOf& place_of,
+  /// Particles without a bit in `outlying` are searched for around centre_of(i). False where an outlier is lost.
+  template <class CentreOf>
+  bool find(std::span<const std::uint32_t> outliers, std::span<const std::uint16_t> outlying, const CentreOf& centre_of,
             std::uint32_t filler, const std::vector<MissingEntry>& missing, Room& room, PatchedRows& patched) const {
     room.missing.assign(missing.begin(), missing.end());
     std::atomic<bool> lost{false};
@@ -79,7 +79,7 @@ class OutlierPairs {
       for (const std::uint32_t i : outliers.subspan(first, last - first)) {
         if (is_vacant(records_[i])) continue;
         if (is_somewhere(records_[i])) {
-          find_around(i, place_of(i), outlying, room.missing);
+          find_around(i, centre_of(i), outlying, room.missing);
         } else {
           lost = true;
         }
@@ -93,14 +93,14 @@ class OutlierPairs {
 
   /// Does the same for the particles `fresh`, outliers since find() filled `room`; all other particles must still be
   /// where they were then.
-  template <class PlaceOf>
+  template <class CentreOf>
   bool add(std::span<const std::uint32_t> fresh, std::span<const std::uint32_t> outliers,
-           std::span<const std::uint16_t> outlying, const PlaceOf& place_of, std::uint32_t filler, Room& room,
+           std::span<const std::uint16_t> outlying, const CentreOf& centre_of, std::uint32_t filler, Room& room,
            PatchedRows& patched) const {
     for (const std::uint32_t i : fresh) {
       if (is_vacant(records_[i])) continue;
       if (!is_somewhere(records_[i])) return false;
-      find_around(i, place_of(i), outlying, room.missing);
+      find_around(i, centre_of(i), outlying, room.missing);
       for (const std::uint32_t p : outliers) {
         if (p != i && !is_vacant(records_[p]) && touch(i, p)) note_missing(i, p, room.missing);
       }
@@ -136,7 +136,7 @@ class OutlierPairs {
   bool is_listed(std::size_t i, std::size_t p) const;
   void note_missing(std::size_t i, std::size_t p, std::vector<MissingEntry>& missing) const;
 
-  void find_around(std::uint32_t i, const Place& place, std::span<const std::uint16_t> outlying,
+  void find_around(std::uint32_t i, const SearchCentre& centre, std::span<const std::uint16_t> outlying,
                    std::vector<MissingEntry>& missing) const;
   void find_among(std::span<const std::uint32_t> outliers, Room& room) const;
 

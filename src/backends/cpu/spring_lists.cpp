@@ -88,7 +88,7 @@ void SpringLists<Real>::grow(std::size_t id_indices) {
 
 template <class Real>
 void SpringLists<Real>::lay_out(const Record* records, std::size_t count, std::size_t size,
-                                const std::vector<std::uint32_t>& place) {
+                                const std::vector<std::uint32_t>& slot_of) {
   HOOKE_ASSERT(count < size, count, size);
   const std::size_t slices = (count + kLanes - 1) / kLanes;
   count_ = count;
@@ -118,8 +118,8 @@ void SpringLists<Real>::lay_out(const Record* records, std::size_t count, std::s
         for (std::uint32_t r = first_row_[g]; r < first_row_[g + 1]; ++r) {
           SpringRow<Real>& row = rows_[r];
           const std::uint32_t k = from + (r - first_row_[g]);
-          const bool ties = k < to && broken_[sides_[k].spring] == 0 && place[sides_[k].partner] != kVacant;
-          row.partner[lane] = ties ? record_offset<Real>(place[sides_[k].partner]) : filler;
+          const bool ties = k < to && broken_[sides_[k].spring] == 0 && slot_of[sides_[k].partner] != kVacant;
+          row.partner[lane] = ties ? record_offset<Real>(slot_of[sides_[k].partner]) : filler;
           row.kind[lane] = ties ? kind_[sides_[k].spring] : kNoSpring;
           row.rest_length[lane] = ties ? rest_length_[sides_[k].spring] : Real(1);
         }
@@ -161,7 +161,7 @@ const std::vector<std::pair<std::uint32_t, std::uint32_t>>& SpringLists<Real>::a
 }
 
 template <class Real>
-void SpringLists<Real>::measure(const Record* records, const std::vector<std::uint32_t>& place,
+void SpringLists<Real>::measure(const Record* records, const std::vector<std::uint32_t>& slot_of,
                                 MeasurementSums& sums) const {
   if (empty()) return;
   ExactSum energy;
@@ -170,7 +170,7 @@ void SpringLists<Real>::measure(const Record* records, const std::vector<std::ui
     ExactSum part;
     std::uint64_t count = 0;
     for (std::size_t id_index = first; id_index < last; ++id_index) {
-      for_each_side(records, place, id_index, [&](const Side& side, std::size_t i, std::size_t p) {
+      for_each_side(records, slot_of, id_index, [&](const Side& side, std::size_t i, std::size_t p) {
         if (side.partner < id_index) return;
         ++count;
         part.add(energy_of(side.spring, records[i], records[p]));
@@ -184,10 +184,10 @@ void SpringLists<Real>::measure(const Record* records, const std::vector<std::ui
 }
 
 template <class Real>
-void SpringLists<Real>::add_energy(const Record* records, const std::vector<std::uint32_t>& place, std::size_t id_index,
-                                   std::span<const std::uint32_t> among, ExactSum& sum) const {
+void SpringLists<Real>::add_energy(const Record* records, const std::vector<std::uint32_t>& slot_of,
+                                   std::size_t id_index, std::span<const std::uint32_t> among, ExactSum& sum) const {
   if (empty()) return;
-  for_each_side(records, place, id_index, [&](const Side& side, std::size_t i, std::size_t p) {
+  for_each_side(records, slot_of, id_index, [&](const Side& side, std::size_t i, std::size_t p) {
     const bool both = std::binary_search(among.begin(), among.end(), p);
     sum.add((both ? 0.5 : 1.0) * energy_of(side.spring, records[i], records[p]));
   });
@@ -263,13 +263,13 @@ double SpringLists<Real>::energy_of(std::uint32_t spring, const Record& i, const
 // visit(side, i, p) for each spring of an id index that still holds, between records i and p.
 template <class Real>
 template <class Visit>
-void SpringLists<Real>::for_each_side(const Record* records, const std::vector<std::uint32_t>& place,
+void SpringLists<Real>::for_each_side(const Record* records, const std::vector<std::uint32_t>& slot_of,
                                       std::size_t id_index, const Visit& visit) const {
-  const std::uint32_t i = place[id_index];
+  const std::uint32_t i = slot_of[id_index];
   if (i == kVacant || is_vacant(records[i])) return;
   for (std::uint32_t k = first_side_[id_index]; k < first_side_[id_index + 1]; ++k) {
     const Side& side = sides_[k];
-    const std::uint32_t p = place[side.partner];
+    const std::uint32_t p = slot_of[side.partner];
     if (broken_[side.spring] == 0 && p != kVacant && !is_vacant(records[p])) visit(side, i, p);
   }
 }

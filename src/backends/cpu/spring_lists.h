@@ -49,9 +49,9 @@ class SpringLists {
   /// Pairs that springs keep from touching.
   const Exclusions& exclusions() const { return exclusions_; }
 
-  /// Lays the springs out for `count` particles in their present order; `place` is the slot of each id index, kVacant
+  /// Lays the springs out for `count` particles in their present order; `slot_of` is the slot of each id index, kVacant
   /// where a particle is gone. The last of `size` records fills short rows.
-  void lay_out(const Record* records, std::size_t count, std::size_t size, const std::vector<std::uint32_t>& place);
+  void lay_out(const Record* records, std::size_t count, std::size_t size, const std::vector<std::uint32_t>& slot_of);
 
   /// Forces on every particle, N: the column that apply() fills.
   const Vec3<Real>* forces() const { return force_.data(); }
@@ -62,11 +62,11 @@ class SpringLists {
                                                                     SpringSums& sums);
 
   /// Adds the number and the energy of the springs that hold.
-  void measure(const Record* records, const std::vector<std::uint32_t>& place, MeasurementSums& sums) const;
+  void measure(const Record* records, const std::vector<std::uint32_t>& slot_of, MeasurementSums& sums) const;
 
   /// Adds the energy (J) of the springs that tie the particle of an id index; a spring whose other end is one of
   /// `among` (indices, ascending) counts half.
-  void add_energy(const Record* records, const std::vector<std::uint32_t>& place, std::size_t id_index,
+  void add_energy(const Record* records, const std::vector<std::uint32_t>& slot_of, std::size_t id_index,
                   std::span<const std::uint32_t> among, ExactSum& sum) const;
 
  private:
@@ -75,7 +75,7 @@ class SpringLists {
   };
 
   template <class Visit>
-  void for_each_side(const Record* records, const std::vector<std::uint32_t>& place, std::size_t id_index,
+  void for_each_side(const Record* records, const std::vector<std::uint32_t>& slot_of, std::size_t id_index,
                      const Visit& visit) const;
   void take(const std::shared_ptr<const Structure>& structure);
   void finish_torn(const Record* records, std::size_t g, SpringSums& sums);
@@ -99,7 +99,7 @@ class SpringLists {
   std::size_t count_ = 0;  // particles laid out
   LargeVector<SpringRow<Real>> rows_;
   std::vector<std::uint32_t> first_row_;  // by slice
-  LargeVector<Vec3<Real>> force_;  // by place, N
+  LargeVector<Vec3<Real>> force_;  // by slot, N
   mutable std::mutex mutex_;  // guards totals
 };
 

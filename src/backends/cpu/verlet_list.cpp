@@ -193,7 +193,7 @@ NeighbourRule<Real> VerletList<Real>::neighbour_rule(const SearchColumns& column
   rule.at = {columns.x, columns.y, columns.z};
   rule.radius = columns.radius;
   rule.id_index = columns.id_index;
-  rule.place = slots_.places();
+  rule.slot_in_window = slots_.places();
   rule.neighbour_count = slots_.neighbour_counts();
   rule.reach = static_cast<Real>(kRounding * rules_->smallest_touching() +
                                  (columns.radius == nullptr ? 2 * rules_->largest_interaction_radius() : 0) + skin_);
@@ -266,8 +266,8 @@ unsigned VerletList<Real>::outliers_of_slice(const Record* records, std::size_t 
 
 // Around which point the particles that touch a particle were listed, and how far from it at most.
 template <class Real>
-auto VerletList<Real>::place_of(const Record* records) const {
-  using Place = typename OutlierPairs<Real>::Place;
+auto VerletList<Real>::centre_of(const Record* records) const {
+  using Place = typename OutlierPairs<Real>::SearchCentre;
   const auto steps = static_cast<Real>(steps_);
   const double mild = MotionBounds<Real>::kMild * limits_.skin, half = 0.5 * skin_ + coarseness_;
   const Vec3<Real> middle = motion_.middle(steps);
@@ -292,7 +292,7 @@ void VerletList<Real>::patch(const Record* records) {
   patched_.clear(outlying_.size());
   room_.missing.clear();
   if (outliers_.empty() && released_.empty()) return;
-  if (!outlier_pairs(records).find(outliers_, outlying_, place_of(records), filler_, released_, room_, patched_)) {
+  if (!outlier_pairs(records).find(outliers_, outlying_, centre_of(records), filler_, released_, room_, patched_)) {
     invalidate();
   }
 }
@@ -301,7 +301,7 @@ void VerletList<Real>::patch(const Record* records) {
 template <class Real>
 void VerletList<Real>::patch_fresh(const Record* records) {
   patched_.clear(outlying_.size());
-  if (!outlier_pairs(records).add(fresh_, outliers_, outlying_, place_of(records), filler_, room_, patched_)) {
+  if (!outlier_pairs(records).add(fresh_, outliers_, outlying_, centre_of(records), filler_, room_, patched_)) {
     invalidate();
   }
   fresh_.clear();

@@ -205,7 +205,7 @@ class VerletList {
     return {*rules_, records, cells_, slots_, order_.data(), list_, *exclusions_};
   }
 
-  auto place_of(const Record* records) const;
+  auto centre_of(const Record* records) const;
   void patch(const Record* records);
   void patch_fresh(const Record* records);
 

@@ -184,7 +184,7 @@ class Search {
       for (std::size_t lane = 0; lane < P::kLanes; lane += Pack<double>::kLanes) {
         const WordVector id_indices = load_words(rule_.id_index + p + lane) + kOne;
         const WordVector window = (ascending_words_ + static_cast<std::uint32_t>(p + lane)) & ~kInWindow;
-        store_bits(keys_ + at + lane, join_halves(id_indices, window | load_bytes(rule_.place + p + lane)));
+        store_bits(keys_ + at + lane, join_halves(id_indices, window | load_bytes(rule_.slot_in_window + p + lane)));
       }
     } else {
       for (std::size_t lane = 0; lane < P::kLanes; ++lane) {
@@ -193,7 +193,7 @@ class Search {
     }
   }
 
-  HOOKE_HD std::uint32_t slot_of(std::uint32_t p) const { return (p & ~kInWindow) | rule_.place[p]; }
+  HOOKE_HD std::uint32_t slot_of(std::uint32_t p) const { return (p & ~kInWindow) | rule_.slot_in_window[p]; }
   HOOKE_HD Vec3<P> positions(std::size_t first) const {
     return {load(rule_.at.x + first), load(rule_.at.y + first), load(rule_.at.z + first)};
   }
