@@ -108,7 +108,7 @@ void MotionBounds<Real>::add_motions(std::size_t first, std::span<const WindowMo
 
 template <class Real>
 std::int64_t MotionBounds<Real>::follow_motions(std::span<Frame> frames) {
-  HOOKE_ASSERT(frames.size() >= group_count(), frames.size(), group_count());
+  HOOKE_ASSERT(frames.size() >= window_count(), frames.size(), window_count());
   for (int axis = 0; axis < 3; ++axis) spread(levels_[0], std::span(motions_), axis);
   for (Level& level : levels_) level.boxes.assign(level.grid.key_end(), FrameRange{});
   place(frames);
@@ -129,7 +129,7 @@ std::int64_t MotionBounds<Real>::follow_motions(std::span<Frame> frames) {
 // Gives each window the mean motion around it, and each block the box around its windows' reference frames.
 template <class Real>
 void MotionBounds<Real>::place(std::span<Frame> frames) {
-  parallel_ranges(group_count(), kGrain, [&](std::size_t first, std::size_t last) {
+  parallel_ranges(window_count(), kGrain, [&](std::size_t first, std::size_t last) {
     for (std::size_t g = first; g < last; ++g) {
       Motions around;
       for (const std::uint32_t block : blocks_of(g)) around.add(motions_[block]);
@@ -159,7 +159,7 @@ void MotionBounds<Real>::bound_wider_blocks(const Level& narrow, Level& wide) {
 // Each particle of a pair gets half of the part of the skin that neighbouring reference frames leave.
 template <class Real>
 void MotionBounds<Real>::allow(std::span<Frame> frames) const {
-  parallel_ranges(group_count(), kGrain, [&](std::size_t first, std::size_t last) {
+  parallel_ranges(window_count(), kGrain, [&](std::size_t first, std::size_t last) {
     for (std::size_t g = first; g < last; ++g) {
       double apart = 0, growth = 0;
       for (const std::uint32_t block : blocks_of(g)) {

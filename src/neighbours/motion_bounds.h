@@ -66,7 +66,7 @@ class MotionBounds {
   template <class Motion>
   std::int64_t follow(const Motion& motion, std::span<Frame> frames) {
     clear_motions();
-    parallel_ranges(group_count(), kGrain, [&](std::size_t first, std::size_t last) {
+    parallel_ranges(window_count(), kGrain, [&](std::size_t first, std::size_t last) {
       std::array<WindowMotion, kGrain> motions;
       for (std::size_t start = first; start < last; start += kGrain) {
         const std::size_t count = std::min(kGrain, last - start);
@@ -159,7 +159,7 @@ class MotionBounds {
 
   static void map_blocks(const Level& narrow, Level& wide);
   void find_blocks(const Vec3Columns<Real>& position_at_build, std::size_t count, std::size_t window);
-  std::size_t group_count() const { return first_block_.size() - 1; }
+  std::size_t window_count() const { return first_block_.size() - 1; }
   std::span<const std::uint32_t> blocks_of(std::size_t g) const {
     return std::span(blocks_).subspan(first_block_[g], first_block_[g + 1] - first_block_[g]);
   }

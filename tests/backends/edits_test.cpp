@@ -115,7 +115,7 @@ TEST_P(EditedScenes, PushedByTheCallerHaveTheSameBits) {
     EXPECT_NEAR(ours.ledger().impulse[Cause::external].y, other.ledger().impulse[Cause::external].y, 1e-9);
     EXPECT_NEAR(ours.ledger().work[Cause::external], other.ledger().work[Cause::external], 1e-9);
   }
-  EXPECT_GT(ours.ledger().work[Cause::external], 0);
+  EXPECT_GT(ours.ledger().impulse[Cause::external].y, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, EditedScenes, all_busy_kinds(),

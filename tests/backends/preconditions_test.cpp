@@ -76,11 +76,11 @@ TEST(CpuPreconditions, TablesOfIdsAscend) {
   EXPECT_ASSERTS((void)IdTable(std::vector<std::uint64_t>{3, 3}), "is_ascending(ids)");
   IdTable ids(std::vector<std::uint64_t>{3, 4});
   EXPECT_ASSERTS(ids.append(4), "id = 4, size() = 2");
-  EXPECT_ASSERTS((void)ids[2], "rank = 2, size() = 2");
+  EXPECT_ASSERTS((void)ids[2], "id_index = 2, size() = 2");
 }
 
 TEST(CpuPreconditions, PairsAreOfRanksAndKeptApart) {
-  EXPECT_ASSERTS(Exclusions(2, {{0, 2}}), "a = 0, b = 2, ranks = 2");
+  EXPECT_ASSERTS(Exclusions(2, {{0, 2}}), "a = 0, b = 2, id_indices = 2");
   Exclusions pairs(3, {{0, 1}});
   EXPECT_ASSERTS(pairs.release(0, 2), "a = 0, b = 2");
 }
@@ -95,7 +95,7 @@ TEST(CpuPreconditions, SlotsAreTakenWhereThereIsRoom) {
   slots.lay_out(1, 0, 0, 0, false);
   for (std::size_t k = slots.interacting_end(); k < slots.first_noninteracting(); ++k) (void)slots.take_interacting(0);
   EXPECT_ASSERTS((void)slots.take_interacting(0), "listed_end_ = 17, first_loose_ = 16");
-  EXPECT_ASSERTS((void)slots.take_noninteracting(), "loose_end_ = 16, room() = 16");
+  EXPECT_ASSERTS((void)slots.take_noninteracting(), "noninteracting_end_ = 16, room() = 16");
   EXPECT_ASSERTS(slots.leave(99), "slot = 99");
 }
 

@@ -78,8 +78,8 @@ TEST(NeighboursPreconditions, EachWindowHasAFrame) {
   bounds.lay_out({zeros, zeros, zeros}, 2, 1, limits);
   std::vector<MotionBounds<double>::Frame> one(1);
   const auto still = [](std::size_t) { return MotionBounds<double>::WindowMotion{}; };
-  EXPECT_ASSERTS((void)bounds.follow(still, one), "anchors.size() = 1, group_count() = 2");
-  EXPECT_ASSERTS(bounds.lay_out({zeros, zeros, zeros}, 2, 0, limits), "group > 0");
+  EXPECT_ASSERTS((void)bounds.follow(still, one), "frames.size() = 1, window_count() = 2");
+  EXPECT_ASSERTS(bounds.lay_out({zeros, zeros, zeros}, 2, 0, limits), "window > 0");
   limits.skin = -1;
   EXPECT_ASSERTS(bounds.lay_out({zeros, zeros, zeros}, 2, 1, limits), "limits.skin = -1");
 }
@@ -91,7 +91,7 @@ TEST(NeighboursPreconditions, RowsAreThoseOfATile) {
   EXPECT_ASSERTS((void)rows.rows(0, NeighbourList::kSlices), "g = 64");
   NeighbourList::Writer writer(rows);
   for (std::size_t g = 0; g < NeighbourList::kSlices; ++g) (void)writer.next_slice(1);
-  EXPECT_ASSERTS((void)writer.next_slice(1), "group_ = 64");
+  EXPECT_ASSERTS((void)writer.next_slice(1), "slice_ = 64");
 }
 
 }  // namespace

@@ -267,12 +267,12 @@ unsigned VerletList<Real>::outliers_of_slice(const Record* records, std::size_t 
 // Around which point the particles that touch a particle were listed, and how far from it at most.
 template <class Real>
 auto VerletList<Real>::centre_of(const Record* records) const {
-  using Place = typename OutlierPairs<Real>::SearchCentre;
+  using Centre = typename OutlierPairs<Real>::SearchCentre;
   const auto steps = static_cast<Real>(steps_);
   const double mild = MotionBounds<Real>::kMild * limits_.skin, half = 0.5 * skin_ + coarseness_;
   const Vec3<Real> middle = motion_.middle(steps);
   const double anywhere = half + motion_.furthest_from_middle(static_cast<double>(steps_));
-  return [=, this](std::size_t i) -> Place {
+  return [=, this](std::size_t i) -> Centre {
     if (i < count_) {
       const Frame& frame = frames_[i / kWindow];
       const Vec3<Real> off = displacement(records[i], i, frame.at(steps));
