@@ -94,7 +94,7 @@ TEST(CpuPreconditions, SlotsAreTakenWhereThereIsRoom) {
   ParticleSlots slots;
   slots.lay_out(1, 0, 0, 0, false);
   for (std::size_t k = slots.interacting_end(); k < slots.first_noninteracting(); ++k) (void)slots.take_interacting(0);
-  EXPECT_ASSERTS((void)slots.take_interacting(0), "listed_end_ = 17, first_loose_ = 16");
+  EXPECT_ASSERTS((void)slots.take_interacting(0), "interacting_end_ = 17, first_noninteracting_ = 16");
   EXPECT_ASSERTS((void)slots.take_noninteracting(), "noninteracting_end_ = 16, room() = 16");
   EXPECT_ASSERTS(slots.leave(99), "slot = 99");
 }
