@@ -162,7 +162,7 @@ void write_content(hdf5::File& file, const SimulationState& state, const RunInfo
 
 Checkpoint read_content(const std::filesystem::path& path) {
   check_seal(path);
-  const auto pinned = hdf5::lock();
+  const auto held = hdf5::lock();
   const hdf5::File file(path, JournaledFile::Mode::read);
   const hid_t root = file.id();
   if (const std::int64_t format = hdf5::read_integer_attribute(root, "format"); format != kFormat) {
@@ -213,7 +213,7 @@ Expected<void> write_checkpoint(const std::filesystem::path& path, const Simulat
   return guarded(path, [&] {
     const std::filesystem::path unfinished = unfinished_name(path);
     try {
-      const auto pinned = hdf5::lock();
+      const auto held = hdf5::lock();
       hdf5::File file(unfinished, JournaledFile::Mode::create);
       write_content(file, state, info);
       file.close();
@@ -251,7 +251,7 @@ Expected<std::shared_ptr<const Structure>> read_structure_of_run(const std::file
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) return nullptr;
     check_seal(path);
-    const auto pinned = hdf5::lock();
+    const auto held = hdf5::lock();
     const hdf5::File file(path, JournaledFile::Mode::read);
     SimulationState state;
     read_structure(file.id(), path, state);
