@@ -12,7 +12,7 @@
 
 namespace hooke {
 
-/// Particles pinned together by the scene's attraction, like stars. All bits follow from additions,
+/// Particles held together by the scene's attraction, like stars. All bits follow from additions,
 /// multiplications and square roots, so they are the same on every machine.
 struct ClusterSource {
   enum class Profile {
