@@ -8,13 +8,21 @@
 
 #include <system_error>
 
+#include "hooke/io/output_file.h"
+
 namespace hooke::cli {
 
 Expected<void> check_output_file(const std::filesystem::path& file, const std::string& option) {
   std::error_code ignored;
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   const auto complain = [&](const std::string& what) { return fail(Error::Kind::bad_input, option, what); };
   if (std::filesystem::is_directory(file, ignored)) return complain(fmt::format("{} is a folder", file.string()));
+  const auto target = output_target(file);
+  if (!target) return fail(target.error());
+  if (target->is_stream) {
+    if (access(target->file.c_str(), W_OK) == 0) return {};
+    return complain(fmt::format("{}: can't be written", file.string()));
+  }
+  const std::filesystem::path folder = target->file.has_parent_path() ? target->file.parent_path() : ".";
   if (!std::filesystem::is_directory(folder, ignored)) {
     return complain(fmt::format("{}: there is no folder {}", file.string(), folder.string()));
   }

@@ -73,6 +73,15 @@ std::vector<ExportFormatInfo> export_formats() {
   return formats;
 }
 
+WrittenFiles::~WrittenFiles() {
+  std::error_code ignored;
+  for (const std::filesystem::path& file : files_) {
+    if (std::filesystem::is_regular_file(std::filesystem::symlink_status(file, ignored))) {
+      std::filesystem::remove(file, ignored);
+    }
+  }
+}
+
 std::filesystem::path numbered_file(const std::filesystem::path& file, std::size_t k, std::size_t count) {
   HOOKE_ASSERT(k < count, k, count);
   const std::size_t digits = std::max<std::size_t>(4, std::to_string(count - 1).size());
@@ -81,12 +90,13 @@ std::filesystem::path numbered_file(const std::filesystem::path& file, std::size
 
 std::vector<std::filesystem::path> export_each(
     const ExportJob& job, const std::function<void(std::size_t, const std::filesystem::path&)>& write) {
-  std::vector<std::filesystem::path> written;
+  WrittenFiles written;
   for (std::size_t k = 0; k < job.indices.size(); ++k) {
-    written.push_back(job.indices.size() == 1 ? job.file : numbered_file(job.file, k, job.indices.size()));
-    write(job.indices[k], written.back());
+    const auto file = job.indices.size() == 1 ? job.file : numbered_file(job.file, k, job.indices.size());
+    write(job.indices[k], file);
+    written.add(file);
   }
-  return written;
+  return written.keep();
 }
 
 const char* to_string(ExportContent content) {

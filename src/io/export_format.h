@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "hooke/io/export.h"
@@ -26,6 +27,22 @@ using ExportFunction = std::vector<std::filesystem::path>(const ExportJob& job);
 
 /// The file of snapshot `k` of `count` in a format with one snapshot per file: out/water.ply -> out/water_0007.ply.
 std::filesystem::path numbered_file(const std::filesystem::path& file, std::size_t k, std::size_t count);
+
+/// The files of an export that is going on: unless all are kept, they are removed, and an export that fails leaves
+/// none.
+class WrittenFiles {
+ public:
+  WrittenFiles() = default;
+  ~WrittenFiles();
+  WrittenFiles(const WrittenFiles&) = delete;
+  WrittenFiles& operator=(const WrittenFiles&) = delete;
+
+  void add(const std::filesystem::path& file) { files_.push_back(file); }
+  std::vector<std::filesystem::path> keep() { return std::exchange(files_, {}); }
+
+ private:
+  std::vector<std::filesystem::path> files_;
+};
 
 /// For a format with one snapshot per file: calls write(index, file) for each snapshot of the job and returns the
 /// files, which are numbered if there are several.

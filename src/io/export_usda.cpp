@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "hooke/io/export_format.h"
 #include "hooke/io/failure.h"
@@ -28,14 +29,73 @@ double rounded_if_near(double value, double nearness) {
   return std::abs(value - std::round(value)) <= nearness ? std::round(value) : value;
 }
 
-/// Snapshots per second; if they are not evenly spaced, the rate at the median spacing.
-double snapshot_rate(const std::vector<double>& times) {
+/// The spacing if all are the same; 0 if not.
+double equal_spacing(std::span<const double> times, double nearness) {
+  if (times.size() < 2) return 0;
+  const double mean = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    if (std::abs(times[k] - times[k - 1] - mean) > nearness) return 0;
+  }
+  return mean;
+}
+
+/// A spacing such that each of `times` is the first step, of `time_step`, at or after its multiple: that is how a run
+/// writes its output. One that makes a whole number of samples a second, if there is one; 0 if there is none at all.
+double stepped_spacing(std::span<const double> times, double time_step) {
+  double least = 0, most = INFINITY;
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    const double count = static_cast<double>(k), length = times[k] - times.front();
+    least = std::max(least, (length - time_step) / count);
+    most = std::min(most, (length + time_step) / count);
+  }
+  if (times.size() < 2 || !(least < most)) return 0;
+  const double mean = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+  const double whole = 1 / std::max(std::round(1 / mean), 1.0);
+  return least < whole && whole < most ? whole : std::clamp(mean, least, most);
+}
+
+/// Snapshots per second at the median spacing.
+double median_rate(const std::vector<double>& times) {
   if (times.size() < 2) return kDefaultRate;
   std::vector<double> spacing;
   for (std::size_t k = 1; k < times.size(); ++k) spacing.push_back(times[k] - times[k - 1]);
   const auto middle = spacing.begin() + static_cast<std::ptrdiff_t>(spacing.size() / 2);
   std::nth_element(spacing.begin(), middle, spacing.end());
   return *middle > 0 ? rounded_if_near(1 / *middle, 1e-6 / *middle) : kDefaultRate;
+}
+
+struct TimeCodes {
+  double rate = kDefaultRate;  // codes a second
+  std::vector<double> codes;  // of each sample
+};
+
+/// Codes of which the first `even` are whole numbers apart, the first a whole number if its time is so near to one; the
+/// others follow their times.
+TimeCodes time_codes(const std::vector<double>& times, double rate, std::size_t even, double nearness) {
+  TimeCodes result{rate, {}};
+  const double first = rounded_if_near(times.front() * rate, nearness);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const double code = rounded_if_near(times[k] * rate, 1e-6);
+    result.codes.push_back(k < even ? first + static_cast<double>(k) : code);
+  }
+  return result;
+}
+
+/// One code a sample where the samples are evenly spaced, or are the steps next to evenly spaced times. The last one
+/// may be apart: a run writes its end too. Otherwise codes are times at the rate of the median spacing.
+TimeCodes time_codes(const std::vector<double>& times, double time_step) {
+  constexpr double kNear = 1e-6;
+  const std::size_t n = times.size();
+  for (const bool stepped : {false, true}) {
+    for (std::size_t even = n; even >= std::max<std::size_t>(n - 1, 2); --even) {
+      const std::span<const double> samples{times.data(), even};
+      const double spacing = stepped ? stepped_spacing(samples, time_step) : equal_spacing(samples, kNear * time_step);
+      if (!(spacing > 0)) continue;
+      const double rate = rounded_if_near(1 / spacing, kNear / spacing);
+      return time_codes(times, rate, even, stepped ? time_step * rate : kNear);
+    }
+  }
+  return time_codes(times, median_rate(times), 0, kNear);
 }
 
 std::string digits(double value) {
@@ -94,8 +154,9 @@ class UsdaWriter {
   explicit UsdaWriter(const ExportJob& job) : job_(job), info_(job.run.info()), out_(job.file) {
     std::vector<double> times;
     for (const std::size_t index : job.indices) times.push_back(job.run.times()[index]);
-    rate_ = snapshot_rate(times);
-    for (const double t : times) codes_.push_back(digits(rounded_if_near(t * rate_, 1e-6)));
+    const TimeCodes time = time_codes(times, info_.time_step);
+    rate_ = time.rate;
+    for (const double code : time.codes) codes_.push_back(digits(code));
   }
 
   void write() {

@@ -19,12 +19,13 @@ std::string names_of(const std::vector<MaterialInfo>& materials) {
   return names;
 }
 
-template <class Write>
-std::vector<fs::path> export_grids(const ExportJob& job, const Write& write) {
+template <class MakeBytes>
+std::vector<fs::path> export_grids(const ExportJob& job, const MakeBytes& make_bytes) {
   return export_each(job, [&](std::size_t index, const fs::path& file) {
     const Snapshot snapshot = take(job.run.read(index));
-    take(write(snapshot.particles, VdbInstant{snapshot.step, snapshot.time}, unfinished_name(file)), file);
-    publish(file);
+    OutputFile out(file);
+    out.write(take(make_bytes(snapshot.particles, VdbInstant{snapshot.step, snapshot.time}), file));
+    out.finish();
   });
 }
 
@@ -32,15 +33,15 @@ std::vector<fs::path> export_grids(const ExportJob& job, const Write& write) {
 
 std::vector<fs::path> export_vdb_points(const ExportJob& job) {
   const auto& materials = job.run.info().materials;
-  return export_grids(job, [&](const ParticleSet& particles, const VdbInstant& instant, const fs::path& file) {
-    return write_vdb_points(particles, radii(materials), names_of(materials), instant, file);
+  return export_grids(job, [&](const ParticleSet& particles, const VdbInstant& instant) {
+    return vdb_points(particles, radii(materials), names_of(materials), instant);
   });
 }
 
 std::vector<fs::path> export_vdb_volume(const ExportJob& job) {
   const std::vector<double> radius = radii(job.run.info().materials);
-  return export_grids(job, [&](const ParticleSet& particles, const VdbInstant& instant, const fs::path& file) {
-    return write_vdb_volume(particles, radius, job.options.surface, instant, file);
+  return export_grids(job, [&](const ParticleSet& particles, const VdbInstant& instant) {
+    return vdb_volume(particles, radius, job.options.surface, instant);
   });
 }
 

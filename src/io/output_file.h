@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "hooke/base/expected.h"
+
 namespace hooke {
 
 /// A file descriptor that closes itself; -1 if none.
@@ -36,6 +38,23 @@ int read_at(int fd, void* data, std::size_t size, std::uint64_t offset);
 /// The size of an open file in bytes, even if its name now belongs to another file. Throws Failure.
 std::uint64_t size_of(int fd, const std::filesystem::path& path);
 
+/// Whether there is a file or folder of this name. Throws Failure where that can't be told.
+bool is_there(const std::filesystem::path& path);
+
+/// Where the bytes of an output go.
+struct OutputTarget {
+  std::filesystem::path file;  ///< what a symbolic link leads to, or the output itself
+  bool is_stream = false;      ///< a device, a pipe or an open file: written to as it is, never replaced
+};
+
+/// The target of an output of this name; io where that can't be told.
+Expected<OutputTarget> output_target(const std::filesystem::path& file);
+/// The same for an output that must be a file. Throws Failure where it is none.
+std::filesystem::path output_file_of(const std::filesystem::path& file);
+
+/// Opens a stream for writing. A pipe that no process reads is an error after some seconds. Throws Failure.
+Descriptor open_stream(const std::filesystem::path& stream);
+
 /// The name of a file while it is being written, beside `file`.
 std::filesystem::path unfinished_name(const std::filesystem::path& file);
 
@@ -43,7 +62,8 @@ std::filesystem::path unfinished_name(const std::filesystem::path& file);
 /// it and throws Failure.
 void publish(const std::filesystem::path& file);
 
-/// A text or binary file that appears under its name only when complete. Throws Failure.
+/// A text or binary file that appears under its name only when complete. A symbolic link stays, and its target is
+/// written; a device or a pipe gets the bytes as they come. Throws Failure.
 class OutputFile {
  public:
   explicit OutputFile(const std::filesystem::path& file);
@@ -55,9 +75,11 @@ class OutputFile {
   void finish();  ///< no writes after this
 
  private:
+  void put(std::string_view bytes);
   void flush();
 
-  std::filesystem::path file_;
+  std::filesystem::path file_;  // as the caller names it
+  OutputTarget target_;
   Descriptor fd_;
   std::string buffer_;
   std::uint64_t written_ = 0;

@@ -137,7 +137,8 @@ std::vector<fs::path> export_polydata(const ExportJob& job,
     return {job.file};
   }
   const fs::path pieces = fs::path(job.file).replace_extension(".vtp");
-  std::vector<fs::path> written{is_collection ? job.file : fs::path(job.file).replace_extension(".pvd")};
+  const fs::path list = is_collection ? job.file : fs::path(job.file).replace_extension(".pvd");
+  WrittenFiles written;
   std::string collection =
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
@@ -145,14 +146,16 @@ std::vector<fs::path> export_polydata(const ExportJob& job,
   for (std::size_t k = 0; k < job.indices.size(); ++k) {
     const fs::path file = numbered_file(pieces, k, job.indices.size());
     write(job.indices[k], file);
-    written.push_back(file);
+    written.add(file);
     collection += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n",
                               number(job.run.times()[job.indices[k]]), xml_text(file.filename().string()));
   }
-  OutputFile out(written.front());
+  OutputFile out(list);
   out.write(collection + "</Collection>\n</VTKFile>\n");
   out.finish();
-  return written;
+  std::vector<fs::path> files = written.keep();
+  files.insert(files.begin(), list);
+  return files;
 }
 
 }  // namespace hooke

@@ -3,9 +3,12 @@
 
 #include "hooke/volumes/vdb_file.h"
 
+#include <openvdb/io/Archive.h>
 #include <openvdb/points/PointConversion.h>
 
-#include <system_error>
+#include <ios>
+#include <sstream>
+#include <utility>
 #include <vector>
 
 #include "hooke/volumes/fluid_volume.h"
@@ -15,23 +18,29 @@ namespace hooke {
 
 namespace {
 
-namespace fs = std::filesystem;
 namespace points = openvdb::points;
 
-Expected<void> write_file(openvdb::GridPtrVec grids, const VdbInstant& instant, const fs::path& file) {
+/// OpenVDB's writer, into memory.
+class Bytes : private openvdb::io::Archive {
+ public:
+  static std::string of(const openvdb::GridPtrVec& grids) {
+    std::ostringstream out(std::ios::binary);
+    out.exceptions(std::ios::badbit | std::ios::failbit);
+    Bytes().write(out, grids, /*seekable=*/true);
+    return std::move(out).str();
+  }
+
+ private:
+  using Archive::write;
+};
+
+std::string to_bytes(const openvdb::GridPtrVec& grids, const VdbInstant& instant) {
   for (const openvdb::GridBase::Ptr& grid : grids) {
     grid->setCreator("Hooke");
     grid->insertMeta("step", openvdb::Int64Metadata(instant.step));
     grid->insertMeta("time", openvdb::DoubleMetadata(instant.time));
   }
-  try {
-    openvdb::io::File(file.string()).write(grids);
-  } catch (const openvdb::Exception& failure) {
-    std::error_code ignored;
-    fs::remove(file, ignored);
-    return fail(Error::Kind::io, "", std::string("can't be written: ") + failure.what());
-  }
-  return {};
+  return Bytes::of(grids);
 }
 
 /// Gives every point of the grid the value of its index in the set.
@@ -82,20 +91,20 @@ openvdb::GridPtrVec volume_grids(const FluidVolume& fluid) {
 
 }  // namespace
 
-Expected<void> write_vdb_points(const ParticleSet& particles, std::span<const double> radius,
-                                const std::string& material_names, const VdbInstant& instant, const fs::path& file) {
-  return no_throw([&] {
+Expected<std::string> vdb_points(const ParticleSet& particles, std::span<const double> radius,
+                                 const std::string& material_names, const VdbInstant& instant) {
+  return no_throw([&]() -> Expected<std::string> {
     openvdb::initialize();
-    return write_file({point_grid(particles, radius, material_names)}, instant, file);
+    return to_bytes({point_grid(particles, radius, material_names)}, instant);
   });
 }
 
-Expected<void> write_vdb_volume(const ParticleSet& particles, std::span<const double> radius,
-                                const SurfaceOptions& options, const VdbInstant& instant, const fs::path& file) {
-  return no_throw([&]() -> Expected<void> {
+Expected<std::string> vdb_volume(const ParticleSet& particles, std::span<const double> radius,
+                                 const SurfaceOptions& options, const VdbInstant& instant) {
+  return no_throw([&]() -> Expected<std::string> {
     const auto fluid = FluidVolume::create(particles, radius, options);
     if (!fluid) return fail(fluid.error());
-    return write_file(volume_grids(*fluid), instant, file);
+    return to_bytes(volume_grids(*fluid), instant);
   });
 }
 

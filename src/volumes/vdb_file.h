@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <span>
 #include <string>
 
@@ -19,19 +18,17 @@ struct VdbInstant {
   double time = 0;  ///< s
 };
 
-// OpenVDB files. `radius` (m) has an entry per material. Errors name no file; if a file can't be written, no part of it
-// is left.
+// The bytes of OpenVDB files: OpenVDB's own writer does not notice a full disk. `radius` (m) has an entry per material.
+// Errors name no file.
 
 /// Particles as a grid of points, "particles", with Houdini's names of attributes: id, v (m/s), pscale (radius, m), and
 /// material, an index into `material_names`, which the grid's metadata "materials" holds unchanged.
-Expected<void> write_vdb_points(const ParticleSet& particles, std::span<const double> radius,
-                                const std::string& material_names, const VdbInstant& instant,
-                                const std::filesystem::path& file);
+Expected<std::string> vdb_points(const ParticleSet& particles, std::span<const double> radius,
+                                 const std::string& material_names, const VdbInstant& instant);
 
 /// The fluid of the particles: "density" (fog: 1 inside, falling to 0 at the surface), "surface" (level set, m,
 /// negative inside) and "vel" (m/s). Also an error where the options are out of range or particles are too far away.
-Expected<void> write_vdb_volume(const ParticleSet& particles, std::span<const double> radius,
-                                const SurfaceOptions& options, const VdbInstant& instant,
-                                const std::filesystem::path& file);
+Expected<std::string> vdb_volume(const ParticleSet& particles, std::span<const double> radius,
+                                 const SurfaceOptions& options, const VdbInstant& instant);
 
 }  // namespace hooke

@@ -25,13 +25,12 @@ Expected<SurfaceMesh> make_surface_mesh(const ParticleSet&, std::span<const doub
   return refuse();
 }
 
-Expected<void> write_vdb_points(const ParticleSet&, std::span<const double>, const std::string&, const VdbInstant&,
-                                const std::filesystem::path&) {
+Expected<std::string> vdb_points(const ParticleSet&, std::span<const double>, const std::string&, const VdbInstant&) {
   return refuse();
 }
 
-Expected<void> write_vdb_volume(const ParticleSet&, std::span<const double>, const SurfaceOptions&, const VdbInstant&,
-                                const std::filesystem::path&) {
+Expected<std::string> vdb_volume(const ParticleSet&, std::span<const double>, const SurfaceOptions&,
+                                 const VdbInstant&) {
   return refuse();
 }
 

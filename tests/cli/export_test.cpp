@@ -57,6 +57,20 @@ TEST_F(ExportCommand, DoesWithoutTheSceneOfAFile) {
   EXPECT_EQ(read("p.xyz"), read("q.xyz"));
 }
 
+TEST_F(ExportCommand, AFullDiskIsStatus3AndLeavesNoFile) {
+  std::filesystem::create_directory(path("out"));
+  std::vector<std::vector<std::string>> exports{{"p.csv"}, {"p.ply"}, {"p.vtp"}};
+  if (has_openvdb()) exports.insert(exports.end(), {{"p.vdb"}, {"p.vdb", "--as", "volume"}});
+  for (const std::vector<std::string>& each : exports) {
+    std::vector<std::string> arguments{"export", "s", "--all", "-o", "out/" + each.front()};
+    arguments.insert(arguments.end(), each.begin() + 1, each.end());
+    const Outcome full = hooke(arguments, 4000);
+    EXPECT_EQ(full.status, 3) << each.front() << full.err;
+    EXPECT_THAT(full.err, HasSubstr("can't be written: File too large")) << each.front();
+    EXPECT_TRUE(std::filesystem::is_empty(path("out"))) << each.front();
+  }
+}
+
 TEST_F(ExportCommand, RefusesABrokenScene) {
   write("s/scene.json", "{\"hooke\": 1}");
   const Outcome outcome = hooke({"export", "s", "-o", "p.xyz"});

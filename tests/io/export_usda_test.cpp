@@ -214,6 +214,37 @@ TEST_F(ExportUsda, KeepsTimesOfUnevenSnapshots) {
   EXPECT_TRUE(stage.attributes["velocities"].samples.contains("3.375"));
 }
 
+// Frames of a film: no multiple of 1/24 s but those of whole seconds is a step.
+TEST_F(ExportUsda, HasWholeCodesWhereOutputFallsOnTheNextStep) {
+  RunInfo info = samples::run_info();
+  info.time_step = 0.001;
+  const OutputCadence cadence{1.0 / 24, 0};
+  std::vector<Snapshot> snapshots;
+  for (std::int64_t step = 0; step <= 2000; ++step) {
+    if (!cadence.is_due(step, info.time_step)) continue;
+    snapshots.push_back(samples::snapshot(step, 1));
+    snapshots.back().time = static_cast<double>(step) * info.time_step;
+  }
+  ASSERT_EQ(snapshots.size(), 49U);
+  const auto expect_codes = [&](int first, int last) {
+    std::filesystem::remove_all(folder_ / to_string(info.precision));
+    const Stage stage = exported(info, {snapshots.begin() + first, snapshots.begin() + last + 1}, nullptr);
+    EXPECT_EQ(stage.metadata.at("timeCodesPerSecond"), "24");
+    for (int code = first; code <= last; ++code) {
+      EXPECT_TRUE(stage.attributes.at("points").samples.contains(std::to_string(code))) << code;
+    }
+  };
+  expect_codes(0, 48);
+  expect_codes(7, 30);
+  // The end of the run is between two frames.
+  snapshots.push_back(samples::snapshot(2010, 1));
+  snapshots.back().time = 2.01;
+  std::filesystem::remove_all(folder_ / to_string(info.precision));
+  const Stage stage = exported(info, snapshots, nullptr);
+  EXPECT_EQ(stage.metadata.at("timeCodesPerSecond"), "24");
+  EXPECT_NEAR(samples::number(stage.metadata.at("endTimeCode")), 48.24, 1e-9);
+}
+
 TEST_F(ExportUsda, PutsASingleSnapshotAtItsTime) {
   Stage stage = exported(samples::run_info(), {samples::snapshot(300, 2)}, nullptr);
   EXPECT_EQ(stage.metadata["timeCodesPerSecond"], "24");

@@ -25,8 +25,8 @@ TEST(WithoutOpenVdb, EveryFunctionSaysSo) {
   EXPECT_FALSE(has_openvdb());
   expect_refused(make_distance_field({}, {}));
   expect_refused(make_surface_mesh(particles, radius, {}));
-  expect_refused(write_vdb_points(particles, radius, "", {}, "points.vdb"));
-  expect_refused(write_vdb_volume(particles, radius, {}, {}, "volume.vdb"));
+  expect_refused(vdb_points(particles, radius, "", {}));
+  expect_refused(vdb_volume(particles, radius, {}, {}));
 }
 
 }  // namespace
