@@ -24,6 +24,7 @@ namespace {
 
 constexpr std::int64_t kFormat = 4;
 constexpr const char* kType = "hooke checkpoint";
+constexpr const char* kTablesDiffer = "is a damaged checkpoint: its tables don't fit together";
 
 static_assert(sizeof(Vec3d) == 3 * sizeof(double));
 
@@ -160,33 +161,15 @@ void write_content(hdf5::File& file, const SimulationState& state, const RunInfo
   write_population(root, state);
 }
 
-Checkpoint read_content(const std::filesystem::path& path) {
-  check_seal(path);
-  const auto held = hdf5::lock();
-  const hdf5::File file(path, JournaledFile::Mode::read);
-  const hid_t root = file.id();
-  if (const std::int64_t format = hdf5::read_integer_attribute(root, "format"); format != kFormat) {
-    throw Failure(Error::Kind::bad_input, path,
-                  fmt::format("is a checkpoint of format {}; this program reads format {}", format, kFormat));
-  }
+/// Reads step, ids, ledger and initial sums of a state.
+void read_numbers(hid_t root, const std::filesystem::path& path, SimulationState& state) {
   const Numbers numbers{hdf5::read_array<std::uint64_t>(root, "integers"), hdf5::read_array<double>(root, "reals"),
                         hdf5::read_array<double>(root, "sums"), hdf5::read_array<std::uint16_t>(root, "sum_parts")};
-  Checkpoint checkpoint;
-  SimulationState& state = checkpoint.state;
-  ParticleSet& p = state.particles;
-  p.id = hdf5::read_array<std::uint64_t>(root, "id");
-  p.material = hdf5::read_array<std::uint16_t>(root, "material");
-  p.position = read_vectors(root, "position");
-  p.velocity = read_vectors(root, "velocity");
-  p.acceleration = read_vectors(root, "acceleration");
   const Numbers expected = numbers_of(state);
-  const std::size_t n = p.size();
   if (numbers.integers.size() != expected.integers.size() || numbers.reals.size() != expected.reals.size() ||
       numbers.part_count.size() != expected.part_count.size() ||
-      std::accumulate(numbers.part_count.begin(), numbers.part_count.end(), std::size_t{0}) != numbers.parts.size() ||
-      p.material.size() != n || p.position.size() != n || p.velocity.size() != n ||
-      (p.acceleration.size() != n && !p.acceleration.empty())) {
-    throw Failure(Error::Kind::bad_input, path, "is a damaged checkpoint: its tables don't fit together");
+      std::accumulate(numbers.part_count.begin(), numbers.part_count.end(), std::size_t{0}) != numbers.parts.size()) {
+    throw Failure(Error::Kind::bad_input, path, kTablesDiffer);
   }
   state.step = static_cast<std::int64_t>(numbers.integers[0]);
   auto integer = numbers.integers.begin() + 1;
@@ -200,9 +183,37 @@ Checkpoint read_content(const std::filesystem::path& path) {
         for (std::uint16_t k = *count++; k > 0; --k) sum.add(*part++);
       },
       state.ledger);
-  read_structure(root, path, state);
-  read_population(root, path, state);
+}
+
+void read_particles(hid_t root, const std::filesystem::path& path, ParticleSet& p) {
+  p.id = hdf5::read_array<std::uint64_t>(root, "id");
+  p.material = hdf5::read_array<std::uint16_t>(root, "material");
+  p.position = read_vectors(root, "position");
+  p.velocity = read_vectors(root, "velocity");
+  p.acceleration = read_vectors(root, "acceleration");
+  const std::size_t n = p.size();
+  if (p.material.size() != n || p.position.size() != n || p.velocity.size() != n ||
+      (p.acceleration.size() != n && !p.acceleration.empty())) {
+    throw Failure(Error::Kind::bad_input, path, kTablesDiffer);
+  }
+}
+
+Checkpoint read_content(const std::filesystem::path& path) {
+  check_seal(path);
+  const auto held = hdf5::lock();
+  const hdf5::File file(path, JournaledFile::Mode::read);
+  const hid_t root = file.id();
+  if (const std::int64_t format = hdf5::read_integer_attribute(root, "format"); format != kFormat) {
+    throw Failure(Error::Kind::bad_input, path,
+                  fmt::format("is a checkpoint of format {}; this program reads format {}", format, kFormat));
+  }
+  Checkpoint checkpoint;
+  read_numbers(root, path, checkpoint.state);
+  read_particles(root, path, checkpoint.state.particles);
+  read_structure(root, path, checkpoint.state);
+  read_population(root, path, checkpoint.state);
   checkpoint.info = parse_run_info(hdf5::read_text(root, "run"), path);
+  file.check_reads();
   return checkpoint;
 }
 
@@ -211,7 +222,8 @@ Checkpoint read_content(const std::filesystem::path& path) {
 Expected<void> write_checkpoint(const std::filesystem::path& path, const SimulationState& state, const RunInfo& info) {
   const FloatingPointGuard floating_point;  // exact sums need rounding to nearest
   return guarded(path, [&] {
-    const std::filesystem::path unfinished = unfinished_name(path);
+    const std::filesystem::path target = output_file_of(path);
+    const std::filesystem::path unfinished = unfinished_name(target);
     try {
       const auto held = hdf5::lock();
       hdf5::File file(unfinished, JournaledFile::Mode::create);
@@ -224,17 +236,16 @@ Expected<void> write_checkpoint(const std::filesystem::path& path, const Simulat
       // The caller knows only the file's final name.
       throw Failure(Error::Kind::io, path, failure.error().findings.front().message);
     }
-    publish(path);
+    publish(target);
   });
 }
 
-bool is_checkpoint(const std::filesystem::path& path) {
-  return guarded(path,
-                 [&] {
-                   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-                   return file && read_seal(file.get(), size_of(file.get(), path), path).magic == Seal{}.magic;
-                 })
-      .value_or(false);
+Expected<bool> is_checkpoint(const std::filesystem::path& path) {
+  return guarded(path, [&] {
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (!file) throw Failure(Error::Kind::io, path, "can't be read: " + system_message(errno));
+    return read_seal(file.get(), size_of(file.get(), path), path).magic == Seal{}.magic;
+  });
 }
 
 Expected<Checkpoint> read_checkpoint(const std::filesystem::path& path) {
@@ -248,13 +259,14 @@ Expected<Checkpoint> read_checkpoint(const std::filesystem::path& path) {
 Expected<std::shared_ptr<const Structure>> read_structure_of_run(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / kCheckpointFile;
   return guarded(path, [&]() -> std::shared_ptr<const Structure> {
-    std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored)) return nullptr;
+    if (!is_there(path)) return nullptr;
     check_seal(path);
     const auto held = hdf5::lock();
     const hdf5::File file(path, JournaledFile::Mode::read);
     SimulationState state;
+    read_numbers(file.id(), path, state);
     read_structure(file.id(), path, state);
+    file.check_reads();
     return state.structure;
   });
 }

@@ -30,7 +30,7 @@ Expected<Checkpoint> read_checkpoint(const std::filesystem::path& file);
 Expected<std::shared_ptr<const Structure>> read_structure_of_run(const std::filesystem::path& folder);
 
 /// Whether a file bears the mark of a checkpoint; does not check that it is intact.
-bool is_checkpoint(const std::filesystem::path& file);
+Expected<bool> is_checkpoint(const std::filesystem::path& file);
 
 /// The reasons why a run of `scene` can't continue from a checkpoint of `checkpoint` with the same bits: time step,
 /// integrator, precision, names and order of the materials. Empty where it can; coefficients may differ.

@@ -7,6 +7,7 @@
 #include <cerrno>
 
 #include "hooke/io/failure.h"
+#include "hooke/io/output_file.h"
 #include "hooke/io/run_folder.h"
 
 namespace hooke {
@@ -56,7 +57,7 @@ FileDescription describe_run_folder(const fs::path& folder) {
   description.bytes = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
     description.bytes += listed_size(entry.path());
-  if (fs::exists(folder / kCheckpointFile)) {
+  if (is_there(folder / kCheckpointFile)) {
     description.checkpoint_step = take(read_checkpoint(folder)).state.step;
   }
   return description;
@@ -66,9 +67,9 @@ FileDescription describe_run_folder(const fs::path& folder) {
 
 Expected<FileDescription> describe_file(const fs::path& file) {
   return guarded(file, [&] {
-    if (!fs::exists(file)) throw Failure(Error::Kind::bad_input, file, "does not exist");
+    if (!is_there(file)) throw Failure(Error::Kind::bad_input, file, "does not exist");
     if (fs::is_directory(file)) return describe_run_folder(file);
-    return is_checkpoint(file) ? describe_checkpoint(file) : describe_run_file(file);
+    return take(is_checkpoint(file)) ? describe_checkpoint(file) : describe_run_file(file);
   });
 }
 

@@ -6,6 +6,7 @@
 
 #include "hooke/base/assert.h"
 #include "hooke/io/failure.h"
+#include "hooke/io/fletcher32.h"
 #include "hooke/io/hdf5_driver.h"
 #include "hooke/io/shuffle_deflate.h"
 
@@ -23,6 +24,9 @@ std::filesystem::path file_of(hid_t object) {
 }
 
 [[noreturn]] void fail_at(hid_t object, const std::string& what) {
+  if (const int error = read_error_of(object)) {
+    throw Failure(Error::Kind::io, file_of(object), "can't be read: " + system_message(error));
+  }
   throw Failure(Error::Kind::bad_input, file_of(object), "is damaged or not one of Hooke's: " + what);
 }
 
@@ -30,6 +34,53 @@ std::filesystem::path file_of(hid_t object) {
 hid_t check(hid_t id, hid_t object, const std::string& what) {
   if (id < 0) fail_at(object, what);
   return id;
+}
+
+/// Whether a stored type is a whole number or a floating-point number of at most 64 bits, as `wanted` is.
+bool is_number_like(hid_t stored, hid_t wanted) {
+  return H5Tget_class(stored) == H5Tget_class(wanted) && H5Tget_size(stored) <= sizeof(std::uint64_t);
+}
+
+hsize_t file_bytes(hid_t object) {
+  const Handle file(H5Iget_file_id(object));
+  hsize_t bytes = 0;
+  check(H5Fget_filesize(file.get(), &bytes), object, "it has no size");
+  return bytes;
+}
+
+std::vector<H5Z_filter_t> filters_of(hid_t properties) {
+  std::vector<H5Z_filter_t> filters;
+  for (int i = 0; i < H5Pget_nfilters(properties); ++i) {
+    std::size_t parameters = 0;
+    filters.push_back(
+        H5Pget_filter2(properties, static_cast<unsigned>(i), nullptr, &parameters, nullptr, 0, nullptr, nullptr));
+  }
+  return filters;
+}
+
+bool contains(const std::vector<H5Z_filter_t>& filters, H5Z_filter_t filter) {
+  return std::find(filters.begin(), filters.end(), filter) != filters.end();
+}
+
+/// Whether the filters are among those that Hooke writes, which limits how much a stored byte can stand for.
+bool are_known(const std::vector<H5Z_filter_t>& filters) {
+  return std::all_of(filters.begin(), filters.end(), [](H5Z_filter_t filter) {
+    return filter == H5Z_FILTER_SHUFFLE || filter == H5Z_FILTER_DEFLATE || filter == H5Z_FILTER_FLETCHER32;
+  });
+}
+
+/// Whether all of a dataset's bytes lie in its own file.
+bool is_self_contained(hid_t properties) {
+  const H5D_layout_t layout = H5Pget_layout(properties);
+  return (layout == H5D_CONTIGUOUS || layout == H5D_COMPACT || layout == H5D_CHUNKED) &&
+         H5Pget_external_count(properties) == 0;
+}
+
+/// Whether a file of `bytes` can hold `count` rows of `row_bytes`: a damaged size must not take memory out of
+/// proportion to the file.
+bool can_hold(hsize_t bytes, hsize_t count, hsize_t row_bytes, bool compressed) {
+  constexpr hsize_t kMostInflation = 1032;  // of deflate
+  return count <= bytes * (compressed ? kMostInflation : 1) / row_bytes;
 }
 
 }  // namespace
@@ -79,6 +130,7 @@ File::File(const std::filesystem::path& path, JournaledFile::Mode mode)
           ? H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get())
           : H5Fopen(name.c_str(), mode == JournaledFile::Mode::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR, access.get()));
   if (file_.get() < 0) {
+    check_reads();
     throw Failure(Error::Kind::bad_input, path, "is damaged, cut short, or no HDF5 file");
   }
 }
@@ -92,6 +144,12 @@ File::~File() {
 void File::commit() {
   H5Fflush(file_.get(), H5F_SCOPE_GLOBAL);
   bytes_->commit();
+}
+
+void File::check_reads() const {
+  if (const int error = bytes_->read_error()) {
+    throw Failure(Error::Kind::io, bytes_->path(), "can't be read: " + system_message(error));
+  }
 }
 
 void File::check_writes() const {
@@ -175,30 +233,41 @@ Column Column::create(hid_t parent, const char* name, hid_t type, hsize_t width,
     H5Pset_shuffle(properties.get());
     H5Pset_deflate(properties.get(), kDeflateLevel);
   }
+  H5Pset_fletcher32(properties.get());
   const Handle space(H5Screate_simple(rank, size, most));
   Column column;
   column.dataset_ = Handle(H5Dcreate2(parent, name, type, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT));
   check(column.dataset_.get(), parent, std::string("can't make ") + name);
   column.width_ = width;
   column.chunk_rows_ = chunk_rows;
+  column.has_checksums_ = true;
   return column;
 }
 
-Column::Column(hid_t parent, const char* name, hsize_t width)
+Column::Column(hid_t parent, const char* name, hid_t type, hsize_t width)
     : dataset_(H5Dopen2(parent, name, H5P_DEFAULT)),
       width_(width) {
   check(dataset_.get(), parent, std::string("it has no ") + name);
   const Handle space(H5Dget_space(dataset_.get()));
+  const Handle stored(H5Dget_type(dataset_.get()));
   const Handle properties(H5Dget_create_plist(dataset_.get()));
+  const std::vector<H5Z_filter_t> filters = filters_of(properties.get());
   const int rank = width == 1 ? 1 : 2;
   hsize_t size[2] = {0, 1};
-  hsize_t chunk[2] = {0, 0};
-  if (H5Sget_simple_extent_ndims(space.get()) != rank || H5Pget_chunk(properties.get(), 2, chunk) != rank ||
-      H5Sget_simple_extent_dims(space.get(), size, nullptr) != rank || (rank == 2 && size[1] != width)) {
-    fail_at(parent, std::string(name) + " is no table of this kind");
-  }
+  hsize_t chunk[2] = {0, 1};
+  const bool good = is_number_like(stored.get(), type) && H5Sget_simple_extent_ndims(space.get()) == rank &&
+                    H5Sget_simple_extent_dims(space.get(), size, nullptr) == rank &&
+                    is_self_contained(properties.get()) && H5Pget_chunk(properties.get(), 2, chunk) == rank &&
+                    chunk[0] > 0 && are_known(filters) && (rank == 1 || (size[1] == width && chunk[1] == width));
+  if (!good) fail_at(parent, std::string(name) + " is no table of this kind");
   rows_ = size[0];
   chunk_rows_ = chunk[0];
+  has_checksums_ = contains(filters, H5Z_FILTER_FLETCHER32);
+  const bool compressed = contains(filters, H5Z_FILTER_DEFLATE);
+  const hsize_t row_bytes = width * H5Tget_size(stored.get());
+  if (rows_ > 0 && !can_hold(file_bytes(parent), std::max(rows_, chunk_rows_), row_bytes, compressed)) {
+    fail_at(parent, std::string(name) + " is longer than its file");
+  }
 }
 
 void Column::fail(const std::string& how) const { fail_at(dataset_.get(), how); }
@@ -234,6 +303,7 @@ void Column::write(hsize_t start, hsize_t count, hid_t type, const void* data) {
 }
 
 void Column::read(hsize_t start, hsize_t count, hid_t type, void* data) const {
+  if (start > rows_ || count > rows_ - start) fail("a table is shorter than another one says");
   with_rows(dataset_.get(), start, count, width_,
             [&](hid_t memory, hid_t file) { return H5Dread(dataset_.get(), type, memory, file, H5P_DEFAULT, data); });
 }
@@ -252,7 +322,8 @@ hsize_t Column::append_chunks(const Real* values, hsize_t count) {
       last.resize(chunk_rows_ * width_);
       chunk = last.data();
     }
-    const std::string bytes = shuffle_deflate(chunk, chunk_rows_ * width_, sizeof(Real));
+    std::string bytes = shuffle_deflate(chunk, chunk_rows_ * width_, sizeof(Real));
+    if (has_checksums_) append_fletcher32(bytes);
     const hsize_t at[2] = {first + start, 0};
     if (H5Dwrite_chunk(dataset_.get(), H5P_DEFAULT, 0, at, bytes.size(), bytes.data()) < 0) {
       fail("a table can't be written");
@@ -277,7 +348,11 @@ void remove(hid_t parent, const char* name) {
   if (H5Ldelete(parent, name, H5P_DEFAULT) < 0) fail_at(parent, std::string("can't remove ") + name);
 }
 
-bool exists(hid_t parent, const char* name) { return H5Lexists(parent, name, H5P_DEFAULT) > 0; }
+bool exists(hid_t parent, const char* name) {
+  const htri_t found = H5Lexists(parent, name, H5P_DEFAULT);
+  if (found < 0) fail_at(parent, std::string("whether it has ") + name + " can't be told");
+  return found > 0;
+}
 
 void write_integer_attribute(hid_t object, const char* name, const std::vector<std::int64_t>& values, bool scalar) {
   const hsize_t size = values.size();
@@ -298,19 +373,30 @@ void write_text_attribute(hid_t object, const char* name, const std::string& tex
   if (!good) fail_at(object, std::string("can't make ") + name);
 }
 
-std::int64_t read_integer_attribute(hid_t object, const char* name) {
-  const Handle attribute(check(H5Aopen(object, name, H5P_DEFAULT), object, std::string("it has no ") + name));
+namespace {
+
+/// Opens an attribute that is one whole number.
+Handle open_integer_attribute(hid_t object, const char* name) {
+  Handle attribute(check(H5Aopen(object, name, H5P_DEFAULT), object, std::string("it has no ") + name));
   const Handle space(H5Aget_space(attribute.get()));
-  const bool single = H5Sget_simple_extent_npoints(space.get()) == 1;
-  std::int64_t value = 0;
-  if (!single || H5Aread(attribute.get(), H5T_NATIVE_INT64, &value) < 0) {
+  const Handle stored(H5Aget_type(attribute.get()));
+  if (H5Sget_simple_extent_npoints(space.get()) != 1 || !is_number_like(stored.get(), memory_type<std::int64_t>())) {
     fail_at(object, std::string(name) + " is no number");
   }
+  return attribute;
+}
+
+}  // namespace
+
+std::int64_t read_integer_attribute(hid_t object, const char* name) {
+  const Handle attribute = open_integer_attribute(object, name);
+  std::int64_t value = 0;
+  if (H5Aread(attribute.get(), H5T_NATIVE_INT64, &value) < 0) fail_at(object, std::string(name) + " is no number");
   return value;
 }
 
 void set_integer_attribute(hid_t object, const char* name, std::int64_t value) {
-  const Handle attribute(check(H5Aopen(object, name, H5P_DEFAULT), object, std::string("it has no ") + name));
+  const Handle attribute = open_integer_attribute(object, name);
   if (H5Awrite(attribute.get(), H5T_NATIVE_INT64, &value) < 0) fail_at(object, std::string("can't set ") + name);
 }
 
@@ -329,10 +415,18 @@ void write_text(hid_t parent, const char* name, const std::string& text) {
 std::string read_text(hid_t parent, const char* name) {
   const Handle dataset(check(H5Dopen2(parent, name, H5P_DEFAULT), parent, std::string("it has no ") + name));
   const Handle type(H5Dget_type(dataset.get()));
+  const Handle space(H5Dget_space(dataset.get()));
+  const Handle properties(H5Dget_create_plist(dataset.get()));
   const bool fixed = H5Tget_class(type.get()) == H5T_STRING && H5Tis_variable_str(type.get()) == 0;
-  std::string text(fixed ? H5Tget_size(type.get()) : 0, '\0');
-  const bool good = fixed && H5Dread(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) >= 0;
-  if (!good) fail_at(parent, std::string(name) + " is no text");
+  const std::size_t size = fixed ? H5Tget_size(type.get()) : 0;
+  if (!fixed || H5Sget_simple_extent_npoints(space.get()) != 1 || !is_self_contained(properties.get()) ||
+      size > file_bytes(parent)) {
+    fail_at(parent, std::string(name) + " is no text");
+  }
+  std::string text(size, '\0');
+  if (H5Dread(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0) {
+    fail_at(parent, std::string(name) + " can't be read");
+  }
   text.resize(std::min(text.find('\0'), text.size()));
   return text;
 }
@@ -352,12 +446,15 @@ template <class T>
 std::vector<T> read_array(hid_t parent, const char* name, hsize_t width) {
   const Handle dataset(check(H5Dopen2(parent, name, H5P_DEFAULT), parent, std::string("it has no ") + name));
   const Handle space(H5Dget_space(dataset.get()));
+  const Handle stored(H5Dget_type(dataset.get()));
+  const Handle properties(H5Dget_create_plist(dataset.get()));
+  const int rank = width == 1 ? 1 : 2;
   hsize_t size[2] = {0, 1};
-  const int rank = H5Sget_simple_extent_ndims(space.get());
-  if (rank == 1 || rank == 2) H5Sget_simple_extent_dims(space.get(), size, nullptr);
-  // A damaged header must not make us allocate more memory than the file could fill.
-  const hsize_t stored = H5Dget_storage_size(dataset.get());
-  if (rank < 1 || rank > 2 || size[1] != width || stored / sizeof(T) / width != size[0]) {
+  const bool good = H5Tequal(stored.get(), file_type<T>()) > 0 && is_self_contained(properties.get()) &&
+                    H5Sget_simple_extent_ndims(space.get()) == rank &&
+                    H5Sget_simple_extent_dims(space.get(), size, nullptr) == rank && (rank == 1 || size[1] == width);
+  // A damaged size must not make us allocate more memory than the file could fill.
+  if (!good || size[0] > file_bytes(parent) / sizeof(T) / width) {
     fail_at(parent, std::string(name) + " is no table of this kind");
   }
   std::vector<T> values(size[0] * width);

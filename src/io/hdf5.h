@@ -50,11 +50,12 @@ class File {
   File& operator=(File&&) noexcept = default;
 
   hid_t id() const { return file_.get(); }
-  JournaledFile& bytes() { return *bytes_; }
+  JournaledFile& bytes() const { return *bytes_; }
 
   /// Makes everything written so far the committed state.
   void commit();
-  /// Throws the error of the first write that failed, if one did.
+  /// Throws the error of the first read, or write, that failed, if one did.
+  void check_reads() const;
   void check_writes() const;
   /// Flushes and closes; for files written without a commit. Throws the first write error, if there was one.
   void close();
@@ -74,8 +75,10 @@ hid_t file_type();
 class Column {
  public:
   Column() = default;
-  Column(hid_t parent, const char* name, hsize_t width);  ///< opens an existing dataset
+  /// Opens an existing dataset of whole numbers, or of floating-point numbers, as `type` is one or the other.
+  Column(hid_t parent, const char* name, hid_t type, hsize_t width);
   /// Creates a dataset without rows. width 1 makes it one-dimensional. Compressed datasets are shuffled and deflated.
+  /// Each chunk bears a checksum, HDF5's Fletcher-32: reading a damaged one fails.
   static Column create(hid_t parent, const char* name, hid_t type, hsize_t width, hsize_t chunk_rows, bool compressed);
 
   hsize_t rows() const { return rows_; }
@@ -83,7 +86,7 @@ class Column {
   hsize_t next_chunk(hsize_t rows) const;
   void resize(hsize_t rows);
 
-  /// `count` rows from `start` on, within rows(). Reading throws a Failure where a damaged file holds less.
+  /// `count` rows from `start` on, within rows(). Reading throws a Failure where there are fewer.
   void write(hsize_t start, hsize_t count, hid_t type, const void* data);
   void read(hsize_t start, hsize_t count, hid_t type, void* data) const;
 
@@ -115,11 +118,12 @@ class Column {
   hsize_t rows_ = 0;
   hsize_t width_ = 1;
   hsize_t chunk_rows_ = 0;
+  bool has_checksums_ = false;  // a column of a file from before chunks had them has none
 };
 
 Handle create_group(hid_t parent, const char* name);
 Handle open_group(hid_t parent, const char* name);
-bool exists(hid_t parent, const char* name);
+bool exists(hid_t parent, const char* name);  ///< throws where that can't be read
 void remove(hid_t parent, const char* name);
 
 /// Scalar or short vector attributes: 64-bit whole numbers or doubles.

@@ -64,6 +64,11 @@ herr_t write_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t offset, std::size_t 
   return 0;
 }
 
+herr_t get_handle(H5FD_t* file, hid_t, void** handle) {
+  *handle = &bytes_of(file);
+  return 0;
+}
+
 hid_t register_driver() {
   static H5FD_class_t driver = [] {
     H5FD_class_t d{};
@@ -81,6 +86,7 @@ hid_t register_driver() {
     d.get_eoa = get_eoa;
     d.set_eoa = set_eoa;
     d.get_eof = get_eof;
+    d.get_handle = get_handle;
     d.read = read_bytes;
     d.write = write_bytes;
     const H5FD_mem_t lists[H5FD_MEM_NTYPES] = H5FD_FLMAP_DICHOTOMY;
@@ -104,6 +110,13 @@ Handle access_through(JournaledFile& bytes) {
     throw Failure(Error::Kind::io, bytes.path(), "can't be opened: the HDF5 library refuses Hooke's file driver");
   }
   return access;
+}
+
+int read_error_of(hid_t object) {
+  const Handle file(H5Iget_file_id(object));
+  void* bytes = nullptr;
+  if (file.get() < 0 || H5Fget_vfd_handle(file.get(), H5P_DEFAULT, &bytes) < 0) return 0;
+  return static_cast<const JournaledFile*>(bytes)->read_error();
 }
 
 }  // namespace hooke::hdf5

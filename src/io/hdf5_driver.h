@@ -9,4 +9,7 @@ namespace hooke::hdf5 {
 /// File access properties that make HDF5 keep a file's bytes in `bytes`, which must outlive the file.
 Handle access_through(JournaledFile& bytes);
 
+/// The errno of the first read that failed in the file of an object; 0 if none did.
+int read_error_of(hid_t object);
+
 }  // namespace hooke::hdf5

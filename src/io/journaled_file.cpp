@@ -68,14 +68,13 @@ JournaledFile::JournaledFile(const std::filesystem::path& file, Mode mode)
   } else {
     lock_against_readers(fd_.get());
     const bool interrupted = load_journal();
-    const int error = interrupted ? apply_pages() : 0;
+    const int error = interrupted ? apply_pages() : remove_journal();
     if (error) throw Failure(Error::Kind::io, file, "can't be written: " + system_message(error));
     pages_.clear();
-    ::unlink(journal_path().c_str());
     ::flock(fd_.get(), LOCK_UN);
   }
-  committed_end_ = end_ = size();
-  committed_pages_ = (committed_end_ + kPageBytes - 1) / kPageBytes;
+  end_ = size();
+  set_committed();
 }
 
 std::filesystem::path JournaledFile::journal_path() const {
@@ -93,17 +92,26 @@ std::uint64_t JournaledFile::size() const {
 
 // A journal consists of words: magic, number of pages, each page's index and content, then the checksum of all these.
 bool JournaledFile::load_journal() {
+  const auto give_up = [&](int error_number) {
+    throw Failure(Error::Kind::io, journal_path(), "can't be read: " + system_message(error_number));
+  };
   const Descriptor journal(::open(journal_path().c_str(), O_RDONLY | O_CLOEXEC));
-  struct stat status{};
-  if (!journal || ::fstat(journal.get(), &status) != 0) return false;
-  const auto bytes = static_cast<std::size_t>(status.st_size);
+  if (!journal && errno == ENOENT) return false;
+  if (!journal) give_up(errno);
+  const auto bytes = static_cast<std::size_t>(size_of(journal.get(), journal_path()));
   constexpr std::size_t kEntryWords = 1 + kPageBytes / sizeof(std::uint64_t);
-  if (bytes < 3 * sizeof(std::uint64_t) || bytes % sizeof(std::uint64_t) != 0) return false;
+  constexpr std::size_t kOtherWords = 3;
+  if (bytes < kOtherWords * sizeof(std::uint64_t) || bytes % sizeof(std::uint64_t) != 0) return false;
   std::vector<std::uint64_t> words(bytes / sizeof(std::uint64_t));
-  if (read_at(journal.get(), words.data(), bytes, 0) != 0) return false;
-  if (words[0] != kJournalMagic || words.size() != words[1] * kEntryWords + 3) return false;
-  if (words.back() != checksum(words, words.size() - 1)) return false;
+  if (const int error = read_at(journal.get(), words.data(), bytes, 0)) give_up(error);
+  if (words[0] != kJournalMagic || (words.size() - kOtherWords) % kEntryWords != 0 ||
+      words[1] != (words.size() - kOtherWords) / kEntryWords || words.back() != checksum(words, words.size() - 1)) {
+    return false;
+  }
+  const std::uint64_t file_pages = size_of(fd_.get(), file_) / kPageBytes + 1;
   for (std::size_t i = 2; i + 1 < words.size(); i += kEntryWords) {
+    if (words[i] >= file_pages)
+      throw Failure(Error::Kind::bad_input, file_, "is cut short: its journal reaches beyond it");
     auto content = std::make_unique<Page>();
     std::memcpy(content->data(), &words[i + 1], kPageBytes);
     pages_[words[i]] = std::move(content);
@@ -129,7 +137,19 @@ int JournaledFile::apply_pages() const {
   for (const auto& [index, content] : pages_) {
     if (const int error = write_at(fd_.get(), content->data(), kPageBytes, index * kPageBytes)) return error;
   }
-  return 0;
+  return remove_journal();
+}
+
+// A journal of old pages must not stay, or it would be applied once more; an empty one is none.
+int JournaledFile::remove_journal() const {
+  if (::unlink(journal_path().c_str()) == 0 || errno == ENOENT) return 0;
+  const int error = errno;
+  return ::truncate(journal_path().c_str(), 0) == 0 ? 0 : error;
+}
+
+void JournaledFile::set_committed() {
+  committed_end_ = end_;
+  committed_pages_ = (end_ + kPageBytes - 1) / kPageBytes;
 }
 
 JournaledFile::Page& JournaledFile::page(std::uint64_t index) {
@@ -142,7 +162,10 @@ JournaledFile::Page& JournaledFile::page(std::uint64_t index) {
 }
 
 int JournaledFile::read(std::uint64_t offset, void* data, std::size_t size) {
-  if (const int error = read_at(fd_.get(), data, size, offset)) return error;
+  if (const int error = read_at(fd_.get(), data, size, offset)) {
+    if (read_error_ == 0) read_error_ = error;
+    return error;
+  }
   auto* out = static_cast<std::byte*>(data);
   for (auto it = pages_.lower_bound(offset / kPageBytes); it != pages_.end(); ++it) {
     const std::uint64_t begin = std::max(offset, it->first * kPageBytes);
@@ -178,18 +201,18 @@ void JournaledFile::commit() {
   if (size() < end_ && ::ftruncate(fd_.get(), static_cast<off_t>(end_)) != 0) give_up(errno);
   if (!pages_.empty()) {
     if (const int error = write_journal()) {
-      ::unlink(journal_path().c_str());
+      remove_journal();
       give_up(error);
     }
+  }
+  set_committed();  // from here on the journal is what counts, even if its pages can't be applied now
+  if (!pages_.empty()) {
     lock_against_readers(fd_.get());
     const int error = apply_pages();
-    if (error == 0) ::unlink(journal_path().c_str());
     ::flock(fd_.get(), LOCK_UN);
     if (error) give_up(error);
     pages_.clear();
   }
-  committed_end_ = end_;
-  committed_pages_ = (end_ + kPageBytes - 1) / kPageBytes;
 }
 
 void JournaledFile::trim() {

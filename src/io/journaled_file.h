@@ -38,8 +38,9 @@ class JournaledFile {
   bool writable() const { return mode_ != Mode::read; }
   std::uint64_t size() const;  ///< bytes in the file, committed or not
 
-  /// Bytes past the end read as zeros. Returns 0 or errno.
+  /// Bytes past the end read as zeros. Returns 0 or errno; the first error stays for read_error().
   int read(std::uint64_t offset, void* data, std::size_t size);
+  int read_error() const { return read_error_; }
   /// Like commit(), only for a file that is writable(). The first error stays: later writes do nothing, and commit()
   /// fails.
   void write(std::uint64_t offset, const void* data, std::size_t size);
@@ -49,7 +50,8 @@ class JournaledFile {
   void set_end(std::uint64_t end) { end_ = end; }
   std::uint64_t end() const { return end_; }
 
-  /// Commits all changes or none. Throws Failure.
+  /// Commits all changes or none. Throws Failure: then nothing is committed, unless the journal was complete; it stays,
+  /// readers see its pages, and the next writer applies them.
   void commit();
   /// Cuts off the bytes behind the committed end.
   void trim();
@@ -61,9 +63,11 @@ class JournaledFile {
   using Page = std::array<std::byte, kPageBytes>;
 
   std::filesystem::path journal_path() const;
-  bool load_journal();  // into pages_; false without a complete journal
+  bool load_journal();  // into pages_; false without a complete journal; throws Failure where it can't be read
   int write_journal() const;
-  int apply_pages() const;
+  int apply_pages() const;  // and removes the journal
+  int remove_journal() const;
+  void set_committed();
   Page& page(std::uint64_t index);
 
   std::filesystem::path file_;
@@ -73,7 +77,8 @@ class JournaledFile {
   std::uint64_t committed_pages_ = 0;
   std::uint64_t committed_end_ = 0;
   std::uint64_t end_ = 0;
-  int error_ = 0;
+  int error_ = 0;  // of the first write that failed
+  int read_error_ = 0;  // of the first read that failed
 };
 
 }  // namespace hooke

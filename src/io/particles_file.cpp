@@ -26,6 +26,12 @@ std::int64_t at(const hdf5::Column& column, hsize_t row) {
   return values[0];
 }
 
+/// Cuts a column; throws Failure where it has fewer rows, which only a damaged file has.
+void cut_to(hdf5::Column& column, hsize_t rows) {
+  if (rows > column.rows()) column.fail("a table is shorter than another one says");
+  column.resize(rows);
+}
+
 void put(hdf5::Column& column, std::int64_t value) { column.append(std::vector<std::int64_t>{value}); }
 
 /// Appends rows of whole numbers from the next chunk on; returns their first row.
@@ -191,6 +197,7 @@ ParticlesFile ParticlesFile::update(const std::filesystem::path& path, const Run
     while (kept < snapshots && at(opened.columns_->step, kept) < end_step) ++kept;
     opened.cut(kept);
   }
+  opened.file_.check_reads();  // before anything is cut for good
   opened.file_.commit();
   return opened;
 }
@@ -202,7 +209,7 @@ void ParticlesFile::cut(std::size_t snapshots) {
   for (hdf5::Column* column :
        {&c.values, &c.part_offsets, &c.number_of_parts, &c.point_offsets, &c.cell_offsets, &c.connectivity_offsets,
         &c.velocity_offsets, &c.id_offsets, &c.material_offsets, &c.radius_offsets, &c.step}) {
-    column->resize(snapshots);
+    cut_to(*column, snapshots);
   }
   hsize_t particles = 0;
   if (snapshots > 0) {
@@ -219,20 +226,23 @@ void ParticlesFile::cut(std::size_t snapshots) {
   }
   // Offsets never decrease, so no rows beyond the last snapshot's are needed.
   const auto end_of = [&](const hdf5::Column& column, const hdf5::Column& offsets) {
-    return snapshots == 0 ? 0 : column.next_chunk(static_cast<hsize_t>(at(offsets, snapshots - 1)) + particles);
+    if (snapshots == 0) return hsize_t{0};
+    const auto start = static_cast<hsize_t>(at(offsets, snapshots - 1));
+    if (start > column.rows()) column.fail("a snapshot begins behind its table");
+    return column.next_chunk(start + particles);
   };
-  c.points.resize(end_of(c.points, c.point_offsets));
-  c.velocity.resize(end_of(c.velocity, c.velocity_offsets));
-  c.id.resize(end_of(c.id, c.id_offsets));
-  c.material.resize(end_of(c.material, c.material_offsets));
-  c.radius.resize(end_of(c.radius, c.radius_offsets));
+  cut_to(c.points, end_of(c.points, c.point_offsets));
+  cut_to(c.velocity, end_of(c.velocity, c.velocity_offsets));
+  cut_to(c.id, end_of(c.id, c.id_offsets));
+  cut_to(c.material, end_of(c.material, c.material_offsets));
+  cut_to(c.radius, end_of(c.radius, c.radius_offsets));
   const auto parts = static_cast<hsize_t>(c.part) + 1;
-  c.number_of_points.resize(parts);
+  cut_to(c.number_of_points, parts);
   for (VtkTopology& topology : c.topologies) {
     const bool vertices = &topology == &c.topologies.front();
-    topology.number_of_cells.resize(parts);
-    topology.number_of_connectivity_ids.resize(parts);
-    topology.offsets.resize(vertices && parts > 0 ? static_cast<hsize_t>(c.cell_offset) + particles + parts : parts);
+    cut_to(topology.number_of_cells, parts);
+    cut_to(topology.number_of_connectivity_ids, parts);
+    cut_to(topology.offsets, vertices && parts > 0 ? static_cast<hsize_t>(c.cell_offset) + particles + parts : parts);
   }
 }
 
@@ -277,13 +287,14 @@ void ParticlesFile::write_snapshot(const Snapshot& snapshot) {
   hdf5::set_integer_attribute(steps.get(), "NSteps", static_cast<std::int64_t>(c.step.rows()));
 }
 
-void ParticlesFile::sync() { file_.bytes().sync(); }
+void ParticlesFile::sync() const { file_.bytes().sync(); }
 
 ParticlesContents read_particles_contents(const std::filesystem::path& path) {
   const hdf5::File file(path, JournaledFile::Mode::read);
   ParticlesContents contents;
   contents.info = read_info(file.id(), path);
   const std::size_t n = count_snapshots(file.id());
+  file.check_reads();
   if (n == 0) return contents;
   const VtkhdfColumns columns = VtkhdfColumns::open(file.id());
   contents.steps = columns.step.read_all<std::int64_t>();
@@ -302,6 +313,7 @@ ParticlesContents read_particles_contents(const std::filesystem::path& path) {
     }
     contents.particles.push_back(static_cast<std::uint64_t>(counts[static_cast<std::size_t>(part)]));
   }
+  file.check_reads();
   return contents;
 }
 
@@ -323,6 +335,7 @@ Snapshot read_particles(const std::filesystem::path& path, std::size_t index) {
       throw Failure(Error::Kind::bad_input, path, "is damaged: a particle is of a material that the run does not have");
     }
   }
+  file.check_reads();
   return snapshot;
 }
 

@@ -45,7 +45,7 @@ class ParticlesFile {
   std::optional<std::int64_t> last_step() const { return last_step_; }
 
   /// Makes the appended snapshots survive a power failure too.
-  void sync();
+  void sync() const;
 
  private:
   struct Columns;

@@ -24,11 +24,10 @@ RunReader& RunReader::operator=(RunReader&&) noexcept = default;
 
 Expected<RunReader> RunReader::open(const fs::path& run) {
   return guarded(run, [&]() -> RunReader {
-    std::error_code ignored;
-    if (!fs::exists(run, ignored)) throw Failure(Error::Kind::bad_input, run, "does not exist");
-    const bool folder = fs::is_directory(run, ignored);
+    if (!is_there(run)) throw Failure(Error::Kind::bad_input, run, "does not exist");
+    const bool folder = fs::is_directory(run);
     const fs::path file = folder ? run / kParticlesFile : run;
-    if (folder && !fs::exists(file, ignored)) {
+    if (folder && !is_there(file)) {
       throw Failure(Error::Kind::bad_input, run, std::string("is no run folder: it has no ") + kParticlesFile);
     }
     const auto held = hdf5::lock();

@@ -7,8 +7,6 @@
 
 #include <cerrno>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
 
@@ -23,6 +21,17 @@ void write_whole(const std::filesystem::path& path, std::string_view text) {
   OutputFile out(path);
   out.write(text);
   out.finish();
+}
+
+std::string read_whole(const std::filesystem::path& path) {
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  const auto give_up = [&](int error) {
+    throw Failure(Error::Kind::io, path, "can't be read: " + system_message(error));
+  };
+  if (!file) give_up(errno);
+  std::string text(size_of(file.get(), path), '\0');
+  if (const int error = read_at(file.get(), text.data(), text.size(), 0)) give_up(error);
+  return text;
 }
 
 }  // namespace
@@ -40,10 +49,9 @@ SeriesFile SeriesFile::create(const std::filesystem::path& path, const std::stri
 }
 
 SeriesFile SeriesFile::update(const std::filesystem::path& path, const std::string& header, std::int64_t end_step) {
-  if (!std::filesystem::exists(path)) return create(path, header);
-  std::ifstream in(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in || text.rfind(header + '\n', 0) != 0) {
+  if (!is_there(path)) return create(path, header);
+  const std::string text = read_whole(path);
+  if (!text.starts_with(header + '\n')) {
     throw Failure(Error::Kind::bad_input, path, "can't be continued: it has not the columns of a series");
   }
   std::optional<std::int64_t> last_step;

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "hooke/io/structure_tables.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "hooke/base/ascending.h"
 #include "hooke/io/failure.h"
 
 namespace hooke {
@@ -25,6 +27,28 @@ void for_each_column(Springs& springs, Visit&& visit) {
 template <class T>
 void write_column(hid_t file, const char* name, const std::vector<T>& column) {
   hdf5::write_array(file, name, column.data(), column.size());
+}
+
+/// Throws Failure where columns differ in length or an index is out of range: nothing that reads a structure looks
+/// again.
+void check(const SimulationState& state, const std::filesystem::path& path) {
+  const auto refuse = [&](const Finding& finding) {
+    throw Failure(Error::Kind::bad_input, path, "is a damaged checkpoint: " + finding.where + ": " + finding.message);
+  };
+  const Structure& s = *state.structure;
+  if (const auto findings = validate(s, /*single=*/false); !findings.empty()) refuse(findings.front());
+  const auto& broken = state.broken_springs;
+  if (!is_ascending(broken) || (!broken.empty() && broken.back() >= s.springs.size())) {
+    refuse({"broken_springs", "must be unique, ascending and below the number of springs"});
+  }
+  const auto is_unknown = [&](std::uint64_t id) { return id >= state.next_id; };
+  const auto check_ids = [&](const std::vector<std::uint64_t>& ids, const char* where) {
+    if (std::any_of(ids.begin(), ids.end(), is_unknown)) refuse({where, "names a particle that never was"});
+  };
+  check_ids(s.springs.a, "springs");
+  check_ids(s.springs.b, "springs");
+  check_ids(s.held, "held");
+  for (const Surface& surface : s.surfaces) check_ids(surface.particles, "surfaces");
 }
 
 }  // namespace
@@ -87,10 +111,12 @@ void read_structure(hid_t file, const std::filesystem::path& path, SimulationSta
       p += particle_count;
       t += corner_count;
     }
+    if (p != particles.size() || t != triangles.size()) throw refuse();
   } catch (const nlohmann::json::exception&) {
     throw refuse();
   }
   state.structure = structure;
+  check(state, path);
 }
 
 }  // namespace hooke

@@ -84,8 +84,9 @@ VtkhdfColumns VtkhdfColumns::create(hid_t file, std::size_t particles, Precision
 VtkhdfColumns VtkhdfColumns::open(hid_t file) {
   VtkhdfColumns columns;
   visit_all(columns, file,
-            [](hdf5::Column& column, const hdf5::Handle& group, const char* name, hid_t, hsize_t width, Rows) {
-              column = hdf5::Column(group.get(), name, width);
+            [](hdf5::Column& column, const hdf5::Handle& group, const char* name, hid_t type, hsize_t width, Rows) {
+              // Of either precision: both are read as double.
+              column = hdf5::Column(group.get(), name, type == 0 ? hdf5::file_type<double>() : type, width);
             });
   return columns;
 }
