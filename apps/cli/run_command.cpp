@@ -152,6 +152,20 @@ bool resumes_in_place(const RunArguments& arguments) {
   return !checkpoint.empty() && std::filesystem::equivalent(home, output_folder(arguments), ignored);
 }
 
+// Whether the run may write its folder: nothing else is begun, a film least of all, where it may not.
+Expected<void> check_folder(const RunArguments& arguments) {
+  const std::filesystem::path folder = output_folder(arguments);
+  if (!arguments.overwrite && !resumes_in_place(arguments)) {
+    const auto taken = holds_run(folder);
+    if (!taken) return fail(taken.error());
+    if (*taken) {
+      return fail(Error::Kind::bad_input, folder.string(),
+                  "holds a run already; --overwrite replaces it, -o DIR names another folder");
+    }
+  }
+  return check_not_written(folder);
+}
+
 // Copies the meshes that the scene names into the run folder, beside its scene, so that the folder can be drawn
 // anywhere. Meshes named by an absolute path or with ".." are not copied.
 Expected<void> keep_files(const std::vector<SceneFile>& files, const std::filesystem::path& folder) {
@@ -247,12 +261,7 @@ ExitStatus report_failure(const Error& error, RunWriter& writer) {
 }  // namespace
 
 ExitStatus run_command(const RunArguments& arguments) {
-  if (!arguments.overwrite && !resumes_in_place(arguments) && holds_run(output_folder(arguments))) {
-    return report_error({Error::Kind::bad_input,
-                         {{output_folder(arguments).string(),
-                           "holds a run already; --overwrite replaces it, "
-                           "-o DIR names another folder"}}});
-  }
+  if (auto ready = check_folder(arguments); !ready) return report_error(ready.error());
   if (!arguments.report.empty()) {
     if (auto writable = check_output_file(arguments.report, "--report"); !writable) {
       return report_error(writable.error());

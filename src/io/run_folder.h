@@ -18,6 +18,8 @@
 
 namespace hooke {
 
+class RunLock;
+
 /// Files of a run folder.
 inline constexpr const char* kSceneFile = "scene.json";
 inline constexpr const char* kParticlesFile = "particles.vtkhdf";
@@ -25,27 +27,32 @@ inline constexpr const char* kSeriesFile = "series.csv";
 inline constexpr const char* kCheckpointFile = "checkpoint.h5";
 inline constexpr const char* kLogFile = "log.txt";
 inline constexpr const char* kReportFile = "report.json";
+inline constexpr const char* kLockFile = ".hooke.lock";  // only while the folder is written
 
 /// Whether `folder` holds files of a run.
-bool holds_run(const std::filesystem::path& folder);
+Expected<bool> holds_run(const std::filesystem::path& folder);
+
+/// bad_input, with the process, where one writes the run in `folder` now. RunWriter looks again.
+Expected<void> check_not_written(const std::filesystem::path& folder);
 
 /// Writes a run folder. Its own thread writes snapshots and checkpoints, in the order given; one may wait while another
 /// is written, and a third makes the caller wait. An error of the thread (a full disk) is returned by the next call
 /// that queues or waits and by all such calls after it; everything complete before stays readable. Not thread-safe.
+/// The folder is locked until finish() or the end of the writer: a second writer, of any process, is refused.
 class RunWriter {
  public:
   struct Options {
     bool overwrite = false;  ///< replaces an existing run; other files are left alone
   };
 
-  /// Starts a new run. `scene_json` is the resolved scene. bad_input where the folder already holds a run, io where it
-  /// can't be written; then no new files are left behind.
+  /// Starts a new run. `scene_json` is the resolved scene. bad_input where the folder already holds a run or is being
+  /// written, io where it can't be written; then no new files are left behind.
   static Expected<RunWriter> create(const std::filesystem::path& folder, const RunInfo& info,
                                     const std::string& scene_json, const Options& options);
 
   /// Continues a run in its folder from a checkpoint of `step` (>= 0). Cuts snapshots and rows of later steps, and
   /// those of `step` itself unless `cadence` makes it due (they were written because the run ended), so that the files
-  /// become those of an uninterrupted run.
+  /// become those of an uninterrupted run. bad_input where the folder is being written.
   static Expected<RunWriter> resume(const std::filesystem::path& folder, const RunInfo& info,
                                     const std::string& scene_json, std::int64_t step, const OutputCadence& cadence);
 
@@ -69,12 +76,14 @@ class RunWriter {
 
   /// Waits until everything queued is in its file; returns the first error, if any.
   Expected<void> flush();
-  /// flush(), syncs to the disk and closes. No writes after this.
+  /// flush(), syncs to the disk, closes and unlocks the folder. No writes after this.
   Expected<void> finish();
 
  private:
   struct Impl;
   explicit RunWriter(std::unique_ptr<Impl> impl);
+  static std::unique_ptr<Impl> start_files(RunLock lock, const std::filesystem::path& folder, const RunInfo& info,
+                                           const std::string& scene_json);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -4,12 +4,14 @@
 #include <deque>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <variant>
 
 #include "hooke/base/assert.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/particles_file.h"
 #include "hooke/io/run_folder.h"
+#include "hooke/io/run_lock.h"
 #include "hooke/io/series_file.h"
 
 namespace hooke {
@@ -23,46 +25,84 @@ constexpr const char* kRunFiles[] = {kParticlesFile, kCheckpointFile, kSeriesFil
 
 fs::path journal_of(fs::path file) { return file += ".journal"; }
 
-/// Removes a run's files, the snapshots last: if killed in between, the folder still counts as a run.
-void remove_run(const fs::path& folder) {
+/// All that a run may have left in its folder, the snapshots last: if killed while these are removed in order, the
+/// folder still counts as a run.
+std::vector<fs::path> removable_files(const fs::path& folder) {
+  std::vector<fs::path> files;
   for (auto name = std::rbegin(kRunFiles); name != std::rend(kRunFiles); ++name) {
     const fs::path file = folder / *name;
-    for (const fs::path& each : {journal_of(file), unfinished_name(file), file}) {
-      std::error_code error;
-      fs::remove(each, error);
-      if (error) throw Failure(Error::Kind::io, each, "can't be removed: " + error.message());
-    }
+    files.insert(files.end(), {journal_of(file), unfinished_name(file), file});
+  }
+  return files;
+}
+
+void remove_run(const fs::path& folder) {
+  for (const fs::path& file : removable_files(folder)) {
+    std::error_code error;
+    fs::remove(file, error);
+    if (error) throw Failure(Error::Kind::io, file, "can't be removed: " + error.message());
   }
 }
 
-/// Creates the folder; returns the outermost folder that had to be created, or nothing.
-fs::path make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::path made;
-  for (fs::path at = fs::absolute(folder).lexically_normal(); !at.empty() && !fs::exists(at, error);
-       at = at.parent_path()) {
-    made = at;
+/// Creates the folder; returns all folders that had to be created, the innermost first.
+std::vector<fs::path> make_folder(const fs::path& folder) {
+  std::vector<fs::path> made;
+  for (fs::path at = fs::absolute(folder).lexically_normal(); !at.empty() && !is_there(at); at = at.parent_path()) {
+    made.push_back(at);
     if (at == at.root_path()) break;
   }
+  std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw Failure(Error::Kind::io, folder, "can't be made: " + error.message());
   return made;
 }
 
+/// Removes those folders as far as they are empty.
+void remove_folders(const std::vector<fs::path>& folders) {
+  std::error_code ignored;
+  for (const fs::path& each : folders) fs::remove(each, ignored);
+}
+
+bool is_run(const fs::path& folder) {
+  return is_there(folder / kParticlesFile) || is_there(folder / kCheckpointFile) || is_there(folder / kSeriesFile);
+}
+
+/// Throws Failure where a new run must not be written into the folder. Returns whether there is a run to replace.
+bool check_replaceable(const fs::path& folder, bool overwrite) {
+  if (is_there(folder) && !fs::is_directory(folder)) {
+    throw Failure(Error::Kind::io, folder, "is a file, not a folder");
+  }
+  const bool run_there = is_run(folder);
+  if (run_there && !overwrite) {
+    throw Failure(Error::Kind::bad_input, folder,
+                  "holds a run already: name another folder, or say that it is to be overwritten");
+  }
+  for (const char* name : kRunFiles) {
+    if (!run_there && is_there(folder / name)) {
+      throw Failure(Error::Kind::bad_input, folder / name,
+                    "is there, but its folder holds no run: it would be overwritten; name another folder");
+    }
+  }
+  return run_there;
+}
+
 }  // namespace
 
-bool holds_run(const fs::path& folder) {
-  std::error_code ignored;
-  return fs::exists(folder / kParticlesFile, ignored) || fs::exists(folder / kCheckpointFile, ignored) ||
-         fs::exists(folder / kSeriesFile, ignored);
+Expected<bool> holds_run(const fs::path& folder) {
+  return guarded(folder, [&] { return is_run(folder); });
+}
+
+Expected<void> check_not_written(const fs::path& folder) {
+  return guarded(folder, [&] { refuse_if_written(folder); });
 }
 
 /// The files of a run and the thread that writes the large ones.
 struct RunWriter::Impl {
   using Item = std::variant<std::shared_ptr<const Snapshot>, SimulationState>;
 
-  Impl(fs::path run_folder, RunInfo run_info, ParticlesFile particles_file, SeriesFile series_file)
-      : folder(std::move(run_folder)),
+  Impl(RunLock run_lock, fs::path run_folder, RunInfo run_info, ParticlesFile particles_file, SeriesFile series_file)
+      : lock(std::move(run_lock)),
+        folder(std::move(run_folder)),
         info(std::move(run_info)),
         particles(std::move(particles_file)),
         series(std::move(series_file)),
@@ -72,18 +112,18 @@ struct RunWriter::Impl {
   ~Impl() { stop(); }
 
   void work() {
-    std::unique_lock lock(mutex);
+    std::unique_lock held(mutex);
     for (;;) {
-      changed.wait(lock, [&] { return stopping || !queue.empty(); });
+      changed.wait(held, [&] { return stopping || !queue.empty(); });
       if (queue.empty()) return;
       busy = true;
       const Item item = std::move(queue.front());
       queue.pop_front();
       changed.notify_all();
       if (!error) {
-        lock.unlock();
+        held.unlock();
         Expected<void> done = write(item);
-        lock.lock();
+        held.lock();
         if (!done) error = std::move(done.error());
       }
       busy = false;
@@ -108,8 +148,8 @@ struct RunWriter::Impl {
   }
 
   Expected<void> push(Item item) {
-    std::unique_lock lock(mutex);
-    changed.wait(lock, [&] { return queue.empty() || error; });
+    std::unique_lock held(mutex);
+    changed.wait(held, [&] { return queue.empty() || error; });
     if (error) return hooke::fail(*error);
     if (stopping)
       return hooke::fail(Error::Kind::bad_input, folder.string(), "is finished: nothing more can be written");
@@ -119,26 +159,37 @@ struct RunWriter::Impl {
   }
 
   Expected<void> wait() {
-    std::unique_lock lock(mutex);
-    changed.wait(lock, [&] { return queue.empty() && !busy; });
+    std::unique_lock held(mutex);
+    changed.wait(held, [&] { return queue.empty() && !busy; });
     if (error) return hooke::fail(*error);
     return {};
   }
 
   bool is_finished() {
-    const std::lock_guard lock(mutex);
+    const std::lock_guard held(mutex);
     return stopping;
   }
 
   void stop() {
     {
-      const std::lock_guard lock(mutex);
+      const std::lock_guard held(mutex);
       stopping = true;
     }
     changed.notify_all();
     if (thread.joinable()) thread.join();
   }
 
+  /// Syncs and closes the files and unlocks the folder. Throws Failure. To be called when the thread has stopped.
+  void close(bool sync) {
+    if (!lock) return;
+    const std::optional<RunLock> ends_last = std::exchange(lock, std::nullopt);
+    const ParticlesFile closed = std::move(particles);
+    if (!sync) return;
+    closed.sync();
+    series.sync();
+  }
+
+  std::optional<RunLock> lock;  // until the files are closed
   fs::path folder;
   RunInfo info;
   ParticlesFile particles;  // used by the thread alone while it runs
@@ -159,38 +210,33 @@ RunWriter::~RunWriter() = default;
 RunWriter::RunWriter(RunWriter&&) noexcept = default;
 RunWriter& RunWriter::operator=(RunWriter&&) noexcept = default;
 
+// Makes the files of a new run; where that fails, leaves none of them and throws.
+std::unique_ptr<RunWriter::Impl> RunWriter::start_files(RunLock lock, const fs::path& folder, const RunInfo& info,
+                                                        const std::string& scene_json) {
+  try {
+    const auto held = hdf5::lock();
+    ParticlesFile particles = ParticlesFile::create(folder / kParticlesFile, info);
+    SeriesFile series = SeriesFile::create(folder / kSeriesFile, series_header(info.colliders));
+    take(write_text_file(folder / kSceneFile, scene_json));
+    return std::make_unique<Impl>(std::move(lock), folder, info, std::move(particles), std::move(series));
+  } catch (const std::exception&) {
+    std::error_code ignored;
+    for (const fs::path& file : removable_files(folder)) fs::remove(file, ignored);
+    throw;
+  }
+}
+
 Expected<RunWriter> RunWriter::create(const fs::path& folder, const RunInfo& info, const std::string& scene_json,
                                       const Options& options) {
   return guarded(folder, [&]() -> RunWriter {
-    std::error_code ignored;
-    if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored)) {
-      throw Failure(Error::Kind::io, folder, "is a file, not a folder");
-    }
-    const bool run_there = holds_run(folder);
-    if (run_there && !options.overwrite) {
-      throw Failure(Error::Kind::bad_input, folder,
-                    "holds a run already: name another folder, or say that it is to be overwritten");
-    }
-    for (const char* name : kRunFiles) {
-      if (!run_there && fs::exists(folder / name, ignored)) {
-        throw Failure(Error::Kind::bad_input, folder / name,
-                      "is there, but its folder holds no run: it would be overwritten; name another folder");
-      }
-    }
-    const fs::path made = make_folder(folder);
+    check_replaceable(folder, options.overwrite);
+    const std::vector<fs::path> made = make_folder(folder);
     try {
-      if (run_there) remove_run(folder);
-      const auto held = hdf5::lock();
-      ParticlesFile particles = ParticlesFile::create(folder / kParticlesFile, info);
-      SeriesFile series = SeriesFile::create(folder / kSeriesFile, series_header(info.colliders));
-      take(write_text_file(folder / kSceneFile, scene_json));
-      return RunWriter(std::make_unique<Impl>(folder, info, std::move(particles), std::move(series)));
+      RunLock lock(folder);
+      if (check_replaceable(folder, options.overwrite)) remove_run(folder);
+      return RunWriter(start_files(std::move(lock), folder, info, scene_json));
     } catch (const std::exception&) {
-      // Leave nothing half-made behind; the original error is the one reported.
-      try {
-        remove_run(folder);
-      } catch (const Failure&) {}
-      if (!made.empty()) fs::remove_all(made, ignored);
+      remove_folders(made);
       throw;
     }
   });
@@ -201,11 +247,12 @@ Expected<RunWriter> RunWriter::resume(const fs::path& folder, const RunInfo& inf
   HOOKE_ASSERT(step >= 0, step);
   return guarded(folder, [&]() -> RunWriter {
     const std::int64_t end_step = cadence.is_due(step, info.time_step) ? step + 1 : step;
+    RunLock lock(folder);
     const auto held = hdf5::lock();
     ParticlesFile particles = ParticlesFile::update(folder / kParticlesFile, info, end_step);
     SeriesFile series = SeriesFile::update(folder / kSeriesFile, series_header(info.colliders), end_step);
     take(write_text_file(folder / kSceneFile, scene_json));
-    return RunWriter(std::make_unique<Impl>(folder, info, std::move(particles), std::move(series)));
+    return RunWriter(std::make_unique<Impl>(std::move(lock), folder, info, std::move(particles), std::move(series)));
   });
 }
 
@@ -245,11 +292,8 @@ Expected<void> RunWriter::flush() { return impl_->wait(); }
 Expected<void> RunWriter::finish() {
   Expected<void> written = impl_->wait();
   impl_->stop();
-  if (!written) return written;
-  return guarded(impl_->folder, [&] {
-    impl_->particles.sync();
-    impl_->series.sync();
-  });
+  Expected<void> closed = guarded(impl_->folder, [&] { impl_->close(/*sync=*/written.has_value()); });
+  return written ? closed : written;
 }
 
 }  // namespace hooke

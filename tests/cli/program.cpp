@@ -33,9 +33,10 @@ void redirect(const std::filesystem::path& file, int descriptor) {
 }  // namespace
 
 std::string program_file() { return HOOKE_PROGRAM; }
+std::string faults_library() { return HOOKE_FAULTS; }
 
 Program::Program(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
-                 std::uint64_t file_size_limit) {
+                 std::uint64_t file_size_limit, const std::vector<std::string>& environment) {
   static std::atomic<int> count{0};
   const std::string name = "call" + std::to_string(count++);
   out_ = folder / (name + ".out");
@@ -55,6 +56,7 @@ Program::Program(const std::filesystem::path& folder, const std::vector<std::str
     const rlimit limit{file_size_limit, file_size_limit};
     setrlimit(RLIMIT_FSIZE, &limit);
   }
+  for (const std::string& entry : environment) putenv(const_cast<char*>(entry.c_str()));
   execv(program.c_str(), const_cast<char* const*>(argv.data()));
   _exit(127);
 }
@@ -89,6 +91,11 @@ Program ProgramTest::start(const std::vector<std::string>& arguments, std::uint6
 
 Outcome ProgramTest::hooke(const std::vector<std::string>& arguments, std::uint64_t file_size_limit) const {
   return start(arguments, file_size_limit).wait();
+}
+
+Outcome ProgramTest::hooke(const std::vector<std::string>& arguments,
+                           const std::vector<std::string>& environment) const {
+  return Program(folder_, arguments, 0, environment).wait();
 }
 
 std::string ProgramTest::hooke_ok(const std::vector<std::string>& arguments) const {

@@ -24,11 +24,15 @@ struct Outcome {
   std::string err;
 };
 
-/// A running call of the program, in `folder`; its output goes to files there.
+/// A library that lets calls of the operating system fail: faults.cpp.
+std::string faults_library();
+
+/// A running call of the program, in `folder`; its output goes to files there. `environment`: NAME=VALUE, besides what
+/// the tests have.
 class Program {
  public:
   Program(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
-          std::uint64_t file_size_limit = 0);
+          std::uint64_t file_size_limit = 0, const std::vector<std::string>& environment = {});
   Outcome wait();
   /// Sends a signal to the program's process group, as a terminal does.
   void send(int signal) const;
@@ -51,6 +55,7 @@ class ProgramTest : public testing::Test {
 
   Program start(const std::vector<std::string>& arguments, std::uint64_t file_size_limit = 0) const;
   Outcome hooke(const std::vector<std::string>& arguments, std::uint64_t file_size_limit = 0) const;
+  Outcome hooke(const std::vector<std::string>& arguments, const std::vector<std::string>& environment) const;
   /// Expects status 0; returns the output.
   std::string hooke_ok(const std::vector<std::string>& arguments) const;
   /// All snapshots of a run as CSV.

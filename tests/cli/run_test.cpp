@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 #include <algorithm>
+#include <csignal>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "program.h"
@@ -99,6 +101,34 @@ TEST_F(RunCommand, AFullDiskIsStatus3AndWhatWasWrittenStaysReadable) {
   EXPECT_NE(full.err, "");
   EXPECT_THAT(hooke_ok({"info", "s"}), HasSubstr("snapshots"));
   EXPECT_THAT(export_all("s"), HasSubstr("step,t,id"));
+}
+
+TEST_F(RunCommand, AFolderHasOneWriter) {
+  Program first = start({"run", "s.json", "-o", "out", "--steps", "100000000", "--quiet"});
+  ASSERT_TRUE(wait_until([&] { return exists("out/checkpoint.h5"); }));
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--overwrite"}, {"--resume", "out/checkpoint.h5", "--steps", "100000000"}}) {
+    std::vector<std::string> arguments{"run", "s.json", "-o", "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome second = hooke(arguments);
+    EXPECT_EQ(second.status, 2) << second.err;
+    EXPECT_THAT(second.err, HasSubstr("out: is being written by process "));
+  }
+  EXPECT_THAT(hooke_ok({"info", "out"}), HasSubstr("snapshots"));
+  first.send(SIGINT);
+  EXPECT_EQ(first.wait().status, 130);
+  EXPECT_FALSE(exists("out/.hooke.lock"));
+}
+
+TEST_F(RunCommand, ReportsGoToPipesAndLinks) {
+  const Outcome outcome = hooke({"run", "s.json", "--report", "/dev/stdout", "--quiet"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, read("s/report.json"));
+  write("target", "old");
+  std::filesystem::create_symlink("target", path("link"));
+  hooke_ok({"run", "s.json", "--report", "link", "--overwrite"});
+  EXPECT_TRUE(std::filesystem::is_symlink(path("link")));
+  EXPECT_EQ(read("target"), read("s/report.json"));
 }
 
 TEST_F(RunCommand, ReferenceBackEndAgreesInDouble) {
