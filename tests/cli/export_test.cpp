@@ -60,7 +60,10 @@ TEST_F(ExportCommand, DoesWithoutTheSceneOfAFile) {
 TEST_F(ExportCommand, AFullDiskIsStatus3AndLeavesNoFile) {
   std::filesystem::create_directory(path("out"));
   std::vector<std::vector<std::string>> exports{{"p.csv"}, {"p.ply"}, {"p.vtp"}};
-  if (has_openvdb()) exports.insert(exports.end(), {{"p.vdb"}, {"p.vdb", "--as", "volume"}});
+  if (has_openvdb()) {
+    exports.push_back({"p.vdb"});
+    exports.push_back({"p.vdb", "--as", "volume"});
+  }
   for (const std::vector<std::string>& each : exports) {
     std::vector<std::string> arguments{"export", "s", "--all", "-o", "out/" + each.front()};
     arguments.insert(arguments.end(), each.begin() + 1, each.end());

@@ -106,8 +106,9 @@ TEST_F(RunCommand, AFullDiskIsStatus3AndWhatWasWrittenStaysReadable) {
 TEST_F(RunCommand, AFolderHasOneWriter) {
   Program first = start({"run", "s.json", "-o", "out", "--steps", "100000000", "--quiet"});
   ASSERT_TRUE(wait_until([&] { return exists("out/checkpoint.h5"); }));
-  for (const std::vector<std::string>& more :
-       {std::vector<std::string>{"--overwrite"}, {"--resume", "out/checkpoint.h5", "--steps", "100000000"}}) {
+  const std::vector<std::vector<std::string>> ways{{"--overwrite"},
+                                                   {"--resume", "out/checkpoint.h5", "--steps", "100000000"}};
+  for (const std::vector<std::string>& more : ways) {
     std::vector<std::string> arguments{"run", "s.json", "-o", "out"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome second = hooke(arguments);

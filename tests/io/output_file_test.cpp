@@ -91,11 +91,11 @@ TEST_F(Outputs, GoToADeviceThatStays) {
 
 // As the shell's > and >> leave it: other output of the process stands before and after.
 TEST_F(Outputs, GoOnWhereAnOpenFileStands) {
-  const Descriptor open(::open((folder / "log").c_str(), O_WRONLY | O_CREAT, 0600));
-  const std::string name = "/dev/fd/" + std::to_string(open.get());
-  ASSERT_EQ(::write(open.get(), "before\n", 7), 7);
+  const Descriptor log(::open((folder / "log").c_str(), O_WRONLY | O_CREAT, 0600));
+  const std::string name = "/dev/fd/" + std::to_string(log.get());
+  ASSERT_EQ(::write(log.get(), "before\n", 7), 7);
   ASSERT_TRUE(write_text_file(name, "report\n"));
-  ASSERT_EQ(::write(open.get(), "after\n", 6), 6);
+  ASSERT_EQ(::write(log.get(), "after\n", 6), 6);
   EXPECT_EQ(samples::read_file(folder / "log"), "before\nreport\nafter\n");
 }
 
