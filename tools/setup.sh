@@ -13,7 +13,7 @@ set -euo pipefail
 build_packages=(
   build-essential cmake ninja-build ccache
   libtbb-dev libexpected-dev nlohmann-json3-dev libvalijson-dev libcli11-dev libfmt-dev libspdlog-dev libhdf5-dev
-  libopenvdb-dev libboost-iostreams-dev libassimp-dev
+  libopenvdb-dev libboost-iostreams-dev
   libgtest-dev libgmock-dev libbenchmark-dev pkg-config
   libepoxy-dev libegl1 libgl1 libgl1-mesa-dri libpng-dev libcairo2-dev fonts-dejavu-core ffmpeg
   python3)

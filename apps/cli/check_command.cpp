@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "commands.h"
@@ -45,6 +46,16 @@ void print_precision(const Scene& scene) {
              spacing.radii);
 }
 
+// What a run needs at the most: its meshes' fields are made before there are many particles.
+void print_memory(double particles, const FieldMemory& fields) {
+  const double running = particles * kBytesPerParticle + fields.kept;
+  fmt::print("  memory     about {:.1f} MB", std::max(running, fields.most) * 1e-6);
+  if (fields.most > 0) {
+    fmt::print(", {:.1f} MB of it for the distances from meshes", std::max(fields.kept, fields.most) * 1e-6);
+  }
+  fmt::print("\n");
+}
+
 // Expected number of particles from emitters at a time.
 double expected_births(const Scene& scene) {
   double expected = 0;
@@ -73,7 +84,7 @@ ExitStatus check_command(const CheckArguments& arguments) {
     fmt::print("  emitters   {}; up to about {} particles\n", scene.emitters.size(),
                with_commas(static_cast<std::uint64_t>(most)));
   }
-  fmt::print("  memory     about {:.1f} MB\n", most * kBytesPerParticle * 1e-6);
+  print_memory(most, opened->fields);
   fmt::print("  duration   {} steps, {:.6g} s\n", scene.steps, static_cast<double>(scene.steps) * scene.time_step);
   print_step(simulation);
   print_overlaps(*now);

@@ -51,7 +51,7 @@ Expected<OpenedSimulation> open_simulation(const SceneArguments& scene, const De
   }();
   if (!simulation) return fail(std::move(simulation).error());
   return OpenedSimulation{std::move(*simulation), std::move(loaded->resolved), std::move(loaded->files),
-                          std::move(loaded->warnings)};
+                          std::move(loaded->warnings), loaded->fields};
 }
 
 std::string unstable_step(const Simulation& simulation) {

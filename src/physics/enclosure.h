@@ -11,24 +11,38 @@ namespace hooke {
 
 // Which points lie inside a shape, however far from its surface.
 
-/// In the directory of a distance field: a brick without samples, wholly inside a closed mesh.
-inline constexpr std::int32_t kBrickInside = -2;
+/// Whether a brick without samples lies inside the closed mesh of a field: along its row the surface lies between the
+/// inside and the next brick with samples, whose first one tells on which side of it the gap is.
+inline bool is_inside_gap(const DistanceFieldView& field, std::uint64_t key) {
+  std::int32_t begin = 0, end = field.count;  // of the bricks among which the first one behind `key` is
+  while (begin < end) {
+    const std::int32_t middle = begin + (end - begin) / 2;
+    if (field.keys[middle] > key) {
+      end = middle;
+    } else {
+      begin = middle + 1;
+    }
+  }
+  constexpr unsigned kBits = DistanceFieldView::kKeyBits;
+  if (begin == field.count || field.keys[begin] >> kBits != key >> kBits) return false;
+  constexpr std::size_t kPerBrick =
+      std::size_t{DistanceFieldView::kSamples} * DistanceFieldView::kSamples * DistanceFieldView::kSamples;
+  return field.samples[static_cast<std::size_t>(begin) * kPerBrick] < 0;
+}
 
 /// Whether `at` (m, from the field's origin) is inside the closed mesh of a field: where there are samples, the
 /// interpolated distance is negative. No point is inside an open mesh.
 inline bool encloses(const DistanceFieldView& field, const Vec3d& at) {
-  HOOKE_ASSERT(field.directory != nullptr && field.cell > 0, field.directory, field.cell);
+  HOOKE_ASSERT(field.slots != nullptr && field.cell > 0, field.slots, field.cell);
   const Vec3d u = (1 / field.cell) * at;
-  std::size_t place = 0;
-  for (int axis = 2; axis >= 0; --axis) {
+  std::int32_t brick[3];
+  for (int axis = 0; axis < 3; ++axis) {
     const double cells = component(u, axis);
-    const std::int32_t bricks = field.bricks[axis];
-    if (!(cells >= 0 && cells < static_cast<double>(bricks * DistanceFieldView::kCells))) return false;
-    place = place * static_cast<std::size_t>(bricks) +
-            static_cast<std::size_t>(static_cast<std::int32_t>(cells) / DistanceFieldView::kCells);
+    if (!(cells >= 0 && cells < static_cast<double>(field.bricks[axis] * DistanceFieldView::kCells))) return false;
+    brick[axis] = static_cast<std::int32_t>(cells) / DistanceFieldView::kCells;
   }
-  const std::int32_t brick = field.directory[place];
-  return brick < 0 ? brick == kBrickInside : field_value(field, u) < 0;
+  const std::uint64_t key = brick_key(brick[0], brick[1], brick[2]);
+  return find_brick(field, key) < 0 ? is_inside_gap(field, key) : field_value(field, u) < 0;
 }
 
 /// Whether x (m) is inside the solid; for a plane, behind it.

@@ -11,6 +11,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "hooke/physics/enclosure.h"
 #include "hooke/scene/json_path.h"
 #include "hooke/scene/mesh_shape.h"
 #include "hooke/scene/scene_builder.h"
@@ -28,33 +29,12 @@ struct Filling {
   bool is_box() const { return radius == 0 && !mesh; }
 };
 
-// Tells which points lie inside a filling; points are asked for row by row.
-class Inside {
- public:
-  explicit Inside(const Filling& filling) : filling_(filling) {}
-
-  // The first point of a row lies on or outside the box around the shape.
-  void start_row() { deep_ = false; }
-  bool operator()(const Vec3d& x) {
-    if (filling_.mesh) return in_mesh(x);
-    if (filling_.radius == 0) return true;
-    const Vec3d off = x - 0.5 * (filling_.min + filling_.max);
-    return dot(off, off) <= filling_.radius * filling_.radius * (1 + 1e-12);
-  }
-
- private:
-  // Distances are known around the surface only, to more than one step along a row. Where the distance is unknown, the
-  // point is on the same side as the one before.
-  bool in_mesh(const Vec3d& x) {
-    const DistanceField& field = *filling_.mesh;
-    const double distance = field_value(field.view(), (1 / field.cell) * (x - field.origin));
-    if (distance < kBeyondReach) deep_ = distance < 0;
-    return deep_;
-  }
-
-  const Filling& filling_;
-  bool deep_ = false;
-};
+bool is_inside(const Filling& filling, const Vec3d& x) {
+  if (filling.mesh) return encloses(filling.mesh->view(), x - filling.mesh->origin);
+  if (filling.radius == 0) return true;
+  const Vec3d off = x - 0.5 * (filling.min + filling.max);
+  return dot(off, off) <= filling.radius * filling.radius * (1 + 1e-12);
+}
 
 // Sites of a face-centred cubic lattice: the points of a cubic lattice, half a cell apart, whose indices have an even
 // sum. One site is at the lower corner of a box, or in the middle of the box around any other shape.
@@ -98,16 +78,17 @@ class Lattice {
 std::optional<Filling> filling_of_mesh(StructureMaker& maker, const Json& json, double spacing,
                                        const std::string& where) {
   if (!maker.options.with_particles) return std::nullopt;
-  // Samples are a third of the spacing apart, known to one spacing outside and three inside.
-  const ShapeFiles files{maker.folder, maker.options.allow_outside, spacing, spacing};
+  // Samples are a third of the spacing apart, known to one spacing from the surface.
+  ShapeFiles files{maker.folder, maker.options.allow_outside, spacing, spacing};
+  files.warnings = &maker.warnings;
+  files.depth = 1;
+  files.memory = &maker.fields;
+  files.kept = false;
+  files.memory_limit = maker.options.memory_limit;
+  files.opening = ShapeFiles::Opening::refused;
   const auto mesh = read_mesh_shape(json, where, files, maker.findings);
   if (!mesh) return std::nullopt;
-  if (!mesh->field->open) return Filling{mesh->field->min, mesh->field->max, 0, mesh->field};
-  maker.findings.add(join_path(where, "file"),
-                     fmt::format("is {}, which is open: edges have a triangle on one side only; a body needs a mesh "
-                                 "that encloses a space",
-                                 brief(json.at("file"))));
-  return std::nullopt;
+  return Filling{mesh->field->min, mesh->field->max, 0, mesh->field};
 }
 
 std::optional<Filling> filling_of_box(StructureMaker& maker, const Json& json, const std::string& where) {
@@ -141,12 +122,10 @@ void fill(StructureMaker& maker, const Json& entry, const Filling& filling, std:
   std::unordered_map<std::uint64_t, std::uint64_t> index;  // of sites
   std::vector<Vec3d> centres;
   std::vector<std::array<std::int64_t, 3>> sites;
-  Inside inside(filling);
   for (std::int64_t z = 0; z < nz; ++z) {
     for (std::int64_t y = 0; y < ny; ++y) {
-      inside.start_row();
       for (std::int64_t x = 0; x < nx; ++x) {
-        if (!inside(lattice.at(x, y, z)) || !lattice.is_site(x, y, z)) continue;
+        if (!lattice.is_site(x, y, z) || !is_inside(filling, lattice.at(x, y, z))) continue;
         index.emplace(lattice.key(x, y, z), centres.size());
         centres.push_back(lattice.at(x, y, z));
         sites.push_back({x, y, z});

@@ -4,21 +4,24 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "hooke/base/expected.h"
-#include "hooke/base/vec3.h"
+#include "hooke/core/triangle_mesh.h"
 
 namespace hooke {
 
-/// Triangles that share their corners.
+/// A sheet of triangles that share their corners, in the order of the file.
 struct ClothMesh {
-  std::vector<Vec3d> position;           ///< m; corners in the order of the file
-  std::vector<std::uint32_t> triangles;  ///< three corners each
+  TriangleMesh mesh;
+  std::vector<std::uint32_t> vertex;  ///< of each corner of the file: its vertex, or kUnused (mesh_repair.h)
+  std::vector<std::string> warnings;  ///< each follows on the file's name
 };
 
-/// Reads the corners and faces of a Wavefront OBJ file and skips everything else. Polygons are cut into triangles from
-/// their first corner. The error's only finding has an empty `where`.
+/// Reads a Wavefront OBJ file as a cloth. Polygons are cut into triangles. Corners at the same place on open edges, as
+/// programs write seams, are welded; those that no face uses are left out. The error's only finding has an empty
+/// `where`.
 Expected<ClothMesh> read_cloth_mesh(const std::filesystem::path& file);
 
 }  // namespace hooke

@@ -13,6 +13,7 @@
 
 #include "hooke/scene/cloth_mesh.h"
 #include "hooke/scene/json_path.h"
+#include "hooke/scene/mesh_repair.h"
 #include "hooke/scene/scene_builder.h"
 #include "hooke/scene/scene_path.h"
 #include "hooke/scene/structure_maker.h"
@@ -56,17 +57,16 @@ class Cloth {
     pin();
   }
 
-  void make_mesh(const ClothMesh& mesh, std::uint16_t material) {
-    const auto corners = static_cast<double>(mesh.position.size());
+  void make_mesh(const ClothMesh& cloth, std::uint16_t material) {
+    const TriangleMesh& mesh = cloth.mesh;
+    const auto corners = static_cast<double>(mesh.vertices.size());
     if (!maker_.fits(corners, 6 * corners, path_)) return;
-    add_particles(mesh.position, material);
+    add_particles(mesh.vertices, material);
+    vertex_ = cloth.vertex;
     // The corners opposite each edge, on one or two sides.
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> facing;
-    for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = mesh.triangles[t + k], b = mesh.triangles[t + (k + 1) % 3];
-        facing[std::minmax(a, b)].push_back(mesh.triangles[t + (k + 2) % 3]);
-      }
+    for (const auto& t : mesh.triangles) {
+      for (std::size_t k = 0; k < 3; ++k) facing[std::minmax(t[k], t[(k + 1) % 3])].push_back(t[(k + 2) % 3]);
     }
     for (const auto& [edge, apexes] : facing) tie(edge.first, edge.second, stretch_);
     std::set<std::pair<std::uint32_t, std::uint32_t>> bent;
@@ -75,7 +75,9 @@ class Cloth {
       const std::pair<std::uint32_t, std::uint32_t> pair = std::minmax(apexes[0], apexes[1]);
       if (!facing.contains(pair) && bent.insert(pair).second) tie(pair.first, pair.second, bend_);
     }
-    add_surface(material, mesh.triangles);
+    std::vector<std::uint32_t> triangles;
+    for (const auto& t : mesh.triangles) triangles.insert(triangles.end(), t.begin(), t.end());
+    add_surface(material, std::move(triangles));
     pin();
   }
 
@@ -147,18 +149,27 @@ class Cloth {
     for (std::size_t k = 0; k < pins.size(); ++k) {
       const std::string where = join_path(join_path(path_, "pins"), k);
       if (pins[k].is_number()) {
-        const auto index = pins[k].get<std::uint64_t>();
-        if (index < at_.size()) {
-          hold(index);
-        } else {
-          maker_.findings.add(where, fmt::format("is {}; the cloth has particles 0 to {}", index, at_.size() - 1));
-        }
+        pin_number(pins[k].get<std::uint64_t>(), where);
       } else if (cells_[0] == 0) {
         maker_.findings.add(where,
                             fmt::format("is {}; a mesh has no sides: its pins are numbers of corners", pins[k].dump()));
       } else {
         pin_side(pins[k].get<std::string>());
       }
+    }
+  }
+
+  // The number of a particle of a grid, or of a corner of a mesh as its file counts them.
+  void pin_number(std::uint64_t index, const std::string& where) {
+    const bool is_mesh = cells_[0] == 0;
+    const std::size_t count = is_mesh ? vertex_.size() : at_.size();
+    if (index >= count) {
+      maker_.findings.add(
+          where, fmt::format("is {}; the cloth has {} 0 to {}", index, is_mesh ? "corners" : "particles", count - 1));
+    } else if (is_mesh && vertex_[index] == kUnused) {
+      maker_.findings.add(where, fmt::format("is {}, a corner that no face uses: it is no particle", index));
+    } else {
+      hold(is_mesh ? vertex_[index] : index);
     }
   }
 
@@ -180,6 +191,7 @@ class Cloth {
   std::uint64_t cells_[2] = {0, 0};  // 0 for a mesh
   std::uint64_t first_ = 0;
   std::vector<Vec3d> at_;
+  std::vector<std::uint32_t> vertex_;  // of each corner of a mesh's file
 };
 
 // Whether the entry has all that a grid needs.
@@ -196,7 +208,7 @@ bool is_whole_grid(const Json& entry, const std::string& path, Findings& finding
 std::optional<ClothMesh> mesh_of(StructureMaker& maker, const Json& entry, const std::string& path) {
   const auto& name = entry.at("mesh").get_ref<const std::string&>();
   const auto refuse = [&](const std::string& why) {
-    maker.findings.add(join_path(path, "mesh"), fmt::format("is \"{}\": {}", printable(name), why));
+    maker.findings.add(join_path(path, "mesh"), fmt::format("is \"{}\", which {}", printable(name), why));
     return std::nullopt;
   };
   for (const char* key : {"corner", "edges"}) {
@@ -207,6 +219,9 @@ std::optional<ClothMesh> mesh_of(StructureMaker& maker, const Json& entry, const
   if (!file) return refuse(file.error().findings.front().message);
   auto mesh = read_cloth_mesh(*file);
   if (!mesh) return refuse(mesh.error().findings.front().message);
+  for (const std::string& warning : mesh->warnings) {
+    maker.warnings.push_back({join_path(path, "mesh"), fmt::format("is \"{}\", which {}", printable(name), warning)});
+  }
   return std::move(*mesh);
 }
 

@@ -109,7 +109,9 @@ void build_colliders(Json& colliders, const ShapeFiles& files, Scene& scene, Fin
     }
     std::optional<Motion> motion = read_motion(json, where, findings);
     std::optional<Shape> shape;
-    if (json.contains("shape")) shape = read_shape(json.at("shape"), join_path(where, "shape"), files, findings);
+    ShapeFiles meshes = files;
+    if (json.contains("hollow") && json.at("hollow") == true) meshes.depth = 1;  // touched from both sides
+    if (json.contains("shape")) shape = read_shape(json.at("shape"), join_path(where, "shape"), meshes, findings);
     if (!shape || !motion || findings.touches(where)) continue;
     collider.name = json.at("name").get<std::string>();
     collider.shape = std::move(*shape);

@@ -15,9 +15,11 @@ namespace {
 
 Range range_of(const Json& pair) { return {pair[0].get<double>(), pair[1].get<double>()}; }
 
-// An emitter can use an open mesh; for a sink an open mesh is an error. Neither needs a warning.
-ShapeFiles without_warnings(ShapeFiles files) {
-  files.warnings = nullptr;
+// Emitters and sinks ask on which side of a surface a point is, not how far inside. An emitter can use an open mesh;
+// for a sink an open mesh is an error. Neither needs a warning.
+ShapeFiles for_places(ShapeFiles files) {
+  files.depth = 1;
+  files.opening = ShapeFiles::Opening::allowed;
   return files;
 }
 
@@ -42,7 +44,7 @@ Emitter read_emitter(const Json& json) {
 }  // namespace
 
 std::vector<std::size_t> build_emitters(Json& emitters, const ShapeFiles& files, Scene& scene, Findings& findings) {
-  const ShapeFiles quiet = without_warnings(files);
+  const ShapeFiles meshes = for_places(files);
   std::vector<std::size_t> entries;
   for (std::size_t i = 0; i < emitters.size(); ++i) {
     const std::string where = join_path("emitters", i);
@@ -56,7 +58,7 @@ std::vector<std::size_t> build_emitters(Json& emitters, const ShapeFiles& files,
     }
     std::optional<Motion> motion = read_motion(json, where, findings);
     std::optional<Shape> shape;
-    if (json.contains("shape")) shape = read_shape(json.at("shape"), join_path(where, "shape"), quiet, findings);
+    if (json.contains("shape")) shape = read_shape(json.at("shape"), join_path(where, "shape"), meshes, findings);
     if (!shape || !motion || !material || findings.touches(where)) continue;
     Emitter emitter = read_emitter(json);
     emitter.material = *material;
@@ -69,12 +71,12 @@ std::vector<std::size_t> build_emitters(Json& emitters, const ShapeFiles& files,
 }
 
 std::vector<std::size_t> build_sinks(const Json& sinks, const ShapeFiles& files, Scene& scene, Findings& findings) {
-  const ShapeFiles quiet = without_warnings(files);
+  const ShapeFiles meshes = for_places(files);
   std::vector<std::size_t> entries;
   for (std::size_t i = 0; i < sinks.size(); ++i) {
     const std::string where = join_path("sinks", i);
     if (!sinks[i].is_object() || !sinks[i].contains("shape")) continue;
-    auto shape = read_shape(sinks[i].at("shape"), join_path(where, "shape"), quiet, findings);
+    auto shape = read_shape(sinks[i].at("shape"), join_path(where, "shape"), meshes, findings);
     if (!shape) continue;
     scene.sinks.push_back({std::move(*shape)});
     entries.push_back(i);

@@ -42,7 +42,8 @@ Expected<LoadedScene> parse(std::string_view text, const std::string& name, cons
   loaded.particles = load_particles(json, loaded.scene, folder, options, findings, loaded.warnings);
   LoadOptions ties = options;
   ties.with_particles = options.with_particles && !findings.touches("particles");  // only then are the ids reliable
-  loaded.scene.structure = load_structure(json, loaded.scene, folder, ties, findings, loaded.particles);
+  loaded.scene.structure =
+      load_structure(json, loaded.scene, folder, ties, findings, loaded.particles, loaded.warnings, loaded.fields);
   if (findings.empty()) refuse_overlaps(loaded.scene, loaded.particles, options, findings);
   if (!findings.empty()) return refuse();
   loaded.resolved = pretty(json);

@@ -40,6 +40,12 @@ struct SceneFile {
   std::filesystem::path path;  ///< where it is
 };
 
+/// What the distance fields of a scene's meshes take of memory, bytes.
+struct FieldMemory {
+  double kept = 0;  ///< as long as the scene lives
+  double most = 0;  ///< at a time while they are made
+};
+
 /// A scene file, read, checked and resolved.
 struct LoadedScene {
   Scene scene;
@@ -47,6 +53,7 @@ struct LoadedScene {
   std::string resolved;  ///< the scene as it was understood, with overrides and defaults written out, JSON;
                          ///< its paths are still relative to the scene's folder
   std::vector<SceneFile> files;  ///< meshes; particle files are not listed
+  FieldMemory fields;
   std::vector<Finding> warnings;  ///< e.g. CSV columns that are ignored
 };
 

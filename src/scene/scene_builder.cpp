@@ -150,7 +150,10 @@ ShapeFiles shape_files(const std::filesystem::path& folder, const LoadOptions& o
   }
   if (std::isinf(smallest)) smallest = largest = 1;
   const double range = ContactTable(loaded.scene.materials, loaded.scene.contacts).widest_range();
-  return {folder, options.allow_outside, smallest, largest + range, &loaded.warnings, &loaded.files};
+  ShapeFiles files{folder, options.allow_outside, smallest, largest + range, &loaded.warnings, &loaded.files};
+  files.memory_limit = options.memory_limit;
+  files.memory = &loaded.fields;
+  return files;
 }
 
 void build_camera(const Json& camera, Scene& scene, Findings& findings) {

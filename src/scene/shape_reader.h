@@ -22,6 +22,12 @@ struct ShapeFiles {
   double reach = 1;              ///< m, > 0: distances are needed this far from surfaces
   std::vector<Finding>* warnings = nullptr;
   std::vector<SceneFile>* used = nullptr;  ///< every file that is read is added here
+  double depth = 3;                ///< distances are needed to so many times the reach inside of closed meshes
+  std::uint64_t memory_limit = 0;  ///< bytes that a distance field may need; 0: what the machine has available
+  FieldMemory* memory = nullptr;   ///< what each field takes is booked here
+  bool kept = true;                ///< fields are part of the scene
+  enum class Opening { warned_of, allowed, refused };
+  Opening opening = Opening::warned_of;  ///< what becomes of a mesh that encloses no space
 };
 
 /// Reads the "shape" object at the path `where` of a scene (schema/scene.json, definition "shape"), for colliders and

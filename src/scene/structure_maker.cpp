@@ -88,8 +88,9 @@ double break_strain_of(const Json& entry) {
 
 std::shared_ptr<const Structure> load_structure(const Json& json, const Scene& scene,
                                                 const std::filesystem::path& folder, const LoadOptions& options,
-                                                Findings& findings, ParticleSet& particles) {
-  StructureMaker maker{scene, folder, options, findings, particles};
+                                                Findings& findings, ParticleSet& particles,
+                                                std::vector<Finding>& warnings, FieldMemory& fields) {
+  StructureMaker maker{scene, folder, options, findings, particles, warnings, fields};
   const auto section = [&](const char* key, void (StructureMaker::*add)(const Json&)) {
     const auto entries = json.find(key);
     if (entries != json.end() && entries->is_array()) (maker.*add)(*entries);

@@ -24,6 +24,8 @@ struct StructureMaker {
   const LoadOptions& options;
   Findings& findings;
   ParticleSet& particles;
+  std::vector<Finding>& warnings;
+  FieldMemory& fields;
   Structure structure{};
 
   /// Index of the material that `entry` names; a finding where the scene has no material of this name.
@@ -56,6 +58,7 @@ double break_strain_of(const Json& entry);
 /// there are none.
 std::shared_ptr<const Structure> load_structure(const Json& json, const Scene& scene,
                                                 const std::filesystem::path& folder, const LoadOptions& options,
-                                                Findings& findings, ParticleSet& particles);
+                                                Findings& findings, ParticleSet& particles,
+                                                std::vector<Finding>& warnings, FieldMemory& fields);
 
 }  // namespace hooke

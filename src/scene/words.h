@@ -11,6 +11,9 @@ namespace hooke {
 /// `text` without blanks at both ends.
 std::string_view trimmed(std::string_view text);
 
+/// `line`, the first one of a file, without the byte order mark that some programs write before UTF-8.
+std::string_view without_byte_order_mark(std::string_view line);
+
 /// Splits a line at blanks into `words`.
 void split_words(std::string_view line, std::vector<std::string_view>& words);
 

@@ -6,11 +6,11 @@
 #include <openvdb/tools/MeshToVolume.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include "hooke/base/parallel.h"
-#include "hooke/physics/enclosure.h"
 #include "hooke/volumes/no_throw.h"
 #include "hooke/volumes/openvdb_support.h"
 
@@ -48,41 +48,34 @@ class BrickLayout {
     }
   }
 
-  static int floor_to_brick(int index) { return index >= 0 ? index / kCells : -((kCells - 1 - index) / kCells); }
-
   int first(std::size_t axis) const { return first_[axis]; }
   int count(std::size_t axis) const { return count_[axis]; }
-  std::size_t size() const {
-    return static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) *
-           static_cast<std::size_t>(count_[2]);
+  // The key of the brick that starts so many bricks before a leaf, along each axis.
+  std::uint64_t key(const openvdb::Coord& leaf, int x, int y, int z) const {
+    const auto place = [&](std::size_t axis, int back) { return floor_to_brick(leaf[axis]) - first_[axis] - back; };
+    return brick_key(place(0, x), place(1, y), place(2, z));
   }
-  std::size_t at(int x, int y, int z) const {
-    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(count_[1]) + static_cast<std::size_t>(y)) *
-               static_cast<std::size_t>(count_[0]) +
-           static_cast<std::size_t>(x);
-  }
-  openvdb::Coord origin(std::size_t brick) const {
-    const auto columns = static_cast<std::size_t>(count_[0]), rows = static_cast<std::size_t>(count_[1]);
-    return {kCells * (first_[0] + static_cast<int>(brick % columns)),
-            kCells * (first_[1] + static_cast<int>(brick / columns % rows)),
-            kCells * (first_[2] + static_cast<int>(brick / columns / rows))};
+  openvdb::Coord origin(std::uint64_t key) const {
+    constexpr unsigned kBits = DistanceFieldView::kKeyBits;
+    const auto part = [&](std::size_t axis, unsigned shift) {
+      return kCells * (first_[axis] + static_cast<int>(key >> shift & ((std::uint64_t{1} << kBits) - 1)));
+    };
+    return {part(0, 0), part(1, kBits), part(2, 2 * kBits)};
   }
 
  private:
+  static int floor_to_brick(int index) { return index >= 0 ? index / kCells : -((kCells - 1 - index) / kCells); }
+
   int first_[3], count_[3];
 };
 
 // The bricks that hold a sample of a leaf, in ascending order.
-std::vector<std::size_t> bricks_in_use(const openvdb::FloatGrid& grid, const BrickLayout& layout) {
-  std::vector<std::size_t> used;
+std::vector<std::uint64_t> bricks_in_use(const openvdb::FloatGrid& grid, const BrickLayout& layout) {
+  std::vector<std::uint64_t> used;
   for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
     if (leaf->isEmpty()) continue;
-    const openvdb::Coord at = leaf->origin();
     for (int corner = 0; corner < 8; ++corner) {
-      const int b[3] = {BrickLayout::floor_to_brick(at[0]) - layout.first(0) - (corner & 1),
-                        BrickLayout::floor_to_brick(at[1]) - layout.first(1) - (corner >> 1 & 1),
-                        BrickLayout::floor_to_brick(at[2]) - layout.first(2) - (corner >> 2)};
-      used.push_back(layout.at(b[0], b[1], b[2]));
+      used.push_back(layout.key(leaf->origin(), corner & 1, corner >> 1 & 1, corner >> 2));
     }
   }
   std::sort(used.begin(), used.end());
@@ -90,32 +83,67 @@ std::vector<std::size_t> bricks_in_use(const openvdb::FloatGrid& grid, const Bri
   return used;
 }
 
-// Marks bricks without samples that lie inside the mesh.
-void mark_inside(const openvdb::FloatGrid& grid, const BrickLayout& layout, std::vector<std::int32_t>& directory) {
-  parallel_ranges(directory.size(), 256, [&](std::size_t first, std::size_t last) {
-    const auto values = grid.getConstAccessor();
-    for (std::size_t brick = first; brick < last; ++brick) {
-      const bool empty = directory[brick] == DistanceFieldView::kNothing;
-      if (empty && values.getValue(layout.origin(brick)) < 0) directory[brick] = kBrickInside;
+constexpr std::size_t kPerBrick = std::size_t{kSamples} * kSamples * kSamples;
+
+// Copies the samples of bricks, in cells: leaf by leaf, since a look-up for each sample would take most of the time.
+class BrickReader {
+ public:
+  explicit BrickReader(const openvdb::FloatGrid& grid) : values_(grid.getConstAccessor()) {}
+
+  void read(const openvdb::Coord& origin, float* out) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const int offset[3] = {kCells * (corner & 1), kCells * (corner >> 1 & 1), kCells * (corner >> 2)};
+      const openvdb::Coord at = origin.offsetBy(offset[0], offset[1], offset[2]);
+      const auto* leaf = values_.probeConstLeaf(at);
+      const float everywhere = leaf == nullptr ? values_.getValue(at) : 0;
+      int count[3];
+      for (int axis = 0; axis < 3; ++axis) count[axis] = offset[axis] == 0 ? kCells : 1;
+      for (int z = 0; z < count[2]; ++z) {
+        for (int y = 0; y < count[1]; ++y) {
+          float* row = out + ((offset[2] + z) * kSamples + offset[1] + y) * kSamples + offset[0];
+          for (int x = 0; x < count[0]; ++x) row[x] = leaf == nullptr ? everywhere : leaf->getValue(number(x, y, z));
+        }
+      }
+    }
+  }
+
+ private:
+  // Of a value within a leaf, which has z fastest.
+  static openvdb::Index number(int x, int y, int z) {
+    return static_cast<openvdb::Index>((x * kCells + y) * kCells + z);
+  }
+
+  openvdb::FloatGrid::ConstAccessor values_;
+};
+
+// Keeps the bricks in which a distance may be needed: one of their samples is within a cell of the part of the band
+// that the options ask for.
+void drop_far_bricks(const openvdb::FloatGrid& grid, const BrickLayout& layout, const FieldOptions& options,
+                     std::vector<std::uint64_t>& bricks) {
+  const auto most = static_cast<float>(options.reach / options.cell + 1);
+  const auto least = static_cast<float>(-options.depth * options.reach / options.cell - 1);
+  std::vector<char> near(bricks.size());
+  parallel_ranges(bricks.size(), 64, [&](std::size_t first, std::size_t last) {
+    BrickReader reader(grid);
+    std::array<float, kPerBrick> samples;
+    for (std::size_t i = first; i < last; ++i) {
+      reader.read(layout.origin(bricks[i]), samples.data());
+      near[i] = std::any_of(samples.begin(), samples.end(), [&](float d) { return d <= most && d >= least; });
     }
   });
+  std::size_t i = 0;
+  std::erase_if(bricks, [&](std::uint64_t) { return near[i++] == 0; });
 }
 
-void fill_samples(const openvdb::FloatGrid& grid, const BrickLayout& layout, const std::vector<std::size_t>& used,
-                  double cell, std::vector<float>& samples) {
-  constexpr std::size_t kPerBrick = std::size_t{kSamples} * kSamples * kSamples;
-  samples.resize(used.size() * kPerBrick);
-  parallel_ranges(used.size(), 16, [&](std::size_t first, std::size_t last) {
-    const auto values = grid.getConstAccessor();
+void fill_samples(const openvdb::FloatGrid& grid, const BrickLayout& layout, DistanceField& field) {
+  field.samples.resize(field.keys.size() * kPerBrick);
+  parallel_ranges(field.keys.size(), 16, [&](std::size_t first, std::size_t last) {
+    BrickReader reader(grid);
     for (std::size_t brick = first; brick < last; ++brick) {
-      const openvdb::Coord origin = layout.origin(used[brick]);
-      float* out = samples.data() + brick * kPerBrick;
-      for (int z = 0; z < kSamples; ++z) {
-        for (int y = 0; y < kSamples; ++y) {
-          for (int x = 0; x < kSamples; ++x) {
-            *out++ = static_cast<float>(cell * static_cast<double>(values.getValue(origin.offsetBy(x, y, z))));
-          }
-        }
+      float* const out = field.samples.data() + brick * kPerBrick;
+      reader.read(layout.origin(field.keys[brick]), out);
+      for (std::size_t i = 0; i < kPerBrick; ++i) {
+        out[i] = static_cast<float>(field.cell * static_cast<double>(out[i]));
       }
     }
   });
@@ -125,8 +153,10 @@ DistanceField field_around(const TriangleMesh& mesh, const FieldOptions& options
   const CellMesh cells(mesh, options.cell);
   // Distances in cells; three more than asked for, so that all corners exist for a cell at that distance and for its
   // neighbours.
-  const auto outside = static_cast<float>(std::ceil(options.reach / options.cell) + 3);
-  const float inside = options.closed ? 3 * outside : outside;
+  const auto band = [&](double reaches) {
+    return static_cast<float>(std::ceil(reaches * options.reach / options.cell) + 3);
+  };
+  const float outside = band(1), inside = options.closed ? band(options.depth) : outside;
   const int flags = options.closed ? 0 : openvdb::tools::UNSIGNED_DISTANCE_FIELD;
   const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
   const auto grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(cells, *transform, outside, inside, flags);
@@ -134,16 +164,15 @@ DistanceField field_around(const TriangleMesh& mesh, const FieldOptions& options
   DistanceField field;
   field.cell = options.cell;
   field.open = !options.closed;
-  field.band = options.cell * static_cast<double>(outside);
+  field.band = options.reach;
   field.origin = options.cell * kCells *
                  Vec3d{static_cast<double>(layout.first(0)), static_cast<double>(layout.first(1)),
                        static_cast<double>(layout.first(2))};
   field.bricks = {layout.count(0), layout.count(1), layout.count(2)};
-  const std::vector<std::size_t> used = bricks_in_use(*grid, layout);
-  field.directory.assign(layout.size(), DistanceFieldView::kNothing);
-  for (std::size_t i = 0; i < used.size(); ++i) field.directory[used[i]] = static_cast<std::int32_t>(i);
-  if (options.closed) mark_inside(*grid, layout, field.directory);
-  fill_samples(*grid, layout, used, options.cell, field.samples);
+  field.keys = bricks_in_use(*grid, layout);
+  drop_far_bricks(*grid, layout, options, field.keys);
+  field.make_directory();
+  fill_samples(*grid, layout, field);
   field.min = field.max = mesh.vertices.front();
   for (const Vec3d& x : mesh.vertices) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -159,6 +188,7 @@ DistanceField field_around(const TriangleMesh& mesh, const FieldOptions& options
 bool has_openvdb() { return true; }
 
 Expected<DistanceField> make_distance_field(const TriangleMesh& mesh, const FieldOptions& options) {
+  if (!spans_few_cells(mesh, options)) return fail(Error::Kind::bad_input, "", "spans too many cells");
   return no_throw([&]() -> Expected<DistanceField> { return field_around(mesh, options); });
 }
 

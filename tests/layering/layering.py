@@ -30,7 +30,6 @@ MAY_USE["apps"] = set(MAY_USE)
 KEPT_TO = {
     r"hdf5|H5\w+\.h": {"io"},
     r"openvdb/": {"volumes"},
-    r"assimp/": {"scene"},
     r"valijson/": {"scene"},
     r"nlohmann/": {"scene", "io", "apps"},
     r"CLI/": {"apps"},

@@ -24,7 +24,7 @@ TEST(PhysicsPreconditions, MassesArePositive) {
 }
 
 TEST(PhysicsPreconditions, AMeshHasAField) {
-  EXPECT_ASSERTS((void)encloses(DistanceFieldView{}, Vec3d{0, 0, 0}), "field.directory = null, field.cell = 1");
+  EXPECT_ASSERTS((void)encloses(DistanceFieldView{}, Vec3d{0, 0, 0}), "field.slots = null, field.cell = 1");
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ TEST(DistanceField, HasTheSameBitsEveryTime) {
   for (int i = 0; i < 3; ++i) {
     const DistanceField b = make_distance_field(mesh, {0.07, 0.2, true}).value();
     EXPECT_EQ(a.samples, b.samples);
-    EXPECT_EQ(a.directory, b.directory);
+    EXPECT_EQ(a.keys, b.keys);
   }
 }
 

@@ -124,6 +124,36 @@ TEST(SceneStructure, MakesAClothOfAMesh) {
   EXPECT_EQ(s.surfaces[0].triangles, (std::vector<std::uint32_t>{0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4}));
 }
 
+TEST(SceneStructure, WeldsSeamsOfACloth) {
+  const ScratchFolder folder;
+  // The edge from 2 to 5 is there twice, as 7 and 8; no face uses 9.
+  folder.write("m.obj",
+               "v 1 1 1\nv 2 1 1\nv 3 1 1\nv 1 1 2\nv 2 1 2\nv 3 1 2\nv 2 1 1\nv 2 1 2\nv 5 5 5\n"
+               "f 1 2 5 4\nf 7 3 6 8\n");
+  const LoadedScene loaded =
+      load({R"(cloths=[{"material":"water","mesh":"m.obj","stretch":100,"bend":5,"pins":[0,7]}])"}, folder.path());
+  EXPECT_EQ(loaded.particles.size(), 2U + 6);
+  EXPECT_EQ(counts(*loaded.scene.structure), (std::map<double, int>{{100, 9}, {5, 3}}));
+  EXPECT_EQ(loaded.scene.structure->held, (std::vector<std::uint64_t>{3, 7})) << "corner 7 is particle 4";
+  ASSERT_EQ(loaded.warnings.size(), 1U);
+  EXPECT_EQ(loaded.warnings[0].where, "cloths[0].mesh");
+  EXPECT_EQ(loaded.warnings[0].message,
+            "is \"m.obj\", which has open edges with 2 vertices within 2.2e-05 of others, in the file's unit; they are "
+            "welded");
+}
+
+TEST(SceneStructure, PinsNoCornerThatNoFaceUses) {
+  const ScratchFolder folder;
+  folder.write("m.obj", "v 1 1 1\nv 2 1 1\nv 3 1 2\nv 4 4 4\nf 1 2 3\n");
+  LoadOptions options;
+  options.overrides = {R"(cloths=[{"material":"water","mesh":"m.obj","stretch":100,"pins":[3,4]}])"};
+  const auto loaded = parse_scene(kMinimalScene, "scene.json", folder.path(), options);
+  ASSERT_FALSE(loaded);
+  EXPECT_EQ(loaded.error().text(),
+            "cloths[0].pins[0]: is 3, a corner that no face uses: it is no particle\n"
+            "cloths[0].pins[1]: is 4; the cloth has corners 0 to 3");
+}
+
 TEST(SceneStructure, FillsBodiesWithTwelveNeighboursEach) {
   for (const char* shape :
        {R"({"sphere":{"center":[5,5,5],"radius":2}})", R"({"box":{"min":[3,3,3],"max":[7,6,5]}})"}) {

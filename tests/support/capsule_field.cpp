@@ -8,7 +8,6 @@
 #include <cmath>
 #include <memory>
 
-#include "hooke/physics/enclosure.h"
 #include "support/made_meshes.h"
 
 namespace hooke::test {
@@ -40,10 +39,9 @@ void add_brick(DistanceField& field, int x0, int y0, int z0, const Distance& dis
   }
   const auto band = static_cast<float>(field.band);
   if (std::none_of(samples.begin(), samples.end(), [&](float d) { return std::abs(d) <= band; })) {
-    field.directory.push_back(samples[0] < 0 ? kBrickInside : DistanceFieldView::kNothing);
     return;
   }
-  field.directory.push_back(static_cast<std::int32_t>(field.samples.size() / samples.size()));
+  field.keys.push_back(brick_key(x0 / kCells, y0 / kCells, z0 / kCells));
   field.samples.insert(field.samples.end(), samples.begin(), samples.end());
 }
 
@@ -79,6 +77,7 @@ MeshShape capsule_with_field(const Vec3d& middle, double radius, bool closed, do
       for (int x = 0; x < field.bricks[0]; ++x) add_brick(field, kCells * x, kCells * y, kCells * z, distance);
     }
   }
+  field.make_directory();
   return {std::make_shared<const TriangleMesh>(std::move(mesh)),
           std::make_shared<const DistanceField>(std::move(field))};
 }
