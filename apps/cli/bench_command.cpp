@@ -181,7 +181,7 @@ ExitStatus bench_command(const BenchArguments& arguments) {
   const std::uint64_t program_bytes = peak_resident_bytes();
   auto opened = open_simulation(arguments.scene, arguments.device, arguments.resume);
   if (!opened) return report_error(opened.error());
-  for (const Finding& warning : opened->warnings) spdlog::warn("{}: {}", warning.where, warning.message);
+  for (const Finding& warning : opened->warnings) report_warning(warning);
   Simulation& simulation = opened->simulation;
   const std::uint64_t particles_before = simulation.particle_count();
   const std::uint64_t removed_before = simulation.ledger().removed;

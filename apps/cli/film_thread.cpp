@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "hooke/base/assert.h"
+#include "hooke/base/printable.h"
 #include "hooke/render/film.h"
 #include "hooke/render/interpolate.h"
 #include "studio.h"
@@ -86,7 +87,7 @@ struct FilmThread::Impl {
   }
 
   void give_up(Error why) {
-    spdlog::error("the film ends here: {}", why.text());
+    spdlog::error("the film ends here: {}", printable(why.text(), 1000));
     const std::lock_guard lock(mutex);
     error = std::move(why);
     waiting.clear();

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "hooke/base/printable.h"
 #include "hooke/io/describe_file.h"
 #include "log.h"
 #include "progress.h"
@@ -15,12 +16,12 @@ ExitStatus info_command(const std::filesystem::path& file) {
   if (!found) return report_error(found.error());
   const FileDescription& it = *found;
 
-  fmt::print("{}: {} of \"{}\"\n", file.string(), to_string(it.kind), it.info.scene);
+  fmt::print("{}: {} of \"{}\"\n", printable(file.string()), to_string(it.kind), printable(it.info.scene));
   fmt::print("  size        {:.1f} MB\n", static_cast<double>(it.bytes) * 1e-6);
   fmt::print("  time step   {} s, {}, {} precision\n", it.info.time_step, to_string(it.info.integrator),
              to_string(it.info.precision));
   for (const MaterialInfo& material : it.info.materials) {
-    fmt::print("  material    {}: radius {} m, mass {} kg\n", material.name, material.radius, material.mass);
+    fmt::print("  material    {}: radius {} m, mass {} kg\n", printable(material.name), material.radius, material.mass);
   }
   if (it.kind == FileDescription::Kind::checkpoint) {
     fmt::print("  state       step {}, t = {} s, {} particles\n", it.steps.front(), it.times.front(),

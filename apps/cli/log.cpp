@@ -8,6 +8,9 @@
 #include <spdlog/spdlog.h>
 
 #include <memory>
+#include <string>
+
+#include "hooke/base/printable.h"
 
 namespace hooke::cli {
 
@@ -33,9 +36,21 @@ Expected<void> log_to_file(const std::filesystem::path& file) {
   }
 }
 
+namespace {
+
+// A finding may quote a file: nothing of that may steer the terminal.
+std::string shown(const Finding& finding) {
+  const std::string text = finding.where.empty() ? finding.message : finding.where + ": " + finding.message;
+  return printable(text, text.size());
+}
+
+}  // namespace
+
+void report_warning(const Finding& warning) { spdlog::warn(shown(warning)); }
+
 ExitStatus report_error(const Error& error, bool running) {
   for (const Finding& finding : error.findings) {
-    spdlog::error(finding.where.empty() ? finding.message : finding.where + ": " + finding.message);
+    spdlog::error(shown(finding));
   }
   switch (error.kind) {
     case Error::Kind::bad_input:

@@ -16,6 +16,9 @@ void start_log(bool quiet);
 /// From now on also appends all messages to `file`. To be called while no other thread logs.
 Expected<void> log_to_file(const std::filesystem::path& file);
 
+/// Prints a warning of the loader.
+void report_warning(const Finding& warning);
+
 /// Prints every finding. A file that can't be read or written is bad input before a run starts and a failed run after.
 ExitStatus report_error(const Error& error, bool running = false);
 

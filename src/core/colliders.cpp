@@ -10,6 +10,7 @@
 #include <set>
 
 #include "hooke/base/assert.h"
+#include "hooke/base/printable.h"
 #include "hooke/base/sine.h"
 #include "hooke/core/scene.h"
 
@@ -189,7 +190,8 @@ std::vector<Finding> check_colliders(const Scene& scene) {
     const Collider& c = scene.colliders[i];
     const std::string where = fmt::format("colliders[{}]", i);
     if (!names.insert(c.name).second) {
-      findings.push_back({where + ".name", fmt::format("\"{}\" is the name of another collider, too", c.name)});
+      findings.push_back(
+          {where + ".name", fmt::format("\"{}\" is the name of another collider, too", printable(c.name))});
     }
     for (Finding& finding : validate(c.shape, where + ".shape")) findings.push_back(std::move(finding));
     if (c.material && *c.material >= scene.materials.size()) {

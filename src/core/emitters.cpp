@@ -10,6 +10,7 @@
 #include <set>
 
 #include "hooke/base/assert.h"
+#include "hooke/base/printable.h"
 #include "hooke/core/births.h"
 #include "hooke/core/free_space.h"
 #include "hooke/core/placed_colliders.h"
@@ -27,9 +28,10 @@ class EmitterCheck {
       add("material", "is no material of the scene");
     } else if (!scene.materials[e.material].is_of_particles()) {
       add("material", fmt::format("\"{}\" has no radius and no mass: only colliders may have it",
-                                  scene.materials[e.material].name));
+                                  printable(scene.materials[e.material].name)));
     } else if (scene.materials[e.material].fixed) {
-      add("material", fmt::format("\"{}\" is fixed: its particles could not leave", scene.materials[e.material].name));
+      add("material",
+          fmt::format("\"{}\" is fixed: its particles could not leave", printable(scene.materials[e.material].name)));
     }
     if (std::holds_alternative<PlaneShape>(e.shape)) {
       add("shape", "must be a disc, or a box, sphere, capsule, cylinder or mesh, whose inside particles are born in");
@@ -80,7 +82,8 @@ std::vector<Finding> check_emitters(const Scene& scene) {
     const Emitter& e = scene.emitters[i];
     const std::string where = fmt::format("emitters[{}]", i);
     if (!names.insert(e.name).second) {
-      findings.push_back({where + ".name", fmt::format("\"{}\" is the name of another emitter, too", e.name)});
+      findings.push_back(
+          {where + ".name", fmt::format("\"{}\" is the name of another emitter, too", printable(e.name))});
     }
     for (Finding& finding : validate(e.shape, where + ".shape")) findings.push_back(std::move(finding));
     EmitterCheck(where, findings).check(e, scene);

@@ -17,6 +17,9 @@ namespace hooke {
 /// How pictures show a material.
 enum class MaterialLook { ball, water, spark };
 
+/// Materials that a scene may have: back ends hold a table of all pairs.
+inline constexpr std::size_t kMostMaterials = 1024;
+
 /// What particles are made of.
 struct Material {
   std::string name;

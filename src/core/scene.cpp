@@ -10,6 +10,7 @@
 #include <set>
 
 #include "hooke/base/assert.h"
+#include "hooke/base/printable.h"
 
 namespace hooke {
 namespace {
@@ -91,13 +92,13 @@ void check_periods(const Scene& scene, Checker& check) {
 }
 
 void check_materials(const Scene& scene, Checker& check) {
-  constexpr std::size_t kMost = 1024;  // back ends hold a table of all pairs
-  if (scene.materials.size() > kMost) {
-    check.add("materials", fmt::format("{} materials, at most {} are possible", scene.materials.size(), kMost));
+  if (scene.materials.size() > kMostMaterials) {
+    check.add("materials",
+              fmt::format("{} materials, at most {} are possible", scene.materials.size(), kMostMaterials));
   }
   std::set<std::string> names;
   for (const Material& m : scene.materials) {
-    const std::string where = "materials." + m.name;
+    const std::string where = "materials" + path_step(m.name);
     if (m.name == "wall") check.add(where, "\"wall\" is reserved for the domain's walls; choose another name");
     if (!names.insert(m.name).second) check.add(where, "a second material of this name");
     if (m.is_of_particles() || m.radius != 0 || m.mass != 0) {

@@ -87,7 +87,7 @@ struct Scene {
   Precision precision = Precision::single_precision;
   Vec3d gravity{0, -9.8, 0};  ///< m/s^2
   Domain domain;
-  std::vector<Material> materials;        ///< at most 1,024
+  std::vector<Material> materials;        ///< at most kMostMaterials
   std::vector<ContactEntry> contacts;     ///< pairs that do not follow the mixing rule
   std::vector<Collider> colliders;
   std::vector<Emitter> emitters;          ///< where particles are born

@@ -14,6 +14,7 @@
 #include "hooke/base/assert.h"
 #include "hooke/base/floating_point.h"
 #include "hooke/base/hash.h"
+#include "hooke/base/printable.h"
 #include "hooke/core/snapshot_pool.h"
 #include "hooke/core/step.h"
 
@@ -45,7 +46,7 @@ std::string particle_fault(const Scene& scene, std::size_t material, const Vec3d
   }
   if (!scene.materials[material].is_of_particles()) {
     return fmt::format("material \"{}\" has no radius and no mass: only colliders may have it",
-                       scene.materials[material].name);
+                       printable(scene.materials[material].name));
   }
   if (!is_finite(x, single)) return "position " + shown(x) + " is not finite";
   if (!is_finite(v, single)) return "velocity " + shown(v) + " is not finite";
@@ -189,7 +190,8 @@ struct Simulation::Impl {
         return fmt::format(
             "particle {} and collider \"{}\" approach at {:.6g} m/s, {:.3g} m in one step: more than the particle's "
             "radius; {}",
-            condition.particle, scene.colliders[condition.partner].name, condition.speed, moved, likely_cause());
+            condition.particle, printable(scene.colliders[condition.partner].name), condition.speed, moved,
+            likely_cause());
     }
     return {};
   }
@@ -452,7 +454,7 @@ Expected<void> Simulation::set_material(const Material& material) {
     // All accelerations anew: those of the last step are of the old material.
     return s.start(now, true, s.backend->broken_springs());
   }
-  return fail(Error::Kind::bad_input, "materials." + material.name, "there is no material of this name");
+  return fail(Error::Kind::bad_input, "materials" + path_step(material.name), "there is no material of this name");
 }
 
 std::span<const ColliderPose> Simulation::collider_poses() const { return impl_->run.poses; }

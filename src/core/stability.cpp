@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 
+#include "hooke/base/printable.h"
 #include "hooke/core/simulation.h"
 
 namespace hooke {
@@ -65,19 +66,21 @@ class Smallest {
 
 void consider_contacts(const Scene& scene, Smallest& smallest) {
   const ContactTable table(scene.materials, scene.contacts);
+  std::vector<std::string> names;
+  for (const Material& m : scene.materials) names.push_back(printable(m.name));
   for (std::size_t a = 0; a < scene.materials.size(); ++a) {
     const Material& m = scene.materials[a];
     if (!m.is_of_particles()) continue;
     for (std::size_t b = a; b < scene.materials.size(); ++b) {
       const Material& n = scene.materials[b];
       if (!n.is_of_particles() || !m.interacts || !n.interacts) continue;
-      smallest.consider_pile(table.pair(a, b).linear, effective_mass(m.mass, n.mass), m.name + " - " + n.name);
+      smallest.consider_pile(table.pair(a, b).linear, effective_mass(m.mass, n.mass), names[a] + " - " + names[b]);
     }
-    smallest.consider_boundary(table.wall(a).linear, m.mass, m.name + " - wall");
+    smallest.consider_boundary(table.wall(a).linear, m.mass, names[a] + " - wall");
     for (const Collider& collider : scene.colliders) {
       if (!collider.material) continue;
       smallest.consider_boundary(table.pair(a, *collider.material).linear, m.mass,
-                                 m.name + " - " + scene.materials[*collider.material].name);
+                                 names[a] + " - " + names[*collider.material]);
     }
   }
 }
@@ -109,7 +112,7 @@ void consider_braking(const Scene& scene, Smallest& smallest) {
     for (const auto& [rate, name] : parts) {
       if (rate > kGoodPart * all) named += (named.empty() ? "" : " and ") + name;
     }
-    smallest.consider_drag(all, m.mass, named + (named == "drag" ? " of " : " on ") + m.name);
+    smallest.consider_drag(all, m.mass, named + (named == "drag" ? " of " : " on ") + printable(m.name));
   }
 }
 
@@ -123,7 +126,7 @@ std::string springs_around(const Structure& structure, std::uint64_t id, const M
     for (; s < group.end; ++s) ends_here = ends_here || springs.a[s] == id || springs.b[s] == id;
     if (ends_here) names += (names.empty() ? "" : " and ") + group.name;
   }
-  return names + (names.empty() ? "" : ", ") + m.name;
+  return names + (names.empty() ? "" : ", ") + printable(m.name);
 }
 
 // Wind on a triangle brakes each corner along the normal, by a third of k_A A (docs/theory.md eq. 15): no mode of a

@@ -11,6 +11,7 @@
 
 #include "hooke/base/floating_point.h"
 #include "hooke/base/hash.h"
+#include "hooke/base/printable.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/hdf5.h"
 #include "hooke/io/population_tables.h"
@@ -280,7 +281,7 @@ std::vector<Finding> check_resumable(const RunInfo& checkpoint, const RunInfo& s
   };
   const auto names = [](const RunInfo& info) {
     std::string all;
-    for (const MaterialInfo& m : info.materials) all += (all.empty() ? "" : ", ") + m.name;
+    for (const MaterialInfo& m : info.materials) all += (all.empty() ? "" : ", ") + printable(m.name);
     return all;
   };
   differs("time.step", checkpoint.time_step, scene.time_step);
