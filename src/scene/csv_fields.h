@@ -11,8 +11,8 @@
 
 namespace hooke {
 
-/// The fields of one line of CSV, without blanks around them. A field's text lies in the line, or in `unquoted` where
-/// quotes had to be removed.
+/// The fields of one line of CSV, without blanks around them but with those between quotes. A field's text lies in the
+/// line, or in `unquoted` where quotes had to be removed.
 struct CsvFields {
   std::vector<std::string_view> at;
   std::vector<std::string> unquoted;
@@ -34,27 +34,28 @@ struct CsvFields {
  private:
   void split_quoted(std::string_view line) {
     std::string field;
+    std::size_t kept = 0;  // bytes of the field up to its last quote, which blanks at its end don't shorten
+    const auto end_field = [&] {
+      while (field.size() > kept && trimmed(std::string_view(field).substr(field.size() - 1)).empty()) field.pop_back();
+      unquoted.push_back(std::exchange(field, ""));
+      kept = 0;
+    };
     for (std::size_t i = 0; i < line.size(); ++i) {
+      const bool blank = trimmed(line.substr(i, 1)).empty();
       if (line[i] == '"' && open_quote && i + 1 < line.size() && line[i + 1] == '"') {
         field += line[i++];  // a doubled quote within quotes stands for one quote
       } else if (line[i] == '"') {
         open_quote = !open_quote;
+        kept = field.size();
       } else if (line[i] == ',' && !open_quote) {
-        unquoted.push_back(std::exchange(field, ""));
-      } else {
+        end_field();
+      } else if (open_quote || !blank || !field.empty()) {
         field += line[i];
       }
     }
-    unquoted.push_back(std::move(field));
-    for (const std::string& text : unquoted) at.push_back(trimmed(text));
+    end_field();
+    at.assign(unquoted.begin(), unquoted.end());
   }
 };
-
-/// `line` without the byte order mark that some programs put before a header.
-inline std::string_view without_byte_order_mark(std::string_view line) {
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  if (line.substr(0, kByteOrderMark.size()) == kByteOrderMark) line.remove_prefix(kByteOrderMark.size());
-  return line;
-}
 
 }  // namespace hooke

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// CSV: a header, then one particle per line. LF, CRLF, a byte order mark, quoted fields and blank lines are allowed.
+// CSV: a header, then one particle per line. Quoted fields and blank lines are allowed.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -44,8 +44,7 @@ bool only_blanks_follow(FileScanner& in) {
 }  // namespace
 
 void read_csv_particles(FileScanner& in, ParticleRows& rows) {
-  const std::string first(in.line().value_or(""));
-  const std::string_view header = without_byte_order_mark(first);
+  const std::string header(in.line().value_or(""));
   if (trimmed(header).empty() && only_blanks_follow(in)) {
     throw FileFault(1, "is empty; it must start with a header that has columns x, y, z");
   }

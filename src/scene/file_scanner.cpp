@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "hooke/base/assert.h"
+#include "hooke/scene/words.h"
 
 namespace hooke {
 
@@ -20,6 +21,7 @@ FileScanner::FileScanner(const std::filesystem::path& file) : buffer_(kLongestLi
   std::setvbuf(file_.get(), nullptr, _IONBF, 0);
   const auto size = std::filesystem::file_size(file, fault);
   if (!fault) size_ = size;
+  pass_byte_order_mark();
 }
 
 bool FileScanner::fetch(std::size_t count) {
@@ -37,26 +39,49 @@ void FileScanner::pass(std::size_t count) {
   place_.offset += count;
 }
 
+void FileScanner::pass_byte_order_mark() {
+  constexpr std::size_t kMark = 3;  // bytes
+  fetch(kMark);
+  const std::string_view start(buffer_.data(), std::min(at_hand(), kMark));
+  pass(start.size() - without_byte_order_mark(start).size());
+  const std::string_view two = start.substr(0, 2);
+  if (two == "\xff\xfe" || two == "\xfe\xff") throw FileFault(0, "is a text in UTF-16; must be in UTF-8");
+}
+
+const char* FileScanner::find_line_end(std::size_t from) const {
+  const char* const start = buffer_.data() + begin_ + from;
+  const std::size_t size = at_hand() - from;
+  const auto* const lf = static_cast<const char*>(std::memchr(start, '\n', size));
+  const std::size_t before = lf == nullptr ? size : static_cast<std::size_t>(lf - start);
+  const auto* const cr = static_cast<const char*>(std::memchr(start, '\r', before));
+  return cr == nullptr ? lf : cr;
+}
+
+std::size_t FileScanner::size_of_line_end(const char* end) {
+  if (*end == '\n') return 1;
+  const bool lf_follows = end + 1 < buffer_.data() + end_ && end[1] == '\n';
+  if (!lone_cr_) lone_cr_ = !lf_follows;
+  return lf_follows && !*lone_cr_ ? 2 : 1;
+}
+
 std::optional<std::string_view> FileScanner::line() {
-  const auto find_end = [this](std::size_t from) {
-    return static_cast<const char*>(std::memchr(buffer_.data() + begin_ + from, '\n', at_hand() - from));
-  };
-  const char* end = find_end(0);
-  if (end == nullptr) {
-    const std::size_t looked_at = at_hand();
+  const char* end = find_line_end(0);
+  // What follows a CR must be at hand, too.
+  if (end == nullptr || end + 1 == buffer_.data() + end_) {
+    const std::size_t looked_at = end == nullptr ? at_hand() : static_cast<std::size_t>(end - buffer_.data()) - begin_;
     if (!fetch(buffer_.size()) && at_hand() == 0) return std::nullopt;
-    end = find_end(looked_at);
+    end = find_line_end(looked_at);
   }
   ++place_.line;
-  const char* start = buffer_.data() + begin_;
+  const char* const start = buffer_.data() + begin_;
   const std::size_t length = end == nullptr ? at_hand() : static_cast<std::size_t>(end - start);
   if (length > kLongestLine) {
     throw FileFault(place_.line, "is longer than " + std::to_string(kLongestLine) + " bytes: no line of particles");
   }
-  pass(length + (end == nullptr ? 0 : 1));
-  std::string_view line(start, length);
-  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-  return line;
+  const std::size_t end_size = end == nullptr ? 0 : size_of_line_end(end);
+  if (!lone_cr_) lone_cr_ = false;
+  pass(length + end_size);
+  return std::string_view(start, length);
 }
 
 bool FileScanner::skip_lines(std::uint64_t count) {

@@ -33,7 +33,9 @@ class FileScanner {
 
   explicit FileScanner(const std::filesystem::path& file);
 
-  /// The next line without its end (LF or CRLF), or nothing at the end. Valid until the next call.
+  /// The next line without its end (LF, CRLF or CR), or nothing at the end. Valid until the next call. A byte order
+  /// mark is no part of the first line. Where CR alone ends the first line, an LF belongs to what follows: binary data
+  /// may begin with it.
   std::optional<std::string_view> line();
   /// Skips `count` lines. False where the file has fewer.
   bool skip_lines(std::uint64_t count);
@@ -62,6 +64,11 @@ class FileScanner {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
 
+  void pass_byte_order_mark();
+  // The first end of a line among the unread bytes from `from` on, or null.
+  const char* find_line_end(std::size_t from) const;
+  // The bytes that the line end at `end` takes.
+  std::size_t size_of_line_end(const char* end);
   // Reads until the buffer holds `count` unread bytes. False at the end of the file.
   bool fetch(std::size_t count);
   std::size_t at_hand() const { return end_ - begin_; }
@@ -72,6 +79,7 @@ class FileScanner {
   std::vector<char> buffer_;
   std::size_t begin_ = 0;  // unread bytes: [begin_, end_) of the buffer
   std::size_t end_ = 0;
+  std::optional<bool> lone_cr_;  // whether CR alone ends the first line
   Place place_;
 };
 

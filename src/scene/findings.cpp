@@ -6,54 +6,66 @@
 #include <algorithm>
 #include <limits>
 
-#include "hooke/scene/json_path.h"
+#include "hooke/base/printable.h"
+#include "hooke/scene/json_lines.h"
 
 namespace hooke {
 
-void Findings::forget_lines(std::string_view path) { without_line_.emplace_back(path); }
+namespace {
+
+constexpr std::size_t kLongestPlace = 400;  // bytes: a key may be as long as the file
+
+}  // namespace
 
 void Findings::add(const std::string& path, std::string message) {
-  const int line = line_of(path);
-  if (line > 0) message += " (line " + std::to_string(line) + ")";
-  paths_.push_back(path);
-  all_.emplace_back(line, Finding{path.empty() ? document_ : path, std::move(message)});
+  if (all_.size() < kMost) paths_.insert(path);
+  const bool in_text = !without_line_.contains_at_or_above(path);
+  keep({{path.empty() ? document_ : path, std::move(message)}, path, in_text});
 }
 
 void Findings::add_elsewhere(std::string where, std::string message) {
-  all_.emplace_back(0, Finding{std::move(where), std::move(message)});
+  keep({{std::move(where), std::move(message)}, "", false});
 }
 
-std::vector<Finding> Findings::take() {
-  const auto rank = [](const auto& entry) { return entry.first > 0 ? entry.first : std::numeric_limits<int>::max(); };
-  std::stable_sort(all_.begin(), all_.end(), [rank](const auto& a, const auto& b) { return rank(a) < rank(b); });
-  std::vector<Finding> taken;
-  taken.reserve(all_.size());
-  for (auto& entry : all_) taken.push_back(std::move(entry.second));
-  all_.clear();
-  return taken;
-}
-
-int Findings::line_of(const std::string& path) const {
-  for (const std::string& overridden : without_line_) {
-    if (is_at_or_below(path, overridden)) return 0;
+void Findings::keep(Entry entry) {
+  if (all_.size() < kMost) {
+    all_.push_back(std::move(entry));
+  } else {
+    left_out_ = true;
   }
-  // A missing value has no line of its own; use the line of the object that lacks it.
-  auto line = lines_.find(path);
-  if (line == lines_.end()) {
-    const auto last = path.find_last_of(".[");
-    line = lines_.find(last == std::string::npos ? "" : path.substr(0, last));
-  }
-  return line == lines_.end() ? 0 : line->second;
 }
 
 bool Findings::touches(std::string_view path) const {
-  return std::any_of(paths_.begin(), paths_.end(), [path](const std::string& found) {
-    return is_at_or_below(found, path) || is_at_or_below(path, found);
-  });
+  return left_out_ || paths_.contains_at_or_above(path) || paths_.contains_at_or_below(path);
 }
 
-bool Findings::touches_at(std::string_view path) const {
-  return std::find(paths_.begin(), paths_.end(), path) != paths_.end();
+void Findings::find_lines() {
+  std::vector<std::string> paths;
+  for (const Entry& entry : all_) {
+    if (entry.in_text) paths.push_back(entry.path);
+  }
+  if (text_.empty() || paths.empty()) return;
+  const std::vector<int> lines = lines_of(text_, paths);
+  auto line = lines.begin();
+  for (Entry& entry : all_) {
+    if (entry.in_text) entry.line = *line++;
+    if (entry.line > 0) entry.finding.message += " (line " + std::to_string(entry.line) + ")";
+  }
+}
+
+std::vector<Finding> Findings::take() {
+  find_lines();
+  const auto rank = [](const Entry& entry) { return entry.line > 0 ? entry.line : std::numeric_limits<int>::max(); };
+  std::stable_sort(all_.begin(), all_.end(), [rank](const Entry& a, const Entry& b) { return rank(a) < rank(b); });
+  std::vector<Finding> taken;
+  taken.reserve(all_.size() + 1);
+  for (Entry& entry : all_) {
+    taken.push_back({printable(entry.finding.where, kLongestPlace), std::move(entry.finding.message)});
+  }
+  if (left_out_) taken.push_back({document_, "has more findings, which are left out here"});
+  all_.clear();
+  left_out_ = false;
+  return taken;
 }
 
 }  // namespace hooke

@@ -7,37 +7,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <unordered_set>
 
+#include "hooke/scene/json_cursor.h"
 #include "hooke/scene/json_path.h"
+#include "hooke/scene/words.h"
 
 namespace hooke {
 namespace {
-
-// Walks over the text for the parser and tells the event handler how far the parser has read.
-struct CountingIterator {
-  using iterator_category = std::input_iterator_tag;
-  using value_type = char;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const char*;
-  using reference = const char&;
-
-  const char* at = nullptr;
-  const char** furthest = nullptr;
-
-  reference operator*() const { return *at; }
-  CountingIterator& operator++() {
-    *furthest = ++at;
-    return *this;
-  }
-  CountingIterator operator++(int) {
-    const CountingIterator before = *this;
-    ++*this;
-    return before;
-  }
-  friend bool operator==(const CountingIterator& a, const CountingIterator& b) { return a.at == b.at; }
-};
 
 struct Overflow {
   std::size_t begin = 0;
@@ -47,16 +24,12 @@ struct Overflow {
 // Builds the value from the parser's events and notes faults that the parser itself would accept.
 class Builder : public nlohmann::json_sax<Json> {
  public:
-  Builder(std::string_view text, const std::string& name, const std::string& path, JsonReading& out)
-      : text_(text),
+  Builder(JsonCursor& cursor, const std::string& name, const std::string& path, JsonReading& out)
+      : cursor_(cursor),
         name_(name),
         root_path_(path),
-        out_(out),
-        read_to_(text.data()),
-        counted_to_(text.data()) {}
+        out_(out) {}
 
-  CountingIterator begin() { return {text_.data(), &read_to_}; }
-  CountingIterator end() { return {text_.data() + text_.size(), &read_to_}; }
   Overflow overflow() const { return overflow_; }
 
   bool null() override { return put(nullptr); }
@@ -80,11 +53,10 @@ class Builder : public nlohmann::json_sax<Json> {
   bool key(string_t& v) override {
     Level& level = open_.back();
     level.doubled = !level.keys.insert(v).second;
-    if (level.doubled && level.container != nullptr) {
-      out_.faults.emplace_back(join_path(level.path, v),
-                               fmt::format("is given twice in one object, the second time on line {}", line()));
-    }
     level.key = std::move(v);
+    if (level.doubled && level.container != nullptr) {
+      note(fmt::format("is given twice in one object, the second time on line {}", cursor_.line()));
+    }
     return true;
   }
 
@@ -92,8 +64,7 @@ class Builder : public nlohmann::json_sax<Json> {
     constexpr int kNumberOverflow = 406;
     if (fault.id == kNumberOverflow) {
       overflow_ = {position - token.size(), token.size()};
-      out_.faults.emplace_back(next_path(),
-                               fmt::format("is {}, beyond the largest number (1.8e308)", printable(token, 40)));
+      out_.faults.emplace_back(path(), fmt::format("is {}, beyond the largest number (1.8e308)", printable(token, 40)));
       return false;
     }
     // "[json.exception.parse_error.101] parse error at line 3, column 7: what": our own message names the place.
@@ -110,28 +81,25 @@ class Builder : public nlohmann::json_sax<Json> {
   // An array or object being read.
   struct Level {
     Json* container;  // null within the second value of a duplicate key, which is dropped
-    std::string path;
     std::string key;    // in an object, the key read last
     bool doubled;       // the object already had that key
     std::unordered_set<std::string> keys;
-    std::size_t index;  // in an array, the index of the next value
+    std::size_t index;  // in an array, the index of the value being read
     bool is_array;
   };
 
-  std::string next_path() const {
-    if (open_.empty()) return root_path_;
-    const Level& level = open_.back();
-    return level.is_array ? join_path(level.path, level.index) : join_path(level.path, level.key);
+  // Of the value being read. Made where a fault needs it: kept for each value, paths would take more than the text.
+  std::string path() const {
+    std::string all = root_path_;
+    for (const Level& level : open_) {
+      all = level.is_array ? join_path(all, level.index) : join_path(all, level.key);
+    }
+    return all;
   }
 
-  // The line of the token read last. The parser reads one character past the end of a number.
-  int line() {
-    const char* const token_end = read_to_ > text_.data() ? read_to_ - 1 : read_to_;
-    if (token_end > counted_to_) {
-      line_ += static_cast<int>(std::count(counted_to_, token_end, '\n'));
-      counted_to_ = token_end;
-    }
-    return line_;
+  // More than the findings that are kept would only take memory.
+  void note(std::string message) {
+    if (out_.faults.size() <= Findings::kMost) out_.faults.emplace_back(path(), std::move(message));
   }
 
   // Puts a value into its container; null within a value that is dropped.
@@ -147,46 +115,42 @@ class Builder : public nlohmann::json_sax<Json> {
   }
 
   bool put(Json&& value) {
-    if (insert(std::move(value)) != nullptr) out_.lines.emplace(next_path(), line());
-    if (!open_.empty()) ++open_.back().index;
-    return true;
+    insert(std::move(value));
+    return end_value();
   }
 
   bool open(Json&& empty) {
-    if (open_.size() >= kDepthLimit) {
-      const std::size_t at = static_cast<std::size_t>(read_to_ - text_.data());
-      return stop(at == 0 ? 0 : at - 1, fmt::format("is nested deeper than {} levels", kDepthLimit));
-    }
+    if (open_.size() >= kDepthLimit)
+      return stop(cursor_.offset(), fmt::format("is nested deeper than {} levels", kDepthLimit));
     const bool is_array = empty.is_array();
-    std::string path = next_path();
     Json* const container = insert(std::move(empty));
-    if (container != nullptr) out_.lines.emplace(path, line());
-    if (!open_.empty()) ++open_.back().index;
-    open_.push_back({container, std::move(path), "", false, {}, 0, is_array});
+    open_.push_back({container, "", false, {}, 0, is_array});
     return true;
   }
 
   bool close() {
     open_.pop_back();
+    return end_value();
+  }
+
+  bool end_value() {
+    if (!open_.empty()) ++open_.back().index;
     return true;
   }
 
   bool stop(std::size_t offset, std::string what) {
-    const std::string_view before = text_.substr(0, offset);
-    const auto newline = before.rfind('\n');
-    const std::size_t column = newline == std::string_view::npos ? before.size() + 1 : before.size() - newline;
-    const auto lines = 1 + std::count(before.begin(), before.end(), '\n');
-    out_.stopped = Finding{fmt::format("{}:{}:{}", name_, lines, column), std::move(what)};
+    const std::string_view before = cursor_.text().substr(0, offset);
+    const auto line_end = before.find_last_of("\r\n");
+    const std::size_t column = line_end == std::string_view::npos ? before.size() + 1 : before.size() - line_end;
+    out_.stopped =
+        Finding{fmt::format("{}:{}:{}", name_, 1 + count_line_ends(before, 0, offset), column), std::move(what)};
     return false;
   }
 
-  std::string_view text_;
+  JsonCursor& cursor_;
   const std::string& name_;
   const std::string& root_path_;
   JsonReading& out_;
-  const char* read_to_;
-  const char* counted_to_;
-  int line_ = 1;
   std::vector<Level> open_;
   Overflow overflow_;
 };
@@ -218,6 +182,7 @@ void write_pretty(const Json& value, std::size_t indent, std::string& out) {
 
 JsonReading read_json(std::string_view text, const std::string& name, const std::string& path) {
   JsonReading reading;
+  text = without_byte_order_mark(text);
   if (is_blank(text)) {
     reading.syntax_error = true;
     reading.stopped = Finding{name, text.empty() ? "is empty" : "is blank: it holds nothing but white space"};
@@ -229,37 +194,28 @@ JsonReading read_json(std::string_view text, const std::string& name, const std:
   std::string copy;
   std::vector<std::pair<std::string, std::string>> overflows;
   while (true) {
-    Builder builder(text, name, path, reading);
-    const bool read = Json::sax_parse(builder.begin(), builder.end(), &builder, Json::input_format_t::json,
+    JsonCursor cursor(text);
+    Builder builder(cursor, name, path, reading);
+    const bool read = Json::sax_parse(cursor.begin(), cursor.end(), &builder, Json::input_format_t::json,
                                       /*strict=*/true, /*ignore_comments=*/true);
     const Overflow overflow = builder.overflow();
     if (overflow.size == 0) {
       if (!read) reading.value.reset();
       reading.faults.insert(reading.faults.begin(), overflows.begin(), overflows.end());
-      return reading;
+      break;
     }
     overflows.push_back(std::move(reading.faults.back()));
     reading = JsonReading{};
-    if (overflows.size() > kMostOverflows) {
-      reading.faults = std::move(overflows);
-      return reading;
-    }
     if (copy.empty()) copy = text;
     copy.replace(overflow.begin, overflow.size, overflow.size - 1, ' ').insert(overflow.begin, 1, '0');
     text = copy;
+    if (overflows.size() > kMostOverflows) {
+      reading.faults = std::move(overflows);
+      break;
+    }
   }
-}
-
-std::string printable(std::string_view text, std::size_t most) {
-  // The dump replaces ill-formed bytes and escapes control characters; its quotes are removed.
-  std::string all = Json(std::string(text.substr(0, most))).dump(-1, ' ', false, Json::error_handler_t::replace);
-  all = all.substr(1, all.size() - 2);
-  std::string plain;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i] == '\\' && i + 1 < all.size() && (all[i + 1] == '"' || all[i + 1] == '\\')) ++i;
-    plain += all[i];
-  }
-  return text.size() > most ? plain + "..." : plain;
+  reading.readable = std::move(copy);
+  return reading;
 }
 
 std::string brief(const Json& value) {

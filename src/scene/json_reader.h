@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hooke/base/expected.h"
+#include "hooke/base/printable.h"
 #include "hooke/scene/findings.h"
 
 namespace hooke {
@@ -22,11 +23,12 @@ inline constexpr std::size_t kDepthLimit = 64;
 struct JsonReading {
   std::optional<Json> value;      ///< nothing where the text can't be read to its end
   bool syntax_error = false;      ///< the text is not JSON; if false and `value` is empty, it is nested too deeply
-  LineMap lines;                  ///< of every value, by its path
-  /// Duplicate keys and numbers too large for a double, by path; the first of two equal keys is kept, and 0 replaces
-  /// the number. `stopped` is what stopped the reading, if anything did, at "name:line:column".
+  /// Duplicate keys and numbers too large for a double, by path, no more than findings are kept; the first of two equal
+  /// keys is kept, and 0 replaces the number.
   std::vector<std::pair<std::string, std::string>> faults;
+  /// What stopped the reading, if anything did, at "name:line:column".
   std::optional<Finding> stopped;
+  std::string readable;  ///< the text with each number replaced that is too large; empty where there is none
 };
 
 /// Reads JSON with // and /* */ comments. `name` is the name of the text in messages, `path` the path of its value.
@@ -34,9 +36,6 @@ JsonReading read_json(std::string_view text, const std::string& name, const std:
 
 /// A value in few words for messages: at most about 60 bytes, always valid UTF-8.
 std::string brief(const Json& value);
-
-/// `text` cut to `most` bytes, with invalid UTF-8 and unprintable characters replaced.
-std::string printable(std::string_view text, std::size_t most = 200);
 
 /// JSON for people: two spaces a level, lists of plain values on one line; numbers have the fewest digits that read
 /// back to the same value.

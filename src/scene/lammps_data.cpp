@@ -71,6 +71,7 @@ class DataReader {
     switch (section_) {
       case Section::head:
         if (words_.size() == 2 && words_[1] == "atoms") read_atom_count();
+        if (words_.size() >= 4) read_box();
         break;
       case Section::masses:
         if (!comment.empty()) name_type(words_[0], comment);
@@ -114,6 +115,43 @@ class DataReader {
     count_ = count;
   }
 
+  // "0 4 xlo xhi"; of a tilted box "1.0 0.5 0.0 xy xz yz", or its edges, "4 0 0 avec".
+  void read_box() {
+    struct Line {
+      std::vector<std::string_view> keys;
+      std::vector<std::pair<std::size_t, int>> places;  // edge and component of each number
+    };
+    static const std::vector<Line> lines{{{"xy", "xz", "yz"}, {{1, 0}, {2, 0}, {2, 1}}},
+                                         {{"avec"}, {{0, 0}, {0, 1}, {0, 2}}},
+                                         {{"bvec"}, {{1, 0}, {1, 1}, {1, 2}}},
+                                         {{"cvec"}, {{2, 0}, {2, 1}, {2, 2}}}};
+    constexpr std::string_view kBounds[] = {"xlo", "ylo", "zlo"};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      double low = 0, high = 0;
+      if (words_[2] != kBounds[axis] || !read_number(words_[0], low) || !read_number(words_[1], high)) continue;
+      set_edge(axis, static_cast<int>(axis), high - low);
+    }
+    for (const Line& line : lines) {
+      const std::size_t count = line.places.size();
+      if (words_.size() != count + line.keys.size() ||
+          !std::equal(line.keys.begin(), line.keys.end(), words_.begin() + static_cast<std::ptrdiff_t>(count))) {
+        continue;
+      }
+      for (std::size_t k = 0; k < count; ++k) {
+        double value = 0;
+        if (read_number(words_[k], value)) set_edge(line.places[k].first, line.places[k].second, value);
+      }
+    }
+  }
+
+  // Findings name the line that says that it is tilted, or else where it begins.
+  void set_edge(std::size_t edge, int axis, double value) {
+    if (!box_) box_.emplace().line = in_.line_number();
+    const bool was_tilted = box_->is_tilted();
+    component(box_->edge[edge], axis) = value;
+    if (!was_tilted && box_->is_tilted()) box_->line = in_.line_number();
+  }
+
   void read_name(std::string_view text) {
     const std::string_view number = take_word(text);
     name_type(number, trimmed(text));
@@ -138,6 +176,7 @@ class DataReader {
                       fmt::format("is of atom style \"{}\"; the section must be headed \"Atoms # STYLE\", of {}",
                                   printable(style_, 40), quoted_list(known)));
     }
+    if (box_) rows_.set_box(*box_);
     rows_.set_labels(labels_);
     const bool usable = rows_.set_columns(columns_, in_.line_number());
     done_ = !usable || !rows_.expect(*count_, in_.remaining() / kSmallestRow + 2);
@@ -181,6 +220,7 @@ class DataReader {
   ParticleRows& rows_;
   Section section_ = Section::head;
   std::optional<std::uint64_t> count_;
+  std::optional<FileBox> box_;
   std::uint64_t atoms_ = 0;
   std::string style_;
   std::vector<Column> columns_;

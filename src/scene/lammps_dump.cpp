@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 #include "hooke/physics/periodic.h"
 #include "hooke/scene/json_reader.h"
@@ -22,10 +23,9 @@ constexpr std::uint64_t kSmallestRow = 6;  // "0 0 0\n", bytes
 
 struct Head {
   std::optional<std::uint64_t> count;
-  std::array<std::array<double, 2>, 3> box{};  // bounds of each axis
-  std::array<bool, 3> periodic{};  // of a box that is not tilted
-  bool has_box = false;
-  bool tilted = false;
+  std::optional<FileBox> box;
+  std::array<std::array<double, 2>, 3> bounds{};  // of each axis, m; of a tilted box they are not its faces
+  bool tilted = false;  // it is written as a tilted box is, whose tilts may be 0
   std::vector<std::string> titles;
 };
 
@@ -70,6 +70,54 @@ std::string_view need_line(FileScanner& in) {
   return trimmed(*line);
 }
 
+// Reads the numbers of one line of BOX BOUNDS.
+template <std::size_t kCount>
+std::array<double, kCount> read_bounds(FileScanner& in) {
+  std::string_view text = need_line(in);
+  const std::string_view written = text;
+  std::array<double, kCount> bounds{};
+  for (double& bound : bounds) {
+    if (read_number(take_word(text), bound)) continue;
+    throw FileFault(in.line_number(), fmt::format("is \"{}\"; must be the bounds of the box", printable(written, 40)));
+  }
+  return bounds;
+}
+
+// A lower and an upper bound; of a box that may be tilted they enclose it, and its tilt follows: xy, xz, yz.
+void read_axis(FileScanner& in, bool with_tilt, std::size_t axis, Head& head) {
+  FileBox& box = *head.box;
+  double low = 0, high = 0;
+  if (with_tilt) {
+    double& tilt = component(box.edge[axis == 0 ? 1 : 2], axis == 2 ? 1 : 0);
+    std::tie(low, high, tilt) = std::tuple_cat(read_bounds<3>(in));
+  } else {
+    std::tie(low, high) = std::tuple_cat(read_bounds<2>(in));
+  }
+  component(box.edge[axis], static_cast<int>(axis)) = high - low;
+  head.bounds[axis] = {low, high};
+}
+
+// An edge, and a number of the lower corner.
+void read_edge(FileScanner& in, std::size_t axis, Head& head) {
+  const auto [x, y, z, low] = read_bounds<4>(in);
+  Vec3d& edge = head.box->edge[axis];
+  edge = {x, y, z};
+  head.bounds[axis] = {low, low + component(edge, static_cast<int>(axis))};
+}
+
+// "BOUNDS", then "xy xz yz" or "abc origin" where the box may be tilted, then one word an axis, "pp" where it is
+// periodic; and a line an axis.
+void read_box(FileScanner& in, std::string_view item, Head& head) {
+  take_word(item);
+  const bool edges = item.find("abc") != std::string_view::npos, tilts = item.find("xy") != std::string_view::npos;
+  head.tilted = edges || tilts;
+  for (int k = edges ? 2 : tilts ? 3 : 0; k > 0; --k) take_word(item);
+  FileBox& box = head.box.emplace();
+  box.line = in.line_number();
+  for (bool& periodic : box.periodic) periodic = take_word(item) == "pp";
+  for (std::size_t axis = 0; axis < 3; ++axis) edges ? read_edge(in, axis, head) : read_axis(in, tilts, axis, head);
+}
+
 // Reads the head of a snapshot, down to the names of its columns; nothing at the end of the file.
 std::optional<Head> read_head(FileScanner& in) {
   constexpr std::string_view kItem = "ITEM: ";
@@ -93,19 +141,7 @@ std::optional<Head> read_head(FileScanner& in) {
       }
       head.count = count;
     } else if (word == "BOX") {
-      head.tilted = item.find("xy") != std::string_view::npos || item.find("abc") != std::string_view::npos;
-      take_word(item);  // "BOUNDS", and one word per axis: "pp" where it is periodic
-      for (bool& periodic : head.periodic) periodic = take_word(item) == "pp" && !head.tilted;
-      for (auto& bounds : head.box) {
-        std::string_view text = need_line(in);
-        const std::string_view written = text;
-        for (double& bound : bounds) {
-          if (read_number(take_word(text), bound)) continue;
-          throw FileFault(in.line_number(),
-                          fmt::format("is \"{}\"; must be the bounds of the box", printable(written, 40)));
-        }
-      }
-      head.has_box = true;
+      read_box(in, item, head);
     } else if (word == "ATOMS") {
       if (!head.count) throw FileFault(in.line_number(), "comes before the item \"NUMBER OF ATOMS\"");
       for (auto title = take_word(item); !title.empty(); title = take_word(item)) head.titles.emplace_back(title);
@@ -116,15 +152,19 @@ std::optional<Head> read_head(FileScanner& in) {
 
 // Uses the best title of each field and skips the others.
 std::vector<Column> columns_of(const std::vector<std::string>& titles) {
+  std::array<const Title*, static_cast<std::size_t>(Field::passed_over)> best{};
+  for (const std::string& title : titles) {
+    const Title* known = known_title(title);
+    if (known == nullptr) continue;
+    const Title*& of_field = best[static_cast<std::size_t>(known->field)];
+    if (of_field == nullptr || known < of_field) of_field = known;
+  }
   std::vector<Column> columns;
   for (const std::string& title : titles) {
     const Title* known = known_title(title);
-    Field field = known == nullptr ? Field::unknown : known->field;
-    for (const std::string& other : titles) {
-      const Title* rival = known_title(other);
-      if (known != nullptr && rival != nullptr && rival < known && rival->field == known->field)
-        field = Field::passed_over;
-    }
+    const Field field = known == nullptr                                        ? Field::unknown
+                        : known == best[static_cast<std::size_t>(known->field)] ? known->field
+                                                                                : Field::passed_over;
     columns.push_back({field, title});
   }
   return columns;
@@ -142,10 +182,9 @@ struct Conversion {
       if (title == nullptr || column.field == Field::passed_over) continue;
       if (title->scaled) scaled[static_cast<std::size_t>(title->field)] = true;
       if (title->name == "diameter") diameter = true;
-      if (!title->scaled || (head.has_box && !head.tilted)) continue;
-      throw FileFault(line,
-                      fmt::format("has scaled positions (\"{}\"), {}", column.title,
-                                  head.tilted ? "which are not read in a tilted box" : "but no BOX BOUNDS before"));
+      if (!title->scaled || (head.box && !head.tilted)) continue;
+      throw FileFault(line, fmt::format("has scaled positions (\"{}\"), {}", column.title,
+                                        head.box ? "which are not read in a tilted box" : "but no BOX BOUNDS before"));
     }
   }
 
@@ -153,12 +192,13 @@ struct Conversion {
   bool apply(const Head& head, ParticleRows& rows, Row& row, std::uint64_t line) const {
     bool good = true;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto& [low, high] = head.box[axis];
       const auto field = static_cast<Field>(axis);
+      const auto& [low, high] = head.bounds[axis];
       if (scaled[axis]) {
         good = rows.read(field, kTitles[axis].name, low + row[field] * (high - low), row, line) && good;
       }
-      if (head.periodic[axis] && low < high) row[field] = wrap_coordinate(row[field], low, high);
+      const bool periodic = head.box && head.box->periodic[axis] && !head.tilted;
+      if (periodic && low < high) row[field] = wrap_coordinate(row[field], low, high);
     }
     if (diameter) row[Field::radius] /= 2;
     return good;
@@ -174,6 +214,7 @@ void read_lammps_dump(FileScanner& in, ParticleRows& rows) {
     return head.has_value();
   });
   const Head head = read_head(in).value();
+  if (head.box) rows.set_box(*head.box);
   const std::vector<Column> columns = columns_of(head.titles);
   const Conversion conversion(columns, head, in.line_number());
   rows.set_labels({"type", true, 1, {}});

@@ -26,7 +26,7 @@ Expected<LoadedScene> parse(std::string_view text, const std::string& name, cons
   const auto refuse = [&findings] { return fail(Error{Error::Kind::bad_input, findings.take()}); };
 
   JsonReading reading = read_json(text, name);
-  findings.set_lines(std::move(reading.lines));
+  findings.set_text(reading.readable.empty() ? text : reading.readable);
   for (auto& [path, message] : reading.faults) findings.add(path, std::move(message));
   if (reading.stopped) findings.add_elsewhere(reading.stopped->where, reading.stopped->message);
   if (!reading.value) return refuse();
@@ -34,7 +34,7 @@ Expected<LoadedScene> parse(std::string_view text, const std::string& name, cons
 
   apply_overrides(options.overrides, json, findings);
   check_against_schema(json, findings);
-  if (!json.is_object()) return refuse();
+  if (!json.is_object() || findings.overflows()) return refuse();
   fill_defaults(schema_root(), json);
 
   LoadedScene loaded;

@@ -13,6 +13,7 @@
 
 #include "hooke/base/vec3.h"
 #include "hooke/core/materials.h"
+#include "hooke/scene/file_box.h"
 #include "hooke/scene/findings.h"
 
 namespace hooke {
@@ -38,6 +39,7 @@ struct FileParticles {
   std::vector<Vec3d> velocity;       ///< m/s
   std::vector<std::uint64_t> place;  ///< line, from 1; or byte offset where the file is binary
   bool binary = false;
+  std::optional<FileBox> box;  ///< where the file gives one
 };
 
 /// A kind of file that particles are read from.

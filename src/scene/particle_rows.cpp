@@ -23,7 +23,9 @@ constexpr double kNotSaid = std::numeric_limits<double>::quiet_NaN();
 // The next free id must exist as well.
 constexpr std::uint64_t kIdLimit = std::numeric_limits<std::int64_t>::max();
 
-// Formats that separate columns by blanks write "salt water" as "salt%20water".
+constexpr std::uint64_t kMostFindings = 20;
+
+// Formats that separate columns by blanks write "salt water" as "salt%20water", and "salt%20water" as "salt%2520water".
 std::string without_escapes(std::string_view word) {
   std::string plain;
   for (std::size_t i = 0; i < word.size(); ++i) {
@@ -50,12 +52,15 @@ ParticleRows::ParticleRows(const ParticleFileRules& rules, std::string name, boo
       warnings_(warnings),
       blank_{{0, 0, 0, rules.velocity.x, rules.velocity.y, rules.velocity.z, kNotSaid, kNotSaid},
              0,
-             rules.material.value_or(0)} {}
+             rules.material.value_or(0)} {
+  for (std::size_t m = 0; m < rules.materials.size(); ++m) {
+    by_name_.emplace(rules.materials[m].name, static_cast<std::uint16_t>(m));
+  }
+}
 
 // A file with the same fault on every line would bury everything else.
 void ParticleRows::complain(std::uint64_t place, std::string message) {
-  constexpr std::uint64_t kMost = 20;
-  if (said_++ < kMost) {
+  if (said_++ < kMostFindings) {
     findings_.add_elsewhere(place_in_file(name_, place, out_.binary), std::move(message));
   } else {
     ++held_back_;
@@ -63,13 +68,14 @@ void ParticleRows::complain(std::uint64_t place, std::string message) {
 }
 
 void ParticleRows::give_up(const FileFault& fault) {
+  gave_up_ = true;
   findings_.add_elsewhere(place_in_file(name_, fault.place(), out_.binary), fault.what());
 }
 
 bool ParticleRows::set_columns(std::vector<Column> columns, std::uint64_t place) {
   columns_ = std::move(columns);
   std::vector<std::string> titles;
-  std::array<bool, static_cast<std::size_t>(Field::passed_over)> seen{};
+  std::array<std::size_t, static_cast<std::size_t>(Field::passed_over)> count{};
   bool usable = true;
   for (const Column& column : columns_) {
     titles.push_back(printable(column.title, 40));
@@ -77,26 +83,30 @@ bool ParticleRows::set_columns(std::vector<Column> columns, std::uint64_t place)
       ignored_.push_back(titles.back());
     }
     if (column.field >= Field::passed_over) continue;
-    bool& known = seen[static_cast<std::size_t>(column.field)];
-    if (known) {
-      complain(place, fmt::format("has two columns \"{}\"", titles.back()));
-      usable = false;
-    }
-    known = true;
-  }
-  constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
-  for (std::size_t axis = 0; axis < kAxes.size(); ++axis) {
-    if (seen[axis]) continue;
-    complain(place, fmt::format("has no column \"{}\"; the header must name x, y and z, and names {}", kAxes[axis],
-                                quoted_list(titles)));
+    if (++count[static_cast<std::size_t>(column.field)] != 2) continue;
+    complain(place, fmt::format("has two columns \"{}\"", titles.back()));
     usable = false;
   }
-  if (usable && !seen[static_cast<std::size_t>(Field::material)] && !rules_.material) {
+  const auto has = [&count](Field field) { return count[static_cast<std::size_t>(field)] > 0; };
+  usable = has_axes({has(Field::x), has(Field::y), has(Field::z)}, titles, place) && usable;
+  if (usable && !has(Field::material) && !rules_.material) {
     complain(place, "has no column \"material\", and the scene's entry names no material either");
     usable = false;
   }
-  has_id_ = seen[static_cast<std::size_t>(Field::id)];
+  has_id_ = has(Field::id);
   return usable;
+}
+
+bool ParticleRows::has_axes(const std::array<bool, 3>& axes, const std::vector<std::string>& titles,
+                            std::uint64_t place) {
+  std::vector<std::string> missing;
+  for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+    if (!axes[axis]) missing.emplace_back(1, "xyz"[axis]);
+  }
+  if (missing.empty()) return true;
+  complain(place, fmt::format("has no column{} {}; the header must name x, y and z, and names {}",
+                              missing.size() > 1 ? "s" : "", quoted_list(missing), quoted_list(titles)));
+  return false;
 }
 
 bool ParticleRows::expect(std::uint64_t count, std::uint64_t most) {
@@ -193,6 +203,7 @@ void ParticleRows::set_velocity(std::uint64_t id, const Vec3d& velocity, std::ui
 }
 
 FileParticles ParticleRows::finish() {
+  if (out_.position.empty() && said_ == 0 && !gave_up_) findings_.add_elsewhere(name_, "holds no particles");
   if (held_back_ > 0) {
     findings_.add_elsewhere(name_, fmt::format("{} more findings like those above", held_back_));
   }
@@ -208,50 +219,67 @@ FileParticles ParticleRows::finish() {
 bool ParticleRows::read_material(std::string_view label, std::uint16_t& index, std::uint64_t place) {
   // Most rows name the same material as the row before.
   if (!last_material_ || label != last_label_) {
-    last_material_ = find_material(label, place);
-    if (!last_material_) return false;
+    last_material_ = find_material(label);
     last_label_ = label;
+  }
+  if (!last_material_) {
+    complain(place, said_ < kMostFindings ? unknown_material(label) : "");
+    return false;
   }
   index = *last_material_;
   return true;
 }
 
-std::optional<std::uint16_t> ParticleRows::find_material(std::string_view label, std::uint64_t place) {
+std::optional<std::uint16_t> ParticleRows::find_material(std::string_view label) const {
   if (const auto type = rules_.types.find(label); type != rules_.types.end()) return type->second;
-  if (label.empty()) {
-    if (!rules_.material)
-      complain(place, fmt::format("{} is empty, and the scene's entry names none either", labels_.title));
-    return rules_.material;
+  if (label.empty()) return rules_.material;
+  std::uint64_t number = 0;
+  if (!labels_.numbers || !read_count(label, number)) return find_name(label);
+  if (const auto named = numbered_.find(number); named != numbered_.end()) return named->second;
+  const auto name = find_name(label);  // of a material that is called like a number
+  return name ? name : find_number(number);
+}
+
+// What a number means that the file gives no name to.
+std::optional<std::uint16_t> ParticleRows::find_number(std::uint64_t number) const {
+  if (rules_.material) return rules_.material;
+  if (number < labels_.first || number - labels_.first >= rules_.materials.size()) return std::nullopt;
+  return static_cast<std::uint16_t>(number - labels_.first);
+}
+
+// A name may itself hold what looks like an escape, so what it is an escape of comes first.
+std::optional<std::uint16_t> ParticleRows::find_name(std::string_view name) const {
+  if (labels_.numbers && name.find('%') != std::string_view::npos) {
+    if (const auto found = find_exactly(without_escapes(name))) return found;
   }
+  return find_exactly(name);
+}
+
+std::optional<std::uint16_t> ParticleRows::find_exactly(std::string_view name) const {
+  if (const auto type = rules_.types.find(name); type != rules_.types.end()) return type->second;
+  const auto found = by_name_.find(name);
+  return found == by_name_.end() ? std::nullopt : std::optional(found->second);
+}
+
+// Once, and not for each row: a name may be long.
+void ParticleRows::find_numbered() {
+  numbered_.clear();
+  for (const auto& [number, name] : labels_.names) numbered_.emplace(number, find_name(name));
+}
+
+std::string ParticleRows::unknown_material(std::string_view label) const {
+  if (label.empty()) return fmt::format("{} is empty, and the scene's entry names none either", labels_.title);
   std::string_view name = label;
   std::uint64_t number = 0;
   if (labels_.numbers && read_count(label, number)) {
-    if (const auto named = labels_.names.find(number); named != labels_.names.end()) {
-      name = named->second;
-    } else if (!find_name(label)) {
-      if (rules_.material) return rules_.material;
-      if (number >= labels_.first && number - labels_.first < rules_.materials.size()) {
-        return static_cast<std::uint16_t>(number - labels_.first);
-      }
-    }
+    if (const auto named = labels_.names.find(number); named != labels_.names.end()) name = named->second;
   }
-  if (const auto found = find_name(name)) return found;
   std::vector<std::string> known;
   for (const Material& m : rules_.materials) known.push_back(m.name);
   const std::string hint = did_you_mean(name, known);
-  complain(place, fmt::format("{} is \"{}\", which the scene does not have{}{} it has {}{}", labels_.title,
-                              printable(name, 40), hint, hint.empty() ? ";" : "", quoted_list(known),
-                              labels_.numbers ? "; the entry's \"types\" can say what it stands for" : ""));
-  return std::nullopt;
-}
-
-std::optional<std::uint16_t> ParticleRows::find_name(std::string_view name) const {
-  if (const auto type = rules_.types.find(name); type != rules_.types.end()) return type->second;
-  const auto found = std::find_if(rules_.materials.begin(), rules_.materials.end(),
-                                  [name](const Material& m) { return m.name == name; });
-  if (found != rules_.materials.end()) return static_cast<std::uint16_t>(found - rules_.materials.begin());
-  const std::string plain = labels_.numbers ? without_escapes(name) : std::string(name);
-  return plain == name ? std::nullopt : find_name(plain);
+  return fmt::format("{} is \"{}\", which the scene does not have{}{} it has {}{}", labels_.title, printable(name, 40),
+                     hint, hint.empty() ? ";" : "", quoted_list(known),
+                     labels_.numbers ? "; the entry's \"types\" can say what it stands for" : "");
 }
 
 void ParticleRows::compare(double value, double expected, const Row& row, std::uint64_t place,
@@ -275,7 +303,7 @@ void ParticleRows::warn_of(const char* what, double Material::* expected, const 
       {place_in_file(name_, difference.place, out_.binary),
        fmt::format("{} is {:.7g}, but {:.7g} of its material \"{}\", which is taken; {} particle{} differ{}, "
                    "this one most",
-                   what, difference.value, material.*expected, material.name, difference.rows,
+                   what, difference.value, material.*expected, printable(material.name), difference.rows,
                    difference.rows == 1 ? "" : "s", difference.rows == 1 ? "s" : "")});
 }
 

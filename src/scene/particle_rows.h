@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "hooke/base/assert.h"
@@ -73,11 +74,14 @@ class ParticleRows {
   void set_labels(MaterialLabels labels) {
     HOOKE_ASSERT(columns_.empty(), columns_.size());
     labels_ = std::move(labels);
+    find_numbered();
   }
   /// From now on places are bytes, not lines.
   void set_binary() { out_.binary = true; }
   /// Sets the columns of every row. False, with findings at `place`, where particles can't be made from them.
   bool set_columns(std::vector<Column> columns, std::uint64_t place);
+  /// Sets the box that the file gives its particles.
+  void set_box(const FileBox& box) { out_.box = box; }
   /// Notes a column of the file that is not read.
   void ignore(std::string title) { ignored_.push_back(std::move(title)); }
   /// `count`: rows that the file states; `most`: rows that its size allows. False where only the number is wanted.
@@ -100,7 +104,7 @@ class ParticleRows {
   void complain(std::uint64_t place, std::string message);
   /// Notes the fault that ended the reading.
   void give_up(const FileFault& fault);
-  /// Returns all particles and adds the warnings about them.
+  /// Returns all particles and adds the warnings about them; a finding where there are none.
   FileParticles finish();
 
  private:
@@ -113,9 +117,15 @@ class ParticleRows {
     std::uint64_t place = 0;
   };
 
+  // Complains unless `axes` of the header's columns are x, y and z.
+  bool has_axes(const std::array<bool, 3>& axes, const std::vector<std::string>& titles, std::uint64_t place);
   bool read_material(std::string_view label, std::uint16_t& index, std::uint64_t place);
-  std::optional<std::uint16_t> find_material(std::string_view label, std::uint64_t place);
+  std::optional<std::uint16_t> find_material(std::string_view label) const;
+  std::optional<std::uint16_t> find_number(std::uint64_t number) const;
   std::optional<std::uint16_t> find_name(std::string_view name) const;
+  std::optional<std::uint16_t> find_exactly(std::string_view name) const;
+  void find_numbered();
+  std::string unknown_material(std::string_view label) const;
   void compare(double value, double expected, const Row& row, std::uint64_t place, Difference& difference) const;
   void warn_of(const char* what, double Material::* expected, const Difference& difference);
 
@@ -128,6 +138,8 @@ class ParticleRows {
   std::vector<Column> columns_;
   std::vector<std::string> ignored_;
   MaterialLabels labels_;
+  std::unordered_map<std::string_view, std::uint16_t> by_name_;  // of the scene
+  std::map<std::uint64_t, std::optional<std::uint16_t>> numbered_;  // what labels_.names comes to
   std::uint64_t expected_ = 0;
   bool has_id_ = false;
   Row blank_;
@@ -135,6 +147,7 @@ class ParticleRows {
   std::optional<std::uint16_t> last_material_;
   Difference radius_;
   Difference mass_;
+  bool gave_up_ = false;
   std::uint64_t said_ = 0;
   std::uint64_t held_back_ = 0;
   std::vector<std::pair<std::uint64_t, std::size_t>> by_id_;  // id and row, sorted, for velocities out of order

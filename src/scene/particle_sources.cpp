@@ -130,6 +130,7 @@ class Loader {
                                        printable(name, 60)));
       return std::nullopt;
     }
+    if (findings_.overflows()) return std::nullopt;  // the likeliest name is dear to find
     const std::string hint = did_you_mean(name, names_);
     findings_.add(where, fmt::format("is \"{}\", which is no material{}{} the scene has {}", printable(name, 60), hint,
                                      hint.empty() ? ";" : "", quoted_list(names_)));
@@ -226,6 +227,7 @@ class Loader {
 
   void append_file(const Source& source) {
     FileParticles read = read_particle_file(source.file, source.file_name, source.rules, findings_, warnings_);
+    if (read.box && domain_known_) check_box(*read.box, source.file_name, scene_.domain, findings_, warnings_);
     Span span{&source, particles_.size(), particles_.size() + read.position.size(), std::move(read.place), read.binary};
     particles_.position.insert(particles_.position.end(), read.position.begin(), read.position.end());
     append_common(std::move(span), read.material, read.velocity, read.id);

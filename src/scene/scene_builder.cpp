@@ -9,6 +9,8 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
+#include <string_view>
 
 #include "hooke/scene/attraction_builder.h"
 #include "hooke/scene/collider_builder.h"
@@ -78,14 +80,29 @@ void build_domain(const Json& domain, Scene& scene, const Findings& findings) {
   }
 }
 
+// To be asked before anything is made of all materials, or of all pairs of them.
+bool has_too_many_materials(const Json& materials, Findings& findings) {
+  if (!materials.is_object() || materials.size() <= kMostMaterials) return false;
+  if (!findings.touches_at("materials")) {
+    findings.add("materials", fmt::format("has {} entries; at most {} are possible", materials.size(), kMostMaterials));
+  }
+  return true;
+}
+
+// The names of the materials that colliders have.
+std::set<std::string_view> materials_of(const Json& colliders) {
+  std::set<std::string_view> names;
+  for (const Json& collider : colliders) {
+    const Json& name = member(collider, "material");
+    if (name.is_string()) names.insert(name.get_ref<const std::string&>());
+  }
+  return names;
+}
+
 // Both radius and mass may be left out where a collider has the material.
-void find_size(const Json& entry, const std::string& where, const Json& colliders, Material& material,
-               Findings& findings) {
+void find_size(const Json& entry, const std::string& where, bool of_collider, Material& material, Findings& findings) {
   const auto has = [&entry](const char* key) { return entry.contains(key); };
   if (!entry.is_object() || (has("radius") && has("mass"))) return;
-  const bool of_collider = std::any_of(colliders.begin(), colliders.end(), [&](const Json& collider) {
-    return text_or(member(collider, "material"), "") == material.name;
-  });
   if (of_collider && !has("radius") && !has("mass")) {
     material.radius = material.mass = 0;
     return;
@@ -111,6 +128,7 @@ SurfaceCoefficients<double> read_surface(const Json& entry, const std::string& w
 
 void build_materials(const Json& materials, const Json& colliders, Scene& scene, Findings& findings) {
   if (!materials.is_object()) return;
+  const std::set<std::string_view> of_colliders = materials_of(colliders);
   for (const auto& [name, entry] : materials.items()) {
     Material material;
     material.name = name;
@@ -122,7 +140,7 @@ void build_materials(const Json& materials, const Json& colliders, Scene& scene,
     };
     material.radius = value("radius", material.radius);
     material.mass = value("mass", material.mass);
-    find_size(entry, where, colliders, material, findings);
+    find_size(entry, where, of_colliders.count(name) > 0, material, findings);
     material.contact.stiffness = value("stiffness", 0);
     material.contact.shear = value("shear", 0);
     material.contact.damping = value("damping", 0);
@@ -208,6 +226,7 @@ class ContactBuilder {
       if (name == "wall") {
         index[k] = ContactEntry::kWall;
       } else if (found == names_.end()) {
+        if (findings_.overflows()) return false;
         std::vector<std::string> allowed = names_;
         allowed.emplace_back("wall");
         const std::string hint = did_you_mean(name, allowed);
@@ -287,6 +306,7 @@ void build_scene(Json& json, const std::filesystem::path& folder, const LoadOpti
   if (member(json, "precision") == "double") scene.precision = Precision::double_precision;
   if (!findings.touches("gravity")) scene.gravity = vec3_or(member(json, "gravity"), scene.gravity);
   build_domain(member(json, "domain"), scene, findings);
+  if (has_too_many_materials(member(json, "materials"), findings)) return;
   build_materials(member(json, "materials"), member(json, "colliders"), scene, findings);
   ContactBuilder contacts(scene, findings);
   if (member(json, "contacts").is_array()) contacts.build(json.at("contacts"));

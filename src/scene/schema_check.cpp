@@ -178,6 +178,7 @@ class Wording {
       if (property.key() != "$schema") known.push_back(property.key());
     }
     for (const auto& member : value_.items()) {
+      if (findings_.overflows()) return;
       if (schema_.at("properties").contains(member.key())) continue;
       const std::string hint = did_you_mean(member.key(), known);
       complain(join_path(path_, member.key()),
@@ -256,13 +257,14 @@ void check_against_schema(const Json& scene, Findings& findings) {
   std::set<std::string> seen;
   std::vector<Fault> unworded;
   for (const auto& error : results) {
+    if (findings.overflows()) return;
     Fault fault = locate(error, scene);
     if (fault.schema == nullptr || !seen.insert(fault.path).second || findings.touches_at(fault.path)) continue;
     if (!Wording(fault, findings).say()) unworded.push_back(std::move(fault));
   }
   for (const Fault& fault : unworded) {
     if (!findings.touches(fault.path))
-      findings.add(fault.path, fmt::format("is {}: {}", brief(*fault.value), fault.description));
+      findings.add(fault.path, fmt::format("is {}: {}", brief(*fault.value), printable(fault.description)));
   }
 }
 

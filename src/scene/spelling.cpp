@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "hooke/base/printable.h"
+
 namespace hooke {
 namespace {
 
@@ -48,13 +50,15 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names) {
   const std::string nearest = nearest_name(word, names);
-  return nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?";
+  return nearest.empty() ? "" : "; did you mean \"" + printable(nearest) + "\"?";
 }
 
 std::string quoted_list(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 20;
+  constexpr std::size_t kMost = 20, kLongest = 60;  // names, bytes of each
   std::string list;
-  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) list += (i ? ", \"" : "\"") + names[i] + '"';
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) {
+    list += (i ? ", \"" : "\"") + printable(names[i], kLongest) + '"';
+  }
   if (names.size() > kMost) list += " and " + std::to_string(names.size() - kMost) + " more";
   return list;
 }

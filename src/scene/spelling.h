@@ -15,7 +15,7 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
 /// "; did you mean \"radius\"?", or "" where no name is near.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
-/// The names in quotes with commas: `"a", "b"`; at most twenty of them.
+/// The names in quotes with commas: `"a", "b"`; at most twenty of them, each as messages show it.
 std::string quoted_list(const std::vector<std::string>& names);
 
 }  // namespace hooke

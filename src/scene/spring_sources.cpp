@@ -139,7 +139,7 @@ class SpringReader {
     FileScanner in(file);
     const std::string header(in.line().value_or(""));
     CsvFields fields;
-    fields.split(without_byte_order_mark(header));
+    fields.split(header);
     const auto column = [&](std::string_view title) {
       return static_cast<std::size_t>(std::find(fields.at.begin(), fields.at.end(), title) - fields.at.begin());
     };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -11,8 +12,11 @@ namespace hooke {
 /// `text` without blanks at both ends.
 std::string_view trimmed(std::string_view text);
 
-/// `line`, the first one of a file, without the byte order mark that some programs write before UTF-8.
-std::string_view without_byte_order_mark(std::string_view line);
+/// `text` without the byte order mark (UTF-8) that some programs put first.
+std::string_view without_byte_order_mark(std::string_view text);
+
+/// Line ends in the bytes [from, to) of `text`: LF, CR and CRLF, which counts where its LF is.
+std::size_t count_line_ends(std::string_view text, std::size_t from, std::size_t to);
 
 /// Splits a line at blanks into `words`.
 void split_words(std::string_view line, std::vector<std::string_view>& words);

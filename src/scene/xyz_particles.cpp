@@ -102,6 +102,26 @@ std::vector<Column> columns_of(std::string_view properties, std::uint64_t line) 
   return columns;
 }
 
+// Lattice="ax ay az bx by bz cx cy cz" and pbc="T F T" of a comment; all axes are periodic where it names none.
+std::optional<FileBox> box_of(std::string_view comment, std::uint64_t line) {
+  std::vector<std::string_view> words;
+  const std::string lattice = value_of("Lattice", comment);
+  split_words(lattice, words);
+  constexpr std::size_t kNumbers = 9;
+  if (words.size() != kNumbers) return std::nullopt;
+  FileBox box;
+  box.line = line;
+  for (std::size_t i = 0; i < kNumbers; ++i) {
+    if (!read_number(words[i], component(box.edge[i / 3], static_cast<int>(i % 3)))) return std::nullopt;
+  }
+  const std::string periodic = value_of("pbc", comment);
+  split_words(periodic, words);
+  for (std::size_t axis = 0; axis < 3 && words.size() == 3; ++axis) {
+    box.periodic[axis] = words[axis].front() != 'F' && words[axis].front() != 'f' && words[axis] != "0";
+  }
+  return box;
+}
+
 // Species, position, and any further columns of the first row.
 std::vector<Column> plain_columns(std::size_t width) {
   std::vector<Column> columns{{Field::material, "species"}, {Field::x, "x"}, {Field::y, "y"}, {Field::z, "z"}};
@@ -136,6 +156,7 @@ void read_xyz_particles(FileScanner& in, ParticleRows& rows) {
   const auto count = read_head(in);
   const std::string comment(in.line().value_or(""));
   const std::uint64_t comment_line = in.line_number();
+  if (const auto box = box_of(comment, comment_line)) rows.set_box(*box);
   const std::string properties = value_of("Properties", comment);
   const FileScanner::Place start = in.place();
   std::vector<std::string_view> words;

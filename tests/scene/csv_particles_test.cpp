@@ -50,8 +50,29 @@ TEST_F(CsvParticlesTest, TakesEveryCommonFormOfFile) {
   EXPECT_EQ(p.position, (std::vector<Vec3d>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}));
   EXPECT_EQ(p.material, (std::vector<std::uint16_t>{1, 0, 0}));
   EXPECT_EQ(p.place, (std::vector<std::uint64_t>{2, 4, 5}));
-  EXPECT_EQ(read("x,y,z\n").position.size(), 0U);
+  EXPECT_EQ(read("x,y,z,vx\r1,2,3,1\r4,5,6,-1\r").position, (std::vector<Vec3d>{{1, 2, 3}, {4, 5, 6}}));
   EXPECT_EQ(complaints(), "");
+}
+
+TEST_F(CsvParticlesTest, AFileWithoutParticlesIsAFinding) {
+  EXPECT_EQ(read("x,y,z\n").position.size(), 0U);
+  EXPECT_EQ(complaints(), "p.csv: holds no particles");
+}
+
+TEST_F(CsvParticlesTest, SaysOnceWhichColumnsAreMissing) {
+  read("\"Points:0\",\"Points:1\",\"Points:2\",\"radius\"\n1.5,2.5,3,0.25\n");
+  EXPECT_EQ(complaints(),
+            "p.csv:1: has no columns \"x\", \"y\", \"z\"; the header must name x, y and z, and names \"Points:0\", "
+            "\"Points:1\", \"Points:2\", \"radius\"");
+  read("x,y,x,x,z\n");
+  EXPECT_EQ(complaints(), "p.csv:1: has two columns \"x\"");
+}
+
+TEST_F(CsvParticlesTest, KeepsBlanksBetweenQuotes) {
+  materials_[1].name = " oil \"";
+  const auto p = read("x,y,z,material\n1,2,3,\" oil \"\"\" \n4,5,6, \"water\"\n");
+  EXPECT_EQ(complaints(), "");
+  EXPECT_EQ(p.material, (std::vector<std::uint16_t>{1, 0}));
 }
 
 TEST_F(CsvParticlesTest, NumbersThatAreTooSmallAreZero) {

@@ -29,6 +29,38 @@ TEST(FileScanner, ReadsLinesOfEveryForm) {
   EXPECT_FALSE(in.skip_lines(2));
 }
 
+TEST(FileScanner, ReadsLinesThatEndWithCr) {
+  const ScratchFolder folder;
+  FileScanner in(folder.write("f", "one\r\rtwo\rthree\r"));
+  for (const char* line : {"one", "", "two", "three"}) EXPECT_EQ(in.line(), line);
+  EXPECT_EQ(in.line(), std::nullopt);
+  EXPECT_EQ(in.line_number(), 4U);
+  // Binary data that begins with the byte of an LF.
+  FileScanner binary(folder.write("g", "ply\rend_header\r\n123"));
+  EXPECT_EQ(binary.line(), "ply");
+  EXPECT_EQ(binary.line(), "end_header");
+  EXPECT_EQ(std::string_view(binary.bytes(4), 4), "\n123");
+  // Ends of all kinds, and one at the end of a piece.
+  const std::string longest(FileScanner::kLongestLine, 'x');
+  FileScanner mixed(folder.write("h", "a\r\nb\rc\n" + longest + "\r\nd"));
+  for (const std::string& line : {std::string("a"), std::string("b"), std::string("c"), longest, std::string("d")}) {
+    EXPECT_EQ(mixed.line(), line);
+  }
+}
+
+TEST(FileScanner, PassesAByteOrderMark) {
+  const ScratchFolder folder;
+  FileScanner in(folder.write("f",
+                              "\xef\xbb\xbf"
+                              "one\ntwo"));
+  const auto start = in.place();
+  EXPECT_EQ(in.line(), "one");
+  in.go_back(start);
+  EXPECT_EQ(in.line(), "one");
+  EXPECT_EQ(FileScanner(folder.write("g", "\xef\xbb\xbf")).line(), std::nullopt);
+  EXPECT_THROW(FileScanner(folder.write("h", "\xff\xfex")), FileFault);
+}
+
 // Lines and bytes that cross the pieces in which a file is read stay whole.
 TEST(FileScanner, JoinsItsPieces) {
   const ScratchFolder folder;

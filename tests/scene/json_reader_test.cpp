@@ -5,21 +5,64 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "hooke/scene/json_lines.h"
+
 namespace hooke {
 namespace {
 
-TEST(JsonReader, KeepsOrderLinesAndComments) {
-  const JsonReading r =
-      read_json("// a scene\n{\n  \"b\": 1, /* two */\n  \"a\": [\n 1.5,\n\"x\"],\n\"c\": 12\n}", "t");
+constexpr const char* kLines = "// a scene\n{\n  \"b\": 1, /* two */\n  \"a\": [\n 1.5,\n\"x\"],\n\"c\": 12\n}";
+
+TEST(JsonReader, KeepsOrderAndComments) {
+  const JsonReading r = read_json(kLines, "t");
   ASSERT_TRUE(r.value);
   EXPECT_EQ(r.value->dump(), R"({"b":1,"a":[1.5,"x"],"c":12})");
-  EXPECT_EQ(r.lines.at(""), 2);
-  EXPECT_EQ(r.lines.at("b"), 3);
-  EXPECT_EQ(r.lines.at("a"), 4);
-  EXPECT_EQ(r.lines.at("a[0]"), 5);
-  EXPECT_EQ(r.lines.at("a[1]"), 6);
-  EXPECT_EQ(r.lines.at("c"), 7);  // the reader knows a number's end only on the next line
   EXPECT_TRUE(r.faults.empty());
+}
+
+TEST(JsonReader, FindsTheLinesOfValues) {
+  const std::vector<std::string> paths{"", "b", "a", "a[0]", "a[1]", "c", "a[2]", "a[0].d", "d", "d.e"};
+  // A number's end is known only on the next line. What is missing has the line of what lacks it.
+  const std::vector<int> lines{2, 3, 4, 5, 6, 7, 4, 5, 2, 0};
+  EXPECT_EQ(lines_of(kLines, paths), lines);
+  std::string mac = kLines;
+  std::replace(mac.begin(), mac.end(), '\n', '\r');
+  EXPECT_EQ(lines_of(mac, paths), lines);
+  std::string windows;
+  for (const char c : std::string_view(kLines)) windows += c == '\n' ? "\r\n" : std::string(1, c);
+  EXPECT_EQ(lines_of(windows, paths), lines);
+  EXPECT_EQ(lines_of("{\"a\":1,\n\"a\":{\"b\":\n2}}", {"a", "a.b"}), (std::vector<int>{1, 1})) << "of the first";
+  EXPECT_EQ(lines_of("{\"a\":1,\n\"b\" 2}", {"a", "b"}), (std::vector<int>{1, 1})) << "no JSON";
+}
+
+TEST(JsonReader, PassesAByteOrderMark) {
+  const JsonReading r = read_json("\xef\xbb\xbf{\"a\": 1}", "t");
+  ASSERT_TRUE(r.value);
+  EXPECT_EQ(r.value->dump(), R"({"a":1})");
+  EXPECT_EQ(read_json("\xef\xbb\xbf{\"a\" 1}", "t").stopped->where, "t:1:6");
+  EXPECT_EQ(read_json("\xef\xbb\xbf", "t").stopped->message, "is empty");
+}
+
+// A path of each value would take the product of both.
+TEST(JsonReader, ReadsManyValuesBelowALongKey) {
+  const std::string key(1000000, 'k');
+  std::string text = "{\"" + key + "\":[0";
+  for (int i = 0; i < 1000000; ++i) text += ",0";
+  text += "],\n\"" + key + "\":{\"a\":0";
+  for (int i = 0; i < 100000; ++i) text += ",\"a\":0";
+  text += "}}";
+  const JsonReading r = read_json(text, "t");
+  ASSERT_TRUE(r.value);
+  EXPECT_EQ(r.value->at(key).size(), 1000001U);
+  ASSERT_EQ(r.faults.size(), 1U);
+  EXPECT_EQ(lines_of(text, {key + "[1000000]", key}), (std::vector<int>{1, 1}));
+}
+
+TEST(JsonReader, KeepsSomeOfManyFaults) {
+  std::string text = "{\"" + std::string(100000, 'k') + "\":{\"a\":0";
+  for (int i = 0; i < 100000; ++i) text += ",\"a\":0";
+  EXPECT_EQ(read_json(text + "}}", "t").faults.size(), Findings::kMost + 1);
 }
 
 TEST(JsonReader, NamesThePlaceOfASyntaxError) {

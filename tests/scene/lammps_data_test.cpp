@@ -109,9 +109,9 @@ TEST_F(LammpsDataTest, SaysWhatIsWrong) {
             "p.data:6: ends here, after 1 of 1000000000000000000 particles");
 }
 
-TEST_F(LammpsDataTest, TakesAnEmptyFile) {
+TEST_F(LammpsDataTest, AFileWithoutParticlesIsAFinding) {
   EXPECT_EQ(read("p.data", "title\n0 atoms\n").position.size(), 0U);
-  EXPECT_EQ(complaints(), "");
+  EXPECT_EQ(complaints(), "p.data: holds no particles");
 }
 
 TEST_F(LammpsDataTest, SaysWhereRadiusAndMassAreOthers) {

@@ -73,6 +73,22 @@ TEST_F(LammpsDumpTest, TakesTheBestOfSeveralPositions) {
   EXPECT_EQ(complaints(), "");
 }
 
+// Linear in the number of columns.
+TEST_F(LammpsDumpTest, TakesVeryManyColumns) {
+  std::string titles = "ITEM: ATOMS xu yu z", values = "1 2 3";
+  for (int i = 0; i < 150000; ++i) {
+    titles += i == 7 ? " x y" : " xs q";
+    values += " 4 5";
+  }
+  titles += " type";
+  values += " 1";
+  const auto p = read("p.dump", "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\n" + titles + "\n" + values + "\n");
+  EXPECT_EQ(complaints(), "");
+  EXPECT_EQ(p.position, (std::vector<Vec3d>{{4, 5, 3}}));
+  EXPECT_EQ(refusal("p.dump", "ITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS y z type x x x x\n1 1 1 1 1 1 1\n"),
+            "p.dump:3: has two columns \"x\"");
+}
+
 // The box is -1 to 4 and periodic only along x. A position on a face belongs to the lower end.
 TEST_F(LammpsDumpTest, BringsParticlesBackIntoPeriodicBoxes) {
   const std::string head = "ITEM: TIMESTEP\n0\n" + kBox;

@@ -162,8 +162,10 @@ TEST_F(PlyParticlesTest, SaysWhatIsWrongWithAHeader) {
   rules_.material = std::uint16_t{0};
   EXPECT_EQ(refusal("p.ply", good + "element vertex 1\nproperty float x\nproperty float x\nend_header\n1 2\n"),
             "p.ply:6: has two columns \"x\"\n"
-            "p.ply:6: has no column \"y\"; the header must name x, y and z, and names \"x\", \"x\"\n"
-            "p.ply:6: has no column \"z\"; the header must name x, y and z, and names \"x\", \"x\"");
+            "p.ply:6: has no columns \"y\", \"z\"; the header must name x, y and z, and names \"x\", \"x\"");
+  EXPECT_EQ(read("p.ply", "\xef\xbb\xbf" + good + "element vertex 1\n" + xyz + "end_header\n1 2 3\n").position,
+            (std::vector<Vec3d>{{1, 2, 3}}))
+      << "after a byte order mark";
   EXPECT_EQ(refusal("p.ply", good + "element vertex 2\n" + xyz + "end_header\n1 2\n1 2 3 4\n"),
             "p.ply:8: ends before z\np.ply:9: has more values than the header has properties");
 }

@@ -59,6 +59,15 @@ TEST_F(XyzParticlesTest, ReadsPlainRows) {
   EXPECT_EQ(read("p.xyz", text).material, (std::vector<std::uint16_t>{1, 1, 1}));
 }
 
+TEST_F(XyzParticlesTest, PassesAByteOrderMark) {
+  EXPECT_EQ(read("p.xyz",
+                 "\xef\xbb\xbf"
+                 "1\n\nwater 1 2 3\n")
+                .position,
+            (std::vector<Vec3d>{{1, 2, 3}}));
+  EXPECT_EQ(complaints(), "");
+}
+
 TEST_F(XyzParticlesTest, MapsSpecies) {
   const std::string text = "2\n\nAr 1 2 3 extra 5\nwater 4 5 6 extra 5\n\n\n";
   EXPECT_EQ(refusal("p.xyz", text),
@@ -84,9 +93,9 @@ TEST_F(XyzParticlesTest, SaysWhatIsWrong) {
   EXPECT_EQ(refusal("p.xyz", "1\nProperties=pos:R:99999999999\n1 2 3 4 5 6\n"),
             "p.xyz:2: has Properties with \"pos:R:99999999999\"; must be name:type:columns, as pos:R:3");
   EXPECT_EQ(refusal("p.xyz", "1\nProperties=species:S:1:pos:R:2\nwater 2 3\n"),
-            "p.xyz:2: has no column \"x\"; the header must name x, y and z, and names \"species\", \"pos\", \"pos\"\n"
-            "p.xyz:2: has no column \"y\"; the header must name x, y and z, and names \"species\", \"pos\", \"pos\"\n"
-            "p.xyz:2: has no column \"z\"; the header must name x, y and z, and names \"species\", \"pos\", \"pos\"");
+            "p.xyz:2: has no columns \"x\", \"y\", \"z\"; the header must name x, y and z, and names \"species\", "
+            "\"pos\", \"pos\"");
+  EXPECT_EQ(refusal("p.xyz", "0\n\n"), "p.xyz: holds no particles");
   EXPECT_EQ(refusal("p.xyz", "1\nProperties=pos:R:3\n1 2 3\n"),
             "p.xyz:2: has no column \"material\", and the scene's entry names no material either");
   EXPECT_EQ(refusal("p.xyz", "1\nnothing = \"open\n=x\nwater 1 inf nan\n"), "p.xyz:3: has 1 fields, the header 4");
