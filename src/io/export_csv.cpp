@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "hooke/io/export_format.h"
 #include "hooke/io/failure.h"
+#include "hooke/io/material_words.h"
 #include "hooke/io/write_rows.h"
 
 namespace hooke {
 
 std::vector<std::filesystem::path> export_csv(const ExportJob& job) {
   const RunReader& run = job.run;
-  std::vector<std::string> names;
-  for (const MaterialInfo& m : run.info().materials) names.push_back(csv_field(m.name));
+  const std::vector<std::string> names = material_fields(run.info().materials, job.file);
   const bool single = run.info().precision == Precision::single_precision;
   OutputFile out(job.file);
   out.write("step,t,id,material,x,y,z,vx,vy,vz\n");

@@ -31,12 +31,13 @@ void write_file(const Snapshot& snapshot, const std::vector<MaterialInfo>& mater
   head += " atoms\n";
   append_number(head, static_cast<std::uint64_t>(materials.size()));
   head += " atom types\n";
+  const std::vector<std::string> words = material_words(materials, kLongestWord, file);
   std::vector<std::string> columns;  // text of the columns that depend on the material
   for (std::size_t m = 0; m < materials.size(); ++m) {
-    const auto [name, radius, mass] = materials[m];
+    const double radius = materials[m].radius, mass = materials[m].mass;
     std::string type;
     append_number(type, static_cast<std::uint64_t>(m + 1));
-    head += "# type " + type + ' ' + as_word(name).substr(0, kLongestWord) + '\n';
+    head += "# type " + type + ' ' + words[m] + '\n';
     std::string& text = columns.emplace_back(' ' + type + ' ');
     append_number(text, 2 * radius);
     text += ' ';

@@ -14,9 +14,11 @@ namespace hooke {
 
 namespace {
 
+constexpr std::size_t kLongestWord = 500;  // bytes: LAMMPS takes lines of 1024
+
 template <class Real>
 void write_frame(OutputFile& out, const Snapshot& snapshot, const std::vector<MaterialInfo>& materials,
-                 const Scene* scene) {
+                 const std::vector<std::string>& words, const Scene* scene) {
   const ParticleSet& p = snapshot.particles;
   const Domain box = lammps_box(snapshot, materials, scene);
   std::string head = "ITEM: TIME\n";
@@ -43,7 +45,7 @@ void write_frame(OutputFile& out, const Snapshot& snapshot, const std::vector<Ma
   for (std::size_t m = 0; m < materials.size(); ++m) {
     std::string& text = columns.emplace_back(" ");
     append_number(text, static_cast<std::uint64_t>(m + 1));
-    text += ' ' + as_word(materials[m].name) + ' ';
+    text += ' ' + words[m] + ' ';
     append_number(text, materials[m].radius);
     text += ' ';
     append_number(text, materials[m].mass);
@@ -64,10 +66,11 @@ void write_frame(OutputFile& out, const Snapshot& snapshot, const std::vector<Ma
 std::vector<std::filesystem::path> export_lammps_dump(const ExportJob& job) {
   const RunInfo& info = job.run.info();
   const auto write = info.precision == Precision::single_precision ? write_frame<float> : write_frame<double>;
+  const std::vector<std::string> words = material_words(info.materials, kLongestWord, job.file);
   OutputFile out(job.file);
   out.write("ITEM: UNITS\nsi\n");
   for (const std::size_t index : job.indices) {
-    write(out, take(job.run.read(index)), info.materials, job.options.scene);
+    write(out, take(job.run.read(index)), info.materials, words, job.options.scene);
   }
   out.finish();
   return {job.file};

@@ -13,6 +13,8 @@ namespace hooke {
 
 namespace {
 
+constexpr std::size_t kLongestWord = 500;  // bytes: common readers take lines of 1024
+
 template <class T>
 void append_bytes(std::string& bytes, T value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
@@ -33,11 +35,12 @@ void write_file(const Snapshot& snapshot, const std::vector<MaterialInfo>& mater
   head += "\ncomment time ";
   append_number(head, snapshot.time);
   head += '\n';
+  const std::vector<std::string> words = material_words(materials, kLongestWord, file);
   std::vector<std::string> columns;  // bytes of the columns that depend on the material
   for (std::size_t m = 0; m < materials.size(); ++m) {
     head += "comment material ";
     append_number(head, static_cast<std::uint64_t>(m));
-    head += ' ' + as_word(materials[m].name) + '\n';
+    head += ' ' + words[m] + '\n';
     std::string& bytes = columns.emplace_back();
     append_bytes(bytes, static_cast<std::uint16_t>(m));
     if (scene) {

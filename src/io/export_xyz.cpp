@@ -12,6 +12,8 @@ namespace hooke {
 
 namespace {
 
+constexpr std::size_t kLongestWord = 65536;  // bytes, far below the longest line that Hooke reads
+
 /// `Lattice="..." Origin="..." pbc="..." `: the edges of the cell, its corner, and which axes are periodic.
 std::string cell(const Domain& domain) {
   std::string text = "Lattice=\"";
@@ -32,7 +34,7 @@ std::string cell(const Domain& domain) {
 
 template <class Real>
 void write_frame(OutputFile& out, const Snapshot& snapshot, const std::vector<MaterialInfo>& materials,
-                 const std::string& cell) {
+                 const std::vector<std::string>& species, const std::string& cell) {
   const ParticleSet& p = snapshot.particles;
   std::string head;
   append_number(head, static_cast<std::uint64_t>(p.size()));
@@ -42,9 +44,8 @@ void write_frame(OutputFile& out, const Snapshot& snapshot, const std::vector<Ma
   append_number(head, snapshot.step);
   out.write(head + '\n');
 
-  std::vector<std::string> species, radius_and_mass;
+  std::vector<std::string> radius_and_mass;
   for (const MaterialInfo& m : materials) {
-    species.push_back(as_word(m.name) + ' ');
     std::string& end = radius_and_mass.emplace_back(" ");
     append_number(end, m.radius);
     end += ' ';
@@ -53,6 +54,7 @@ void write_frame(OutputFile& out, const Snapshot& snapshot, const std::vector<Ma
   }
   write_rows(out, p.size(), [&](std::string& text, std::size_t i) {
     text += species[p.material[i]];
+    text += ' ';
     append_vector<Real>(text, p.position[i]);
     text += ' ';
     append_vector<Real>(text, p.velocity[i]);
@@ -68,8 +70,9 @@ std::vector<std::filesystem::path> export_xyz(const ExportJob& job) {
   const RunInfo& info = job.run.info();
   const std::string cell_text = job.options.scene ? cell(job.options.scene->domain) : R"(pbc="F F F" )";
   const auto write = info.precision == Precision::single_precision ? write_frame<float> : write_frame<double>;
+  const std::vector<std::string> species = material_words(info.materials, kLongestWord, job.file);
   OutputFile out(job.file);
-  for (const std::size_t index : job.indices) write(out, take(job.run.read(index)), info.materials, cell_text);
+  for (const std::size_t index : job.indices) write(out, take(job.run.read(index)), info.materials, species, cell_text);
   out.finish();
   return {job.file};
 }

@@ -29,9 +29,11 @@ void write_rows(OutputFile& out, std::size_t count, const Append& append) {
   }
 }
 
-/// A name as a CSV field, quoted if necessary.
+/// A name as a CSV field, quoted if necessary: readers drop blanks at the ends of a field that is not.
 inline std::string csv_field(const std::string& name) {
-  if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
+  const bool kept = name.empty() || (!is_blank(name.front()) && !is_blank(name.back()));
+  if (kept && name.find_first_of(",\"\r\n") == std::string::npos) return name;
   std::string quoted = "\"";
   for (const char c : name) quoted.append(c == '"' ? 2 : 1, c);
   return quoted + '"';
