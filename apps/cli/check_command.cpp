@@ -6,8 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "commands.h"
+#include "hooke/base/printable.h"
 #include "hooke/scene/load_scene.h"
 #include "log.h"
 #include "open_simulation.h"
@@ -27,13 +31,17 @@ void print_step(const Simulation& simulation) {
   }
 }
 
-void print_overlaps(const Measurements& now) {
-  if (now.contacts == 0) {
-    fmt::print("  overlaps   none at the start\n");
-  } else {
-    fmt::print("  overlaps   {} pairs touch at the start, the deepest overlaps by {:.3g} % of the sum of its radii\n",
-               with_commas(now.contacts), 100 * now.max_overlap_ratio);
+void print_overlaps(const Simulation& simulation, const Measurements& now) {
+  std::vector<std::string> sentences = overlapped_bodies(simulation);
+  if (now.contacts > 0) {
+    sentences.insert(
+        sentences.begin(),
+        fmt::format("{} pairs touch at the start, the deepest overlaps by {:.3g} % of the sum of its radii",
+                    with_commas(now.contacts), 100 * now.max_pair_overlap_ratio));
   }
+  if (sentences.empty()) sentences.emplace_back("none at the start");
+  const char* title = "overlaps";
+  for (const std::string& sentence : sentences) fmt::print("  {:<8}   {}\n", std::exchange(title, ""), sentence);
 }
 
 void print_precision(const Scene& scene) {
@@ -75,9 +83,9 @@ ExitStatus check_command(const CheckArguments& arguments) {
   const auto now = simulation.measure();
   if (!now) return report_error(now.error());
 
-  for (const Finding& warning : opened->warnings) spdlog::warn("{}: {}", warning.where, warning.message);
+  for (const Finding& warning : opened->warnings) report_warning(warning);
   const auto particles = simulation.particle_count();
-  fmt::print("{}: {}\n", arguments.scene.file.string(), scene.name);
+  fmt::print("{}: {}\n", printable(arguments.scene.file.string()), printable(scene.name));
   fmt::print("  particles  {}\n", with_commas(particles));
   const double most = static_cast<double>(particles) + expected_births(scene);
   if (!scene.emitters.empty()) {
@@ -87,9 +95,10 @@ ExitStatus check_command(const CheckArguments& arguments) {
   print_memory(most, opened->fields);
   fmt::print("  duration   {} steps, {:.6g} s\n", scene.steps, static_cast<double>(scene.steps) * scene.time_step);
   print_step(simulation);
-  print_overlaps(*now);
+  print_overlaps(simulation, *now);
   print_precision(scene);
 
+  for (const Finding& finding : deep_starts(simulation)) report_warning(finding);
   if (const std::string unstable = unstable_step(simulation); !unstable.empty()) {
     if (arguments.strict) return report_error({Error::Kind::bad_input, {{"", unstable}}});
     spdlog::warn(unstable);

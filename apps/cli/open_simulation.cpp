@@ -12,8 +12,11 @@
 
 #include "hooke/backends/cpu/cpu_backend.h"
 #include "hooke/backends/reference/reference_backend.h"
+#include "hooke/base/printable.h"
+#include "hooke/core/body_overlaps.h"
 #include "hooke/io/checkpoint.h"
 #include "hooke/scene/load_scene.h"
+#include "progress.h"
 
 namespace hooke::cli {
 
@@ -87,6 +90,65 @@ std::string coarse_positions(const Simulation& simulation) {
       "domain: single precision resolves only {:.3g} radii at its edge ({} is fine), too little for particles at rest "
       "there: set \"precision\": \"double\", or move the domain nearer to 0",
       radii, kFinest);
+}
+
+namespace {
+
+std::vector<BodyOverlap> body_overlaps(const Simulation& simulation) {
+  const std::shared_ptr<const Snapshot> now = simulation.snapshot();
+  return find_body_overlaps(simulation.scene(), now->particles, now->time);
+}
+
+std::string named(const BodyOverlap& body, const Scene& scene) {
+  if (body.face != Face::none) return fmt::format("the wall {}", to_string(body.face));
+  return fmt::format("collider \"{}\"", printable(scene.colliders[body.collider].name));
+}
+
+std::string particles(std::uint64_t count) {
+  return fmt::format("{} particle{}", with_commas(count), count == 1 ? "" : "s");
+}
+
+std::string overlap_sentence(const BodyOverlap& body, const Scene& scene) {
+  return fmt::format("{} overlap{} {} at the start, particle {} most, by {:.3g} % of its radius",
+                     particles(body.touching), body.touching == 1 ? "s" : "", named(body, scene), body.deepest,
+                     100 * body.ratio);
+}
+
+std::string inside_sentence(const BodyOverlap& body, const Scene& scene) {
+  const Collider& collider = scene.colliders[body.collider];
+  const std::string who =
+      fmt::format("{} {} inside {}", particles(body.inside), body.inside == 1 ? "is" : "are", named(body, scene));
+  if (std::holds_alternative<PlaneShape>(collider.shape)) {
+    return who + ": behind the plane, which pushes them out along its normal";
+  }
+  return who + ", a solid, which pushes them out; with \"hollow\": true it is a shell that holds them";
+}
+
+}  // namespace
+
+std::vector<std::string> overlapped_bodies(const Simulation& simulation) {
+  std::vector<std::string> sentences;
+  for (const BodyOverlap& body : body_overlaps(simulation)) {
+    if (body.touching > 0) sentences.push_back(overlap_sentence(body, simulation.scene()));
+  }
+  return sentences;
+}
+
+std::vector<Finding> deep_starts(const Simulation& simulation) {
+  constexpr double kDeep = 0.5;  // radii
+  std::vector<Finding> findings;
+  if (simulation.step_count() > 0) return findings;
+  const Scene& scene = simulation.scene();
+  for (const BodyOverlap& body : body_overlaps(simulation)) {
+    const std::string where =
+        body.face != Face::none ? std::string("domain.walls") : fmt::format("colliders[{}]", body.collider);
+    if (body.inside > 0) {
+      findings.push_back({where, inside_sentence(body, scene)});
+    } else if (body.ratio > kDeep) {
+      findings.push_back({where, overlap_sentence(body, scene)});
+    }
+  }
+  return findings;
 }
 
 }  // namespace hooke::cli

@@ -42,6 +42,13 @@ struct FloatSpacing {
 };
 FloatSpacing float_spacing(const Scene& scene);
 
+/// What the particles of a run that begins overlap or are inside of: a sentence for each wall and each collider.
+std::vector<std::string> overlapped_bodies(const Simulation& simulation);
+
+/// What is most likely a mistake among them: centres inside of solids, overlaps deeper than half a radius. Each has the
+/// JSON path of its entry. None for a run that goes on from a checkpoint.
+std::vector<Finding> deep_starts(const Simulation& simulation);
+
 /// A sentence about a domain too large for the single precision in use; empty if it is not too large.
 std::string coarse_positions(const Simulation& simulation);
 

@@ -14,6 +14,7 @@
 
 #include "commands.h"
 #include "film_thread.h"
+#include "hooke/base/printable.h"
 #include "hooke/io/describe_file.h"
 #include "hooke/io/run_folder.h"
 #include "hooke/render/film.h"
@@ -198,10 +199,14 @@ void log_start(const OpenedSimulation& opened) {
   const Simulation& simulation = opened.simulation;
   const BackendInfo back_end = simulation.backend_info();
   spdlog::info("hooke {}: {}, {} particles, step {} to {} of {} s, {} ({}), {} precision, {} threads", HOOKE_VERSION,
-               simulation.scene().name, simulation.particle_count(), simulation.step_count(), simulation.scene().steps,
-               simulation.scene().time_step, back_end.device, back_end.isa, to_string(back_end.precision),
-               back_end.threads);
-  for (const Finding& warning : opened.warnings) spdlog::warn("{}: {}", warning.where, warning.message);
+               printable(simulation.scene().name), simulation.particle_count(), simulation.step_count(),
+               simulation.scene().steps, simulation.scene().time_step, back_end.device, back_end.isa,
+               to_string(back_end.precision), back_end.threads);
+  for (const Finding& warning : opened.warnings) report_warning(warning);
+  if (simulation.step_count() == 0) {
+    for (const std::string& sentence : overlapped_bodies(simulation)) spdlog::info(sentence);
+  }
+  for (const Finding& finding : deep_starts(simulation)) report_warning(finding);
   if (const std::string unstable = unstable_step(simulation); !unstable.empty()) spdlog::warn(unstable);
   if (const std::string coarse = coarse_positions(simulation); !coarse.empty()) spdlog::warn(coarse);
 }

@@ -8,6 +8,7 @@
 
 #include "hooke/base/assert.h"
 #include "hooke/base/hash.h"
+#include "hooke/physics/enclosure.h"
 
 namespace hooke {
 namespace {
@@ -97,6 +98,8 @@ bool FreeSpace::is_inside_domain(const Vec3d& x) const {
 bool FreeSpace::is_clear_of_colliders(const Vec3d& x) const {
   bool clear = true;
   for (const PlacedCollider<double>& collider : colliders_) {
+    // Distances from a mesh are known near its surface only.
+    if (!collider.shape.hollow && encloses(collider, x)) return false;
     for_each_collider_face(
         collider, x, [&](const ColliderFace<double>& face) { clear = clear && face.distance >= kClear * radius_; });
   }

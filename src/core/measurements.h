@@ -26,7 +26,9 @@ struct Measurements {
   Vec3d centre_of_mass{0, 0, 0};          ///< m
   double momentum_scale = 0;              ///< sum of m |v|, kg m/s: what rounding of the momentum is relative to
   double max_speed = 0;                   ///< m/s
-  double max_overlap_ratio = 0;           ///< deepest pair: overlap / (r_i + r_p)
+  double max_overlap_ratio = 0;           ///< deepest contact: of a pair overlap / (r_i + r_p), with a wall or a
+                                          ///< collider overlap / r_i
+  double max_pair_overlap_ratio = 0;      ///< of pairs alone
   double mean_overlap_ratio = 0;          ///< mean over touching pairs
   Vec3d min{0, 0, 0}, max{0, 0, 0};       ///< box around the centres, m; 0 where there is none
   Vec3d wall_force{0, 0, 0};              ///< by walls on particles at this instant, N

@@ -101,17 +101,22 @@ void MeasurementSums::add_contact_side(const ContactLaw<double>& law, double ove
   if (!(overlap > 0)) return;
   ++contact_sides_;
   overlap_ratio_.add(overlap / reach);
-  max_overlap_ratio_ = std::max(max_overlap_ratio_, overlap / reach);
+  max_pair_ratio_ = std::max(max_pair_ratio_, overlap / reach);
 }
 
-void MeasurementSums::add_wall_contact(const ContactLaw<double>& law, double overlap, const Vec3d& force) {
+void MeasurementSums::add_wall_contact(const ContactLaw<double>& law, double overlap, double radius,
+                                       const Vec3d& force) {
+  HOOKE_ASSERT(radius > 0, radius);
   if (overlap > 0) ++wall_contacts_;
+  max_body_ratio_ = std::max(max_body_ratio_, overlap / radius);
   wall_elastic_.add(contact_energy(overlap, law));
   wall_force_.add(force);
 }
 
 void MeasurementSums::add_collider_contact(std::size_t index, const Vec3d& point, const ContactLaw<double>& law,
-                                           double overlap, const Vec3d& force) {
+                                           double overlap, double radius, const Vec3d& force) {
+  HOOKE_ASSERT(radius > 0, radius);
+  max_body_ratio_ = std::max(max_body_ratio_, overlap / radius);
   collider_elastic_.add(contact_energy(overlap, law));
   collider_loads_.add_contact(index, point, force);
 }
@@ -142,7 +147,8 @@ void MeasurementSums::add(const MeasurementSums& other) {
   attraction_energy_.add(other.attraction_energy_);
   collider_loads_.add(other.collider_loads_);
   max_speed_ = std::max(max_speed_, other.max_speed_);
-  max_overlap_ratio_ = std::max(max_overlap_ratio_, other.max_overlap_ratio_);
+  max_pair_ratio_ = std::max(max_pair_ratio_, other.max_pair_ratio_);
+  max_body_ratio_ = std::max(max_body_ratio_, other.max_body_ratio_);
 }
 
 Measurements MeasurementSums::result(std::size_t colliders) const {
@@ -158,7 +164,8 @@ Measurements MeasurementSums::result(std::size_t colliders) const {
   if (particles_ > 0) m.centre_of_mass = (1 / mass_.value()) * mass_moment_.value();
   m.momentum_scale = momentum_scale_.value();
   m.max_speed = max_speed_;
-  m.max_overlap_ratio = max_overlap_ratio_;
+  m.max_overlap_ratio = std::max(max_pair_ratio_, max_body_ratio_);
+  m.max_pair_overlap_ratio = max_pair_ratio_;
   if (contact_sides_ > 0) m.mean_overlap_ratio = overlap_ratio_.value() / static_cast<double>(contact_sides_);
   if (particles_ > 0) {
     m.min = box_.min;

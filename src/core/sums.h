@@ -130,10 +130,12 @@ class MeasurementSums {
   /// One side of a contact between particles, which cohesion may hold across a gap: call for each of the two. `reach`
   /// is r_i + r_p, m, > 0.
   void add_contact_side(const ContactLaw<double>& law, double overlap, double reach);
-  void add_wall_contact(const ContactLaw<double>& law, double overlap, const Vec3d& force);
-  /// A particle that touches collider `index` at `point` (m, from the pivot) and gets `force` (N) from it.
+  /// A particle of `radius` (m, > 0) that a wall gives `force` (N).
+  void add_wall_contact(const ContactLaw<double>& law, double overlap, double radius, const Vec3d& force);
+  /// A particle of `radius` (m, > 0) that touches collider `index` at `point` (m, from the pivot) and gets `force` (N)
+  /// from it.
   void add_collider_contact(std::size_t index, const Vec3d& point, const ContactLaw<double>& law, double overlap,
-                            const Vec3d& force);
+                            double radius, const Vec3d& force);
   /// `count` springs of the scene's structure that hold, with this energy, J, in them.
   void add_springs(std::uint64_t count, const ExactSum& energy);
   /// Energy of particles in the attraction of all others, J.
@@ -148,7 +150,7 @@ class MeasurementSums {
   ExactVectorSum momentum_, mass_moment_, wall_force_;
   ExactSum collider_elastic_, spring_energy_, attraction_energy_;
   ColliderLoadSums collider_loads_;
-  double max_speed_ = 0, max_overlap_ratio_ = 0;
+  double max_speed_ = 0, max_pair_ratio_ = 0, max_body_ratio_ = 0;
   Box3d box_ = Box3d::none();  // around the centres, m
 };
 

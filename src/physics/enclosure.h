@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "hooke/base/assert.h"
-#include "hooke/physics/shapes.h"
+#include "hooke/physics/collider.h"
 
 namespace hooke {
 
@@ -49,6 +49,12 @@ inline bool encloses(const DistanceFieldView& field, const Vec3d& at) {
 inline bool encloses(const ShapeGeometry<double>& shape, const Vec3d& x) {
   if (shape.kind == ShapeKind::mesh) return encloses(shape.field, x - shape.center);
   return shape_distance(shape, x).distance < 0;
+}
+
+/// The same for a shape where it is placed; whether it is hollow makes no difference.
+inline bool encloses(const PlacedCollider<double>& body, const Vec3d& x) {
+  const Vec3d off = x - body.pivot;
+  return encloses(body.shape, Vec3d{dot(body.turn[0], off), dot(body.turn[1], off), dot(body.turn[2], off)});
 }
 
 }  // namespace hooke

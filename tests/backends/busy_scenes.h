@@ -96,6 +96,7 @@ inline void expect_same_bits(const Simulation& a, const Simulation& b) {
   EXPECT_EQ(m.centre_of_mass, n.centre_of_mass);
   EXPECT_EQ(m.max_speed, n.max_speed);
   EXPECT_EQ(m.max_overlap_ratio, n.max_overlap_ratio);
+  EXPECT_EQ(m.max_pair_overlap_ratio, n.max_pair_overlap_ratio);
   EXPECT_EQ(m.mean_overlap_ratio, n.mean_overlap_ratio);
   EXPECT_EQ(m.min, n.min);
   EXPECT_EQ(m.max, n.max);

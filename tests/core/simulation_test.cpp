@@ -144,7 +144,8 @@ TEST_P(AllEngines, MeasureWhatIsThere) {
   EXPECT_EQ(m.centre_of_mass, (Vec3d{0.375, 0, 0}));
   EXPECT_DOUBLE_EQ(m.momentum_scale, std::sqrt(5.0) + 1);
   EXPECT_DOUBLE_EQ(m.max_speed, std::sqrt(5.0));
-  EXPECT_EQ(m.max_overlap_ratio, 0.25);
+  EXPECT_EQ(m.max_pair_overlap_ratio, 0.25);
+  EXPECT_EQ(m.max_overlap_ratio, 0.5) << "with the wall, of the radius";
   EXPECT_EQ(m.mean_overlap_ratio, 0.25);
   EXPECT_EQ(m.min, (Vec3d{0, 0, 0}));
   EXPECT_EQ(m.max, (Vec3d{0.75, 0, 0}));

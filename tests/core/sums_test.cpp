@@ -152,7 +152,7 @@ TEST(MeasurementSums, SumUpInAnyOrderAndSplit) {
     const double x = 0.1 * i;
     sums.add_particle(1 + x, {x, -x, 1 / (1 + x)}, {x, 2 * x, -x}, {0, -9.8, 0});
     sums.add_contact_side({{1000, 0, 0}, {}}, 0.01 * (i + 1), 1);
-    sums.add_wall_contact({{500, 0, 0}, {}}, 0.02 * (i + 1), {0, x, 0});
+    sums.add_wall_contact({{500, 0, 0}, {}}, 0.02 * (i + 1), 0.5, {0, x, 0});
   };
   MeasurementSums forward, backward, first, second;
   for (int i = 0; i < 100; ++i) add(forward, i);
@@ -172,7 +172,8 @@ TEST(MeasurementSums, SumUpInAnyOrderAndSplit) {
     EXPECT_EQ(m.momentum, n.momentum);
     EXPECT_EQ(m.centre_of_mass, n.centre_of_mass);
     EXPECT_EQ(m.mean_overlap_ratio, n.mean_overlap_ratio);
-    EXPECT_EQ(m.max_overlap_ratio, 1);
+    EXPECT_EQ(m.max_pair_overlap_ratio, 1);
+    EXPECT_EQ(m.max_overlap_ratio, 4) << "of walls";
     EXPECT_EQ(m.min, n.min);
     EXPECT_EQ(m.max, (Vec3d{0.1 * 99, 0, 1}));
     EXPECT_EQ(m.wall_force, n.wall_force);

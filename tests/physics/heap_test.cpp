@@ -97,7 +97,7 @@ TEST(Column, IsCompressedByTheWeightAbove) {
     EXPECT_NEAR(simulation.positions()[i].y, particles.position[i].y, 1e-12);
   }
   EXPECT_NEAR(measured(simulation).wall_force.y, count * 9.8, 1e-9);
-  EXPECT_NEAR(measured(simulation).max_overlap_ratio, (count - 1) * 9.8 / 1000, 1e-12);
+  EXPECT_NEAR(measured(simulation).max_pair_overlap_ratio, (count - 1) * 9.8 / 1000, 1e-12);
 }
 
 }  // namespace

@@ -161,7 +161,7 @@ TEST_P(LammpsSeries, IsFollowed) {
       EXPECT_NEAR(now.max.x + radius, series.at(row, "front_position"), 0.5 * radius) << "at step " << step;
       const double overlap = series.at(row, "max_pair_overlap_over_D");
       if (last || !single) {
-        EXPECT_NEAR(now.max_overlap_ratio, overlap, 0.2 * overlap) << "at step " << step;
+        EXPECT_NEAR(now.max_pair_overlap_ratio, overlap, 0.2 * overlap) << "at step " << step;
       }
     }
     if (!single) {

@@ -211,12 +211,12 @@ class ReferenceBackend final : public Backend {
       });
       for_each_wall(i, [&](const Vec3d& normal, double overlap) {
         const ContactLaw<double> c = wall(i);
-        sums.add_wall_contact(c, overlap, contact_force(overlap, normal, -p_.velocity[i], c));
+        sums.add_wall_contact(c, overlap, material(i).radius, contact_force(overlap, normal, -p_.velocity[i], c));
       });
       for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double overlap) {
         const ContactLaw<double> k = collider_pair(i, c);
         const Vec3d force = contact_force(overlap, face.normal, face.velocity - p_.velocity[i], k);
-        sums.add_collider_contact(c, face.point, k, overlap, force);
+        sums.add_collider_contact(c, face.point, k, overlap, material(i).radius, force);
       });
     }
     springs_.measure(p_, sums);
