@@ -47,7 +47,7 @@ void check(const SimulationState& state, const std::filesystem::path& path) {
   };
   check_ids(s.springs.a, "springs");
   check_ids(s.springs.b, "springs");
-  check_ids(s.held, "held");
+  check_ids(s.pinned, "held");
   for (const Surface& surface : s.surfaces) check_ids(surface.particles, "surfaces");
 }
 

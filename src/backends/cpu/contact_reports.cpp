@@ -43,12 +43,12 @@ void measure_particle(const ContactScan<Real>& scan, std::size_t i, std::span<co
   });
   scan.for_each_wall(i, [&](const Vec3d& normal, double overlap) {
     const ContactLaw<double> law = law_of(scan.wall(i));
-    sums.add_wall_contact(law, overlap, scan.wall(i).reach, contact_force(overlap, normal, -v, law));
+    sums.add_wall_contact(law, overlap, scan.wall(i).contact_distance, contact_force(overlap, normal, -v, law));
   });
   scan.for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double overlap) {
     const ContactLaw<double> law = law_of(scan.collider(i, c));
     const Vec3d force = contact_force(overlap, face.normal, face.velocity - v, law);
-    sums.add_collider_contact(c, face.point, law, overlap, scan.collider(i, c).reach, force);
+    sums.add_collider_contact(c, face.point, law, overlap, scan.collider(i, c).contact_distance, force);
   });
 }
 
