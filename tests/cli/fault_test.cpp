@@ -104,7 +104,7 @@ TEST_F(Faults, AFailedReadIsNoAbsence) { let_fail("pread", EIO, 23); }
 class EveryFault : public Faults, public testing::WithParamInterface<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Calls, EveryFault,
                          testing::Values("pread", "pwrite", "fsync", "rename", "unlink", "ftruncate"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& call) { return std::string(call.param); });
 TEST_P(EveryFault, LosesNothing) { let_fail(GetParam(), GetParam() == std::string("pwrite") ? ENOSPC : EIO, 1); }
 
 // A run without snapshots is not the same as one whose snapshots can't be read.

@@ -142,7 +142,6 @@ TEST_F(DamagedSnapshots, TablesAreNoLongerThanTheirFile) {
     expect_refused_after([&](hid_t f) { replace(f, name, H5T_STD_I64LE, {kHuge}, 1024); });
   }
   expect_refused_after([&](hid_t f) { replace(f, "VTKHDF/Points", H5T_IEEE_F32LE, {kHuge, 3}, 1024); });
-  expect_refused_after([&](hid_t f) { replace(f, "VTKHDF/Points", H5T_IEEE_F32LE, {4096, 3}, hsize_t{1} << 28U); });
 }
 
 TEST_F(DamagedSnapshots, OffsetsStayWithinTheirTables) {
@@ -167,12 +166,14 @@ TEST_F(DamagedSnapshots, AChangedBitIsRefused) {
     std::vector<hsize_t> size;
     edit(file, [&](hid_t f) {
       const hid_t dataset = H5Dopen2(f, name, H5P_DEFAULT);
-      H5Dget_num_chunks(dataset, H5S_ALL, &chunks);
+      const hid_t space = H5Dget_space(dataset);
+      H5Dget_num_chunks(dataset, space, &chunks);
       address.resize(chunks);
       size.resize(chunks);
       for (hsize_t k = 0; k < chunks; ++k) {
-        H5Dget_chunk_info(dataset, H5S_ALL, k, nullptr, nullptr, &address[k], &size[k]);
+        H5Dget_chunk_info(dataset, space, k, nullptr, nullptr, &address[k], &size[k]);
       }
+      H5Sclose(space);
       H5Dclose(dataset);
     });
     ASSERT_GT(chunks, 0U) << name;
