@@ -255,7 +255,7 @@ TEST(Springs, ThatMakeNoSenseAreRefused) {
   EXPECT_EQ(refused({1, 2, 1, 1, 0}, {2, 1}), "ids must be unique and ascending");
 
   Structure grouped = *structure_of({{1, 2, 1, 1, 0}});
-  grouped.slices = {{"springs[0]", 1}, {"springs[1]", 2}};
+  grouped.groups = {{"springs[0]", 1}, {"springs[1]", 2}};
   scene.structure = std::make_shared<Structure>(grouped);
   const auto made = Simulation::create(scene, particles, make_backend(kCpuDouble));
   ASSERT_FALSE(made);

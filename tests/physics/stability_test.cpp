@@ -158,7 +158,7 @@ TEST(StableStep, NamesTheGroupsOfSprings) {
   structure->springs.push_back({1, 2, 1.5, 100, 0});
   structure->springs.push_back({2, 3, 1.5, 1000, 0});
   structure->springs.push_back({3, 4, 1.5, 100, 0});
-  structure->slices = {{"bodies[0]", 1}, {"springs[0]", 2}, {"springs[1]", 3}};
+  structure->groups = {{"bodies[0]", 1}, {"springs[0]", 2}, {"springs[1]", 3}};
   scene.structure = structure;
   const std::string whose = ", " + scene.materials[0].name + ")";
   EXPECT_EQ(stable_step(scene, particles).limit,
@@ -218,7 +218,7 @@ TEST(StableStep, NamesTheClothAndTheWindOnIt) {
   auto structure = std::make_shared<Structure>();
   structure->surfaces = {{"linen", {1, 2, 3}, {0, 1, 2}}};
   structure->springs.push_back({1, 2, 2, 100, 0});
-  structure->slices = {{"cloths[0]", 1}};
+  structure->groups = {{"cloths[0]", 1}};
   scene.structure = structure;
   const std::string name = scene.materials[0].name;
   EXPECT_EQ(stable_step(scene, corners).limit, "stiffness of the springs around particle 1 (cloths[0], " + name + ")");

@@ -134,7 +134,7 @@ TEST(SceneStructure, WeldsSeamsOfACloth) {
       load({R"(cloths=[{"material":"water","mesh":"m.obj","stretch":100,"bend":5,"pins":[0,7]}])"}, folder.path());
   EXPECT_EQ(loaded.particles.size(), 2U + 6);
   EXPECT_EQ(counts(*loaded.scene.structure), (std::map<double, int>{{100, 9}, {5, 3}}));
-  EXPECT_EQ(loaded.scene.structure->held, (std::vector<std::uint64_t>{3, 7})) << "corner 7 is particle 4";
+  EXPECT_EQ(loaded.scene.structure->pinned, (std::vector<std::uint64_t>{3, 7})) << "corner 7 is particle 4";
   ASSERT_EQ(loaded.warnings.size(), 1U);
   EXPECT_EQ(loaded.warnings[0].where, "cloths[0].mesh");
   EXPECT_EQ(loaded.warnings[0].message,
