@@ -53,7 +53,9 @@ TEST_P(NamesTest, ComeBack) {
 }
 
 TEST_P(NamesTest, AreWrittenWholeOrNotAtAll) {
-  const std::string longest = std::string(300, 'n'), end = std::string(300, 'n') + 'm';
+  const std::string longest(300, 'n');
+  std::string end(301, 'n');
+  end.back() = 'm';
   write("s.json", scene({longest, end}));
   hooke_ok({"run", "s.json", "-q"});
   const Outcome exported = hooke({"export", "s", "-o", "p" + GetParam()});
