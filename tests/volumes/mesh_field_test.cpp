@@ -92,7 +92,7 @@ TEST(MeshField, ExpectsAboutAsManySamplesAsItHas) {
 // A triangle without area is as large as it is long.
 TEST(MeshField, CountsSlivers) {
   TriangleMesh sliver;
-  sliver.vertices = {{0, 0, 0}, {100, 0, 0}, {50, 0, 0}};
+  sliver.vertices = {{0, 0, 0}, {300, 0, 0}, {150, 0, 0}};
   sliver.triangles = {{0, 1, 2}};
   EXPECT_GT(expected_samples(sliver, options_of(1e-3 / 3, 1e-3, false), kMost), kMost);
   EXPECT_TRUE(spans_few_cells(sliver, options_of(1e-3 / 3, 1e-3, false)));
