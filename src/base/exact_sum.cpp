@@ -7,6 +7,21 @@
 
 namespace hooke {
 
+namespace {
+
+// Calls visit(part) for each of sum.parts().
+template <class Visit>
+void for_each_part(const ExactSum& sum, const Visit& visit) {
+  ExactSum rest = sum;
+  for (double part = rest.value(); part != 0; part = rest.value()) {
+    if (!std::isfinite(part)) return visit(std::nan(""));
+    visit(part);
+    rest.add(-part);
+  }
+}
+
+}  // namespace
+
 void ExactSum::add(const ExactSum& other) {
   if (other.is_zero()) return;
   add(other.sum_);
@@ -31,17 +46,12 @@ void ExactSum::add_product(double a, double b) {
 }
 
 void ExactSum::add_scaled(const ExactSum& other, double factor) {
-  for (const double part : other.parts()) add_product(part, factor);
+  for_each_part(other, [&](double part) { add_product(part, factor); });
 }
 
 std::vector<double> ExactSum::parts() const {
   std::vector<double> parts;
-  ExactSum rest = *this;
-  for (double part = rest.value(); part != 0; part = rest.value()) {
-    if (!std::isfinite(part)) return {std::nan("")};
-    parts.push_back(part);
-    rest.add(-part);
-  }
+  for_each_part(*this, [&](double part) { parts.push_back(part); });
   return parts;
 }
 
