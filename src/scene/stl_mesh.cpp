@@ -130,7 +130,8 @@ class TextStl {
   Vec3d at_[3] = {};
 };
 
-// Whether the first word of the file, behind blanks, is "solid".
+// Whether the first word of the file, behind blanks, is "solid", and no byte is 0, as some of a binary file are, whose
+// title may be any text.
 bool begins_as_text(FileScanner& in) {
   const FileScanner::Place start = in.place();
   std::string_view first;
@@ -140,7 +141,8 @@ bool begins_as_text(FileScanner& in) {
   text = without_byte_order_mark(text);
   text.remove_prefix(std::min(text.size(), text.find_first_not_of(" \t\r\n")));
   first = text.substr(0, 5);
-  const bool is_text = first.size() == 5 && strncasecmp(first.data(), "solid", 5) == 0;
+  const bool is_text =
+      first.size() == 5 && strncasecmp(first.data(), "solid", 5) == 0 && text.find('\0') == std::string_view::npos;
   in.go_back(start);
   return is_text;
 }

@@ -70,7 +70,13 @@ class ExportLammps : public testing::TestWithParam<Precision> {
   }
 
   const samples::TemporaryFolder folder_;
-  RunInfo info_ = samples::run_info(GetParam());
+  // As long as a line of LAMMPS's takes it.
+  static RunInfo run_info() {
+    RunInfo info = samples::run_info(GetParam());
+    info.materials[0].name.resize(60);
+    return info;
+  }
+  RunInfo info_ = run_info();
   std::vector<Snapshot> snapshots_{samples::snapshot(0, 3000, GetParam()), samples::snapshot(8, 0, GetParam()),
                                    samples::snapshot(16, 2000, GetParam())};
 };

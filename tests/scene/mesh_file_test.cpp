@@ -201,8 +201,8 @@ TEST_F(MeshFileTest, CutsConcaveFacesIntoTrianglesInsideThem) {
   double area = 0;
   for (const auto& t : mesh->triangles) {
     const Vec3d n = cross(mesh->vertices[t[1]] - mesh->vertices[t[0]], mesh->vertices[t[2]] - mesh->vertices[t[0]]);
-    EXPECT_GT(n.y, 0);
-    area += 0.5 * n.y;
+    EXPECT_LT(n.y, 0) << "against y, as the corners go around";
+    area -= 0.5 * n.y;
   }
   EXPECT_DOUBLE_EQ(area, 3);
   EXPECT_EQ(mesh->triangles.size(), 4U);
@@ -219,21 +219,22 @@ TEST_F(MeshFileTest, CutsConcaveFacesIntoTrianglesInsideThem) {
 TEST_F(MeshFileTest, RefusesBrokenPly) {
   const std::string good = text_ply();
   const std::string start = "can't be read as a mesh: ";
-  EXPECT_EQ(refusal("p.ply", good.substr(0, 60)), start + "line 5 ends within the header");
+  EXPECT_EQ(refusal("p.ply", good.substr(0, 60)), start + "line 5 has \"\" elements; must be a whole number");
+  EXPECT_EQ(refusal("p.ply", good.substr(0, 51)), start + "line 4 ends within the header");
   EXPECT_EQ(refusal("p.ply", good.substr(0, good.size() - 12)),
-            start + "line 29 ends here, after 5 of 6 elements \"face\"");
+            start + "line 30 ends here, after 5 of 6 elements \"face\"");
   const auto with_face = [&](const std::string& face) {
     return refusal("p.ply", good.substr(0, good.find("4 0 3 2 1")) + face + '\n');
   };
-  EXPECT_EQ(with_face("4 0 3 2 99 1"), start + "line 25 names the vertex 99; the 8 vertices have the numbers from 0");
-  EXPECT_EQ(with_face("3 0 1 -1 1"), start + "line 25 names the vertex -1; the 8 vertices have the numbers from 0");
-  EXPECT_EQ(with_face("3 0 1 x 1"), start + "line 25 names the vertex x; the 8 vertices have the numbers from 0");
-  EXPECT_EQ(with_face("4 0 1 2"), start + "line 25 ends before vertex_indices");
-  EXPECT_EQ(with_face("3 0 1 2 1 1"), start + "line 25 has more values than the header has properties");
-  EXPECT_EQ(with_face("-3 0 1 2 1"), start + "line 25 has a list vertex_indices of length -3; must be a whole number");
+  EXPECT_EQ(with_face("4 0 3 2 99 1"), start + "line 26 names the vertex 99; the 8 vertices have the numbers from 0");
+  EXPECT_EQ(with_face("3 0 1 -1 1"), start + "line 26 names the vertex -1; the 8 vertices have the numbers from 0");
+  EXPECT_EQ(with_face("3 0 1 x 1"), start + "line 26 names the vertex x; the 8 vertices have the numbers from 0");
+  EXPECT_EQ(with_face("4 0 1 2"), start + "line 26 ends before vertex_indices");
+  EXPECT_EQ(with_face("3 0 1 2 1 1"), start + "line 26 has more values than the header has properties");
+  EXPECT_EQ(with_face("-3 0 1 2 1"), start + "line 26 has a list vertex_indices of length -3; must be a whole number");
   EXPECT_EQ(with_face("2 0 1 1\n2 0 1 1\n0 1\n0 1\n0 1\n0 1"), "holds no faces");
   EXPECT_EQ(refusal("p.ply", ply_header("ascii", false) + "0 0 inf\n"),
-            start + "line 12 has z = inf; must be a finite number");
+            start + "line 13 has z = inf; must be a finite number");
   EXPECT_EQ(refusal("p.ply", std::string("ply\nformat ascii 1.0\n") + kVertices + "end_header\n"),
             start + "line 7 ends a header without the element \"face\"");
   EXPECT_EQ(refusal("p.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nelement face 0\nend_header\n"),
@@ -395,10 +396,10 @@ TEST_F(MeshFileTest, SaysInASceneWhatIsRemarkable) {
   EXPECT_EQ(turned->warnings[0].message,
             "3 edges have three triangles or another odd number: the mesh is open, a shell that is touched from both "
             "sides");
-  folder_.write("bad.ply", text_ply().substr(0, 60));
+  folder_.write("bad.ply", text_ply().substr(0, 51));
   EXPECT_EQ(
       load("bad.ply").error().text(),
-      "colliders[0].shape.mesh.file: is \"bad.ply\", which can't be read as a mesh: line 5 ends within the header "
+      "colliders[0].shape.mesh.file: is \"bad.ply\", which can't be read as a mesh: line 4 ends within the header "
       "(line 5)");
 }
 
