@@ -21,7 +21,7 @@ struct Lammps {
 
 class ExportLammps : public testing::TestWithParam<Precision> {
  protected:
-  ExportLammps() { info_.materials[0].name = "salt \"sea\"\n#1 \u00e4%" + std::string(400, '!'); }
+  ExportLammps() { info_.materials[0].name = "salt \"sea\"\n#1 \u00e4%" + std::string(100, '!'); }
 
   /// Writes all snapshots, and returns the files.
   std::vector<std::filesystem::path> exported(const std::string& name, const Scene* scene) {
@@ -70,13 +70,7 @@ class ExportLammps : public testing::TestWithParam<Precision> {
   }
 
   const samples::TemporaryFolder folder_;
-  // As long as a line of LAMMPS's takes it.
-  static RunInfo run_info() {
-    RunInfo info = samples::run_info(GetParam());
-    info.materials[0].name.resize(60);
-    return info;
-  }
-  RunInfo info_ = run_info();
+  RunInfo info_ = samples::run_info(GetParam());
   std::vector<Snapshot> snapshots_{samples::snapshot(0, 3000, GetParam()), samples::snapshot(8, 0, GetParam()),
                                    samples::snapshot(16, 2000, GetParam())};
 };
