@@ -127,6 +127,7 @@ std::string to_json(const RunReport& r) {
   json["max"] = to_array(m.max);
   json["max_speed"] = m.max_speed;
   json["max_overlap_ratio"] = m.max_overlap_ratio;
+  json["max_pair_overlap_ratio"] = m.max_pair_overlap_ratio;
   json["mean_overlap_ratio"] = m.mean_overlap_ratio;
   json["wall_force"] = to_array(m.wall_force);
   json["colliders"] = nlohmann::ordered_json::object();
