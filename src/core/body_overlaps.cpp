@@ -57,10 +57,10 @@ class Tally {
   }
 
  private:
-  static constexpr std::uint64_t kNobody = std::numeric_limits<std::uint64_t>::max();  // no id
+  static constexpr std::uint64_t kNoId = std::numeric_limits<std::uint64_t>::max();
   struct Body {
     BodyOverlap overlap;
-    std::uint64_t last_touching = kNobody, last_inside = kNobody;
+    std::uint64_t last_touching = kNoId, last_inside = kNoId;
   };
 
   // Of two that are equally deep the one with the smaller id, whatever their order.

@@ -19,7 +19,8 @@ void add_kick(KickSums& sums, const StepReport& report, const Vec3d& gravity, Ki
   sums.force[Cause::drag].add(of.drag_force);
   sums.force[Cause::collider].add(of.collider_force);
   for (int axis = 0; axis < 3; ++axis) {
-    sums.force[Cause::gravity][axis].add_scaled(report.mass, component(gravity, axis));
+    const double along = component(gravity, axis);
+    if (along != 0) sums.force[Cause::gravity][axis].add_scaled(report.mass, along);
   }
   if (!report.applied) return;
   for (std::size_t i = 0; i < report.applied->of.size(); ++i) {

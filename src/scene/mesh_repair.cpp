@@ -13,6 +13,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "hooke/base/box3.h"
 #include "hooke/base/hash.h"
 
 namespace hooke {
@@ -89,16 +90,11 @@ Rim rim_of(const TriangleMesh& mesh) {
   if (rim.vertices.empty()) return rim;
   std::sort(rim.vertices.begin(), rim.vertices.end());
   rim.vertices.erase(std::unique(rim.vertices.begin(), rim.vertices.end()), rim.vertices.end());
-  Vec3d low = mesh.vertices[rim.vertices.front()], high = low;
+  Box3d box = Box3d::none();
   for (const auto& t : mesh.triangles) {
-    for (const std::uint32_t v : t) {
-      for (int axis = 0; axis < 3; ++axis) {
-        component(low, axis) = std::min(component(low, axis), component(mesh.vertices[v], axis));
-        component(high, axis) = std::max(component(high, axis), component(mesh.vertices[v], axis));
-      }
-    }
+    for (const std::uint32_t v : t) box.add(mesh.vertices[v]);
   }
-  rim.tolerance = std::min(kOfSize * distance_of(low, high), kOfEdge * shortest);
+  rim.tolerance = std::min(kOfSize * distance_of(box.min, box.max), kOfEdge * shortest);
   return rim;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <unordered_set>
 
+#include "hooke/base/box3.h"
 #include "hooke/volumes/mesh_field.h"
 
 namespace hooke {
@@ -81,13 +82,13 @@ class BrickCounter {
 bool spans_few_cells(const TriangleMesh& mesh, const FieldOptions& options) {
   // With room for the band on both sides.
   const double most = double{DistanceFieldView::kMostBricks} * kCells, band = 2 * half_band(options) + 4 * kCells;
+  Box3d box = Box3d::none();
+  for (const Vec3d& x : mesh.vertices) {
+    if (!std::isfinite(x.x) || !std::isfinite(x.y) || !std::isfinite(x.z)) return false;
+    box.add(x);
+  }
   for (int axis = 0; axis < 3; ++axis) {
-    double low = HUGE_VAL, high = -HUGE_VAL;
-    for (const Vec3d& x : mesh.vertices) {
-      if (!std::isfinite(component(x, axis))) return false;
-      low = std::min(low, component(x, axis));
-      high = std::max(high, component(x, axis));
-    }
+    const double low = component(box.min, axis), high = component(box.max, axis);
     // OpenVDB numbers cells from 0 with 32 bits.
     const double farthest = std::max(std::abs(low), std::abs(high)) / options.cell + 2 * band;
     if (!((high - low) / options.cell + 2 * band <= most && farthest < 2e9)) return false;
