@@ -32,7 +32,6 @@ class ObjReader {
   std::optional<std::string_view> next_line() {
     auto line = in_.line();
     if (!line) return line;
-    if (in_.line_number() == 1) line = without_byte_order_mark(*line);
     if (!line->ends_with('\\')) return line;
     joined_.clear();
     while (line && line->ends_with('\\')) {

@@ -34,7 +34,7 @@ class HeaderReader {
 
   PlyHeader read() {
     const auto magic = in_.line();
-    if (!magic || trimmed(without_byte_order_mark(*magic)) != "ply") {
+    if (!magic || trimmed(*magic) != "ply") {
       throw FileFault(1, "is not \"ply\": it is no PLY file");
     }
     bool has_format = false;

@@ -71,7 +71,7 @@ class TextStl {
 
   void read() {
     while (const auto line = in_.line()) {
-      split_words(in_.line_number() == 1 ? without_byte_order_mark(*line) : *line, words_);
+      split_words(*line, words_);
       if (!words_.empty()) read_line();
     }
     if (state_ != State::outside) refuse("ends a file that goes on, up to \"endsolid\"");
@@ -138,7 +138,6 @@ bool begins_as_text(FileScanner& in) {
   // Whole lines would be looked for in a binary file, too, and may be long there.
   const std::size_t at_hand = std::min<std::uint64_t>(in.remaining(), FileScanner::kLongestLine);
   std::string_view text(in.bytes(at_hand), at_hand);
-  text = without_byte_order_mark(text);
   text.remove_prefix(std::min(text.size(), text.find_first_not_of(" \t\r\n")));
   first = text.substr(0, 5);
   const bool is_text =
