@@ -66,14 +66,15 @@ struct StageTimes {
 struct Instant {
   double time = 0;                      ///< the scene's clock, s, on which fields depend
   std::span<const ColliderPose> poses;  ///< one per collider of the scene, in its order
+  bool moved = false;  ///< whether a step has brought the particles to their places, with the velocities that they have
 };
 
 /// A particle by its id.
 struct ParticleAt {
   std::uint64_t id = 0;
-  std::size_t material = 0;   ///< index into Scene::materials
-  Vec3d position{0, 0, 0};    ///< m
-  Vec3d velocity{0, 0, 0};    ///< m/s
+  std::size_t material = 0;  ///< index into Scene::materials
+  Vec3d position{0, 0, 0};  ///< m
+  Vec3d velocity{0, 0, 0};  ///< m/s
 };
 
 /// What particles that were removed by their ids took along, and which of them were there.

@@ -9,18 +9,11 @@ namespace hooke {
 /// What a back end found wrong while it worked, with the particles concerned. Devices set it, the step
 /// reads it once, Simulation words it.
 struct Condition {
-  enum class Kind {
-    good,
-    not_finite,
-    grid_overflow,
-    approach_too_fast,
-    wall_approach_too_fast,
-    collider_approach_too_fast
-  };
+  enum class Kind { good, not_finite, grid_overflow, pair_too_fast, wall_too_fast, collider_too_fast };
   Kind kind = Kind::good;
   std::uint64_t particle = 0;  ///< id
-  std::uint64_t partner = 0;   ///< id of the other one, for approach_too_fast; index of the collider
-  double speed = 0;            ///< approach speed, m/s
+  std::uint64_t partner = 0;   ///< id of the other one, for pair_too_fast; index of the collider
+  double speed = 0;            ///< m/s, at which they approach; below 0: they part, having passed through each other
 
   bool good() const { return kind == Kind::good; }
 

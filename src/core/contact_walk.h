@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
 #include "hooke/base/vec3.h"
+#include "hooke/physics/collider.h"
 #include "hooke/physics/contact.h"
 #include "hooke/physics/periodic.h"
 #include "hooke/physics/wall.h"
@@ -59,6 +61,30 @@ struct PairGeometry {
 inline PairGeometry pair_geometry(const Vec3d& x_ip, double contact_distance, double tie) {
   const double distance = sqrt_of(dot(x_ip, x_ip));
   return {contact_distance - distance, contact_normal(x_ip, distance, tie)};
+}
+
+/// Whether a contact changes too fast for steps: its two sides approach by more than the smaller `radius` (m) in one.
+/// `approach`: dot(w, normal) times the time step, m.
+inline bool approaches_too_fast(double approach, double radius) { return approach > radius; }
+
+/// Whether two particles that touch have passed through each other in the last step: they part by more than the smaller
+/// `radius` and by more than their `distance` (m), so their centres were on other sides of each other before.
+inline bool passed_through(double approach, double radius, double distance) {
+  return -approach > std::max(radius, distance);
+}
+
+/// Whether a particle at x (m) has passed through a collider in the last step, in which it moved by `motion` (m)
+/// relative to `face`: it parts from the face by more than its `radius`, and the collider's face at its place before
+/// looks the other way.
+template <class S>
+bool passed_through(const PlacedCollider<S>& collider, const ColliderFace<double>& face, const Vec3d& x,
+                    const Vec3d& motion, double radius) {
+  if (!(dot(motion, face.normal) > radius)) return false;
+  bool opposite = false;
+  for_each_collider_face(collider, x - motion, [&](const ColliderFace<double>& before) {
+    opposite = opposite || dot(before.normal, face.normal) < 0;
+  });
+  return opposite;
 }
 
 /// The walls of a domain.

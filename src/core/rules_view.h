@@ -52,7 +52,7 @@ struct RulesView {
   bool has_drag = false;                         // some material has drag
   Real dt{};                                     // s
   Vec3<Real> gravity{};                          // m/s^2
-  Real speed_limit{};                            // m/s: contacts that approach faster are checked closely
+  Real speed_limit{};                            // m/s: contacts that approach or part faster are checked closely
   Vec3<Real> min{}, max{}, length{};             // domain, m
   Vec3<Real> period{};                           // length along periodic axes, else 0
   bool wall[3]{};                                // spring walls across this axis

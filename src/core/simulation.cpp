@@ -170,7 +170,8 @@ struct Simulation::Impl {
   }
 
   std::string describe(const Condition& condition) const {
-    const double moved = condition.speed * scene.time_step;
+    const double speed = std::abs(condition.speed), moved = speed * scene.time_step;
+    const bool part = condition.speed < 0;
     switch (condition.kind) {
       case Condition::Kind::good:
         break;
@@ -178,20 +179,20 @@ struct Simulation::Impl {
         return fmt::format("particle {} is no longer at a finite position; {}", condition.particle, likely_cause());
       case Condition::Kind::grid_overflow:
         return fmt::format("particle {} is too far away for the cell grid; {}", condition.particle, likely_cause());
-      case Condition::Kind::approach_too_fast:
-        return fmt::format(
-            "particles {} and {} approach at {:.6g} m/s, {:.3g} m in one step: more than the smaller radius; {}",
-            condition.particle, condition.partner, condition.speed, moved, likely_cause());
-      case Condition::Kind::wall_approach_too_fast:
+      case Condition::Kind::pair_too_fast:
+        return fmt::format("particles {} and {} {} at {:.6g} m/s, {:.3g} m in one step: {}; {}", condition.particle,
+                           condition.partner, part ? "part" : "approach", speed, moved,
+                           part ? "they have passed through each other" : "more than the smaller radius",
+                           likely_cause());
+      case Condition::Kind::wall_too_fast:
         return fmt::format(
             "particle {} approaches a wall at {:.6g} m/s, {:.3g} m in one step: more than its radius; {}",
-            condition.particle, condition.speed, moved, likely_cause());
-      case Condition::Kind::collider_approach_too_fast:
-        return fmt::format(
-            "particle {} and collider \"{}\" approach at {:.6g} m/s, {:.3g} m in one step: more than the particle's "
-            "radius; {}",
-            condition.particle, printable(scene.colliders[condition.partner].name), condition.speed, moved,
-            likely_cause());
+            condition.particle, speed, moved, likely_cause());
+      case Condition::Kind::collider_too_fast:
+        return fmt::format("particle {} and collider \"{}\" {} at {:.6g} m/s, {:.3g} m in one step: {}; {}",
+                           condition.particle, printable(scene.colliders[condition.partner].name),
+                           part ? "part" : "approach", speed, moved,
+                           part ? "it has passed through" : "more than the particle's radius", likely_cause());
     }
     return {};
   }

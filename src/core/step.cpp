@@ -19,7 +19,8 @@ Condition take_step(const Scene& scene, Backend& backend, Communicator& ranks, R
 
   // 1. Velocity Verlet moves first, with half a kick by the accelerations of the last step. Its forces are those at the
   //    time of arrival; symplectic Euler's are those at the start.
-  const Instant now = place_colliders(run, scene, verlet ? arrival : run.step);
+  Instant now = place_colliders(run, scene, verlet ? arrival : run.step);
+  now.moved = verlet || run.step > 0;
   if (verlet) {
     backend.half_kick_and_drift();
     finish_motion();

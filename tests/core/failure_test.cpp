@@ -98,6 +98,50 @@ TEST_P(Failures, LeaveFastSeparationAlone) {
   EXPECT_TRUE(advance(simulation, 1));
 }
 
+// Fast enough to come out on the other side without an approach that any step sees: 2.7 radii a step.
+TEST_P(Failures, ReportAPairThatHasPassedThroughEachOther) {
+  ParticleSet particles;
+  add(particles, {0, 9, 0}, {0, 0, 0});
+  add(particles, {0.05, 1.1, 0}, {0, -1350, 0});
+  add(particles, {0, 0, 0}, {0, 0, 0});
+  Simulation simulation = start(particles);
+  const Error error = stopped(simulation, 2);
+  expect_words(error, {"particles 2 and 3 part at", "they have passed through each other", "time.step 0.001 s"});
+}
+
+Collider plate(const Shape& shape, bool hollow = false) {
+  Collider made;
+  made.name = "plate";
+  made.shape = shape;
+  made.hollow = hollow;
+  return made;
+}
+
+// Through a face that both sides touch, and through a solid plate thinner than a step.
+TEST_P(Failures, ReportAParticleThatHasPassedThroughACollider) {
+  for (const Collider& collider :
+       {plate(DiscShape{{0, 0, 0}, {0, 1, 0}, 5}), plate(BoxShape{{-5, -0.01, -5}, {5, 0.01, 5}}),
+        plate(BoxShape{{-5, -3, -5}, {5, 0, 5}}, true)}) {
+    scene_.colliders = {collider};
+    ParticleSet particles;
+    add(particles, {0, 9, 0}, {0, 0, 0});
+    add(particles, {0, 0.52, 0}, {0, -600, 0});
+    Simulation simulation = start(particles);
+    const Error error = stopped(simulation, 2);
+    expect_words(error, {"particle 2 and collider \"plate\" part at", "it has passed through"});
+  }
+}
+
+// It starts close behind the plate: no step has brought it there.
+TEST_P(Failures, LeaveFastStartsBehindAColliderAlone) {
+  scene_.integrator = Integrator::symplectic_euler;
+  scene_.colliders = {plate(DiscShape{{0, 0, 0}, {0, 1, 0}, 5})};
+  ParticleSet particles;
+  add(particles, {0, -0.1, 0}, {0, -600, 0});
+  Simulation simulation = start(particles);
+  EXPECT_TRUE(advance(simulation, 3));
+}
+
 TEST_P(Failures, ReportAParticleThatMeetsAWallTooFast) {
   scene_.domain.boundary[1] = Boundary::spring;
   ParticleSet particles;

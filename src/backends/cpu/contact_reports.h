@@ -13,11 +13,12 @@
 
 namespace hooke {
 
-/// The approach of particle i to anything it touches that is too fast for a step, if there is one: in double precision,
-/// with each pair's own limit. `rows` are the rows of its slice in the neighbour list.
+/// A contact of particle i that is too fast for a step, if there is one: in double precision, with each pair's own
+/// limit. `moved`: whether the particles have been brought to their places by a step, in which they may have passed
+/// through something. `rows` are the rows of its slice in the neighbour list.
 template <class Real>
-Condition approach_too_fast(const ContactScan<Real>& scan, std::size_t i, std::span<const std::uint32_t> rows,
-                            const ParticleRecord<Real>* records, const Scene& scene, const IdTable& ids);
+Condition contact_too_fast(const ContactScan<Real>& scan, std::size_t i, std::span<const std::uint32_t> rows,
+                           const ParticleRecord<Real>* records, const Scene& scene, const IdTable& ids, bool moved);
 
 /// Adds particle i, whose record is `p`, and its contacts to `sums`.
 template <class Real>

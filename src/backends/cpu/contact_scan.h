@@ -58,7 +58,8 @@ class ContactScan {
                          [&](int, const Vec3d& normal, double overlap) { visit(normal, overlap); });
   }
 
-  /// visit(collider, face, overlap) for every face of a collider that acts on particle i, in the scene's order.
+  /// visit(index, collider, face, overlap) for every face of a collider that acts on particle i, in the scene's order;
+  /// `index` is the collider's in the scene.
   template <class Visit>
   void for_each_collider(std::size_t i, const Visit& visit) const {
     const Vec3d x = vec_cast<double>(records_[i].x);
@@ -69,7 +70,7 @@ class ContactScan {
       const PairRow<Real>& row = this->collider(i, index);
       for_each_collider_face(collider, x, [&](const ColliderFace<double>& face) {
         const double overlap = static_cast<double>(row.contact_distance) - face.distance;
-        if (overlap > -static_cast<double>(row.range)) visit(index, face, overlap);
+        if (overlap > -static_cast<double>(row.range)) visit(index, collider, face, overlap);
       });
     }
   }

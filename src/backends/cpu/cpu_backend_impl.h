@@ -125,7 +125,7 @@ class CpuBackend final : public Backend {
     return list_.rows(s, g);
   }
 
-  Condition check_approach(std::size_t s, std::size_t g) const;
+  Condition check_contacts(std::size_t s, std::size_t g, bool moved) const;
   // Births and removals ---------------------------------------------------------------------------------------------
 
   // Wraps periodic coordinates; a particle outside an open face leaves.

@@ -23,7 +23,7 @@ void CpuBackend<Real>::apply_forces(const Instant& now, StepReport& report) {
     for (std::size_t g = 0; g < kSlices; ++g) {
       if (tile.far[g] != 0) list_.note_far(s * kSlices + g, tile.far[g]);
       if (tile.notes[g] == 0) continue;
-      if ((tile.notes[g] & kApproachTooFast) != 0) found = Condition::first(found, check_approach(s, g));
+      if ((tile.notes[g] & kTooFast) != 0) found = Condition::first(found, check_contacts(s, g, now.moved));
       if ((tile.notes[g] & kLeftDomain) != 0) {
         if (!left) left.emplace();
         apply_boundaries_to_slice(s, g, *left);
@@ -107,17 +107,17 @@ void CpuBackend<Real>::run_slices(const ForcePass<Real>& pass, std::size_t s, st
   loops_.force_pass(pass, work);
 }
 
-// The slice's first approach that was too fast, if there is one.
+// The slice's first contact that was too fast, if there is one.
 template <class Real>
-Condition CpuBackend<Real>::check_approach(std::size_t s, std::size_t g) const {
+Condition CpuBackend<Real>::check_contacts(std::size_t s, std::size_t g, bool moved) const {
   const ContactScan<Real> scan = contact_scan();
   const auto rows = rows_of(s, g);
   Condition found;
   const std::size_t first = s * kTile + g * kLanes;
   for (std::size_t i = first; i < std::min(first + kLanes, particles_.slots.end_of(s)); ++i) {
     if (!is_vacant(particles_.records[i])) {
-      found =
-          Condition::first(found, approach_too_fast(scan, i, rows, particles_.records.data(), scene_, particles_.ids));
+      found = Condition::first(
+          found, contact_too_fast(scan, i, rows, particles_.records.data(), scene_, particles_.ids, moved));
     }
   }
   return found;

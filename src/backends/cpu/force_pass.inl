@@ -67,7 +67,7 @@ HOOKE_HD Quad<Real> load_rows(const Row* table, const Pack<Real>& index, int par
 template <class Real, Materials kMaterials>
 struct ContactSums {
   Contacts<Real, kMaterials> contacts;
-  // True where every contact's approach speed is at most the limit; false on NaN, i.e. coincident centres.
+  // True where no contact approaches or parts faster than the limit; false on NaN, i.e. coincident centres.
   Mask<Real> slow = Pack<Real>(Real(0)) == Pack<Real>(Real(0));
 };
 
@@ -180,8 +180,9 @@ struct ContactLoop {
     } else {
       sums.contacts.add(contact_vectors(overlap, normal, w), met.law);
     }
-    // NaN, where centres coincide, is not slow. Pairs that only cohesion joins are checked, too.
-    sums.slow = sums.slow & (dot(w, normal) <= P(pass.rules.speed_limit));
+    // NaN, where centres coincide, is not slow. Pairs that only cohesion joins are checked, too, and those that part.
+    const P approach = dot(w, normal);
+    sums.slow = sums.slow & (approach <= P(pass.rules.speed_limit)) & (approach >= P(-pass.rules.speed_limit));
   }
 
   // Loads a row's neighbours, after a prefetch of a later row's.
@@ -408,7 +409,7 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
       far |= bits(present & is_far<Real, kPeriodic>(pass, to, first)) << lane_offset;
     }
   }
-  if (any(too_fast)) notes |= kApproachTooFast;
+  if (any(too_fast)) notes |= kTooFast;
 
   const Vec3<P> zero{P(Real(0)), P(Real(0)), P(Real(0))};
   x = select_vector(present, x, own.x);

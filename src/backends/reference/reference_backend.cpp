@@ -213,7 +213,7 @@ class ReferenceBackend final : public Backend {
         const ContactLaw<double> c = wall(i);
         sums.add_wall_contact(c, overlap, material(i).radius, contact_force(overlap, normal, -p_.velocity[i], c));
       });
-      for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double overlap) {
+      for_each_collider(i, [&](std::size_t c, const auto&, const ColliderFace<double>& face, double overlap) {
         const ContactLaw<double> k = collider_pair(i, c);
         const Vec3d force = contact_force(overlap, face.normal, face.velocity - p_.velocity[i], k);
         sums.add_collider_contact(c, face.point, k, overlap, material(i).radius, force);
@@ -240,13 +240,13 @@ class ReferenceBackend final : public Backend {
 
   // A particle and its partner: another particle, a wall or a face of a collider.
   struct Contact {
-    Condition::Kind kind;  // what to report where the approach is too fast
+    Condition::Kind kind;  // what to report where the contact is too fast for a step
     std::uint64_t partner;  // id, or index of the collider
     double overlap;  // m
     Vec3d normal;  // to the particle
     Vec3d w;  // m/s, of the partner relative to the particle
     ContactLaw<double> law;
-    double radius;  // m, the smaller one
+    bool too_fast;
   };
 
   // The forces on one particle, N.
@@ -276,10 +276,10 @@ class ReferenceBackend final : public Backend {
     out.applied.push_back({Cause::attraction, attraction_.forces(p_)});
     out.applied.push_back({Cause::external, external_forces()});
     for (std::size_t i = 0; i < p_.size(); ++i) {
-      const std::vector<Contact> contacts = contacts_of(i);
+      const std::vector<Contact> contacts = contacts_of(i, now.moved);
       const ParticleForces forces = forces_on(i, contacts, out.applied);
       out.a.push_back((1 / material(i).mass) * total(forces) + scene_.gravity);
-      report.condition = Condition::first(report.condition, check_approach(i, contacts));
+      report.condition = Condition::first(report.condition, check_contacts(i, contacts));
       report.mass.add(material(i).mass);
       book(i, forces, out.a[i], report.sums);
     }
@@ -306,20 +306,27 @@ class ReferenceBackend final : public Backend {
   }
 
   // In canonical order: other particles by id and image, walls, colliders.
-  std::vector<Contact> contacts_of(std::size_t i) const {
-    const Vec3d& v = p_.velocity[i];
-    const double radius = material(i).radius;
+  std::vector<Contact> contacts_of(std::size_t i, bool moved) const {
+    const Vec3d &x = p_.position[i], &v = p_.velocity[i];
+    const double radius = material(i).radius, dt = scene_.time_step;
     std::vector<Contact> all;
     for_each_contact(i, [&](std::size_t p, const Vec3d& normal, double overlap) {
-      all.push_back({Condition::Kind::approach_too_fast, p_.id[p], overlap, normal, p_.velocity[p] - v, pair(i, p),
-                     std::min(radius, material(p).radius)});
+      const Vec3d w = p_.velocity[p] - v;
+      const double approach = dot(w, normal) * dt;
+      const double smaller = std::min(radius, material(p).radius), distance = radius + material(p).radius - overlap;
+      all.push_back({Condition::Kind::pair_too_fast, p_.id[p], overlap, normal, w, pair(i, p),
+                     approaches_too_fast(approach, smaller) || (moved && passed_through(approach, smaller, distance))});
     });
     for_each_wall(i, [&](const Vec3d& normal, double overlap) {
-      all.push_back({Condition::Kind::wall_approach_too_fast, 0, overlap, normal, -v, wall(i), radius});
+      all.push_back({Condition::Kind::wall_too_fast, 0, overlap, normal, -v, wall(i),
+                     approaches_too_fast(dot(-v, normal) * dt, radius)});
     });
-    for_each_collider(i, [&](std::size_t c, const ColliderFace<double>& face, double overlap) {
-      all.push_back({Condition::Kind::collider_approach_too_fast, c, overlap, face.normal, face.velocity - v,
-                     collider_pair(i, c), radius});
+    for_each_collider(i, [&](std::size_t c, const PlacedCollider<double>& collider, const ColliderFace<double>& face,
+                             double overlap) {
+      const Vec3d w = face.velocity - v;
+      all.push_back({Condition::Kind::collider_too_fast, c, overlap, face.normal, w, collider_pair(i, c),
+                     approaches_too_fast(dot(w, face.normal) * dt, radius) ||
+                         (moved && passed_through(collider, face, x, -dt * w, radius))});
     });
     return all;
   }
@@ -334,7 +341,7 @@ class ReferenceBackend final : public Backend {
     for (const Contact& m : contacts) {
       const auto force = [&] { return contact_forces(m.overlap, m.normal, m.w, m.law); };
       const auto linear_force = [&] { return contact_forces(m.overlap, m.normal, m.w, m.law.linear); };
-      if (m.kind == Condition::Kind::approach_too_fast) {
+      if (m.kind == Condition::Kind::pair_too_fast) {
         if (alike) {
           vectors += contact_vectors(m.overlap, m.normal, m.w);
         } else if (linear) {
@@ -343,7 +350,7 @@ class ReferenceBackend final : public Backend {
           on.contacts += force();
         }
       } else {
-        Vec3d& sum = m.kind == Condition::Kind::wall_approach_too_fast ? on.walls : on.colliders;
+        Vec3d& sum = m.kind == Condition::Kind::wall_too_fast ? on.walls : on.colliders;
         sum += linear ? linear_force().total() : force().total();
       }
     }
@@ -360,14 +367,12 @@ class ReferenceBackend final : public Backend {
     return (((contacts + on.walls) + on.colliders) + on.drag) + on.applied;
   }
 
-  // The first approach that a step can't resolve, if there is one.
-  Condition check_approach(std::size_t i, const std::vector<Contact>& contacts) const {
+  // The first contact that is too fast for a step, if there is one.
+  Condition check_contacts(std::size_t i, const std::vector<Contact>& contacts) const {
     Condition found;
     for (const Contact& m : contacts) {
-      const double approach = dot(m.w, m.normal);
-      if (m.overlap > 0 && approach > m.radius / scene_.time_step) {
-        found = Condition::first(found, {m.kind, p_.id[i], m.partner, approach});
-      }
+      if (m.overlap > 0 && m.too_fast)
+        found = Condition::first(found, {m.kind, p_.id[i], m.partner, dot(m.w, m.normal)});
     }
     return found;
   }
@@ -444,8 +449,8 @@ class ReferenceBackend final : public Backend {
                          [&](int, const Vec3d& normal, double overlap) { visit(normal, overlap); });
   }
 
-  // visit(collider, face, overlap) for every face of a collider that acts on particle i, in the scene's order, image by
-  // image.
+  // visit(index, collider, face, overlap) for every face of a collider that acts on particle i, in the scene's order,
+  // image by image.
   template <class Visit>
   void for_each_collider(std::size_t i, Visit&& visit) const {
     const double radius = material(i).radius;
@@ -453,7 +458,7 @@ class ReferenceBackend final : public Backend {
       const std::size_t c = colliders_.of[k];
       for_each_collider_face(colliders_.all[k], p_.position[i], [&](const ColliderFace<double>& face) {
         const double overlap = radius - face.distance;
-        if (overlap > -rules_.collider(p_.material[i], c).range) visit(c, face, overlap);
+        if (overlap > -rules_.collider(p_.material[i], c).range) visit(c, colliders_.all[k], face, overlap);
       });
     }
   }
