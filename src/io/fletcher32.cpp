@@ -22,8 +22,8 @@ std::uint32_t fletcher32(std::string_view bytes) {
   for (std::size_t start = 0; start < bytes.size(); start += kBlockBytes) {
     const std::size_t end = std::min(bytes.size(), start + kBlockBytes);
     for (std::size_t i = start; i < end; i += 2) {
-      const auto high = static_cast<unsigned char>(bytes[i]);
-      const auto low = i + 1 < end ? static_cast<unsigned char>(bytes[i + 1]) : 0U;
+      const std::uint32_t high = static_cast<unsigned char>(bytes[i]);
+      const std::uint32_t low = i + 1 < end ? static_cast<unsigned char>(bytes[i + 1]) : 0;
       words += high << 8U | low;
       sums += words;
     }

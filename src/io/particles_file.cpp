@@ -9,6 +9,7 @@
 
 #include "hooke/base/ascending.h"
 #include "hooke/base/assert.h"
+#include "hooke/io/checksum.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/run_info_json.h"
 #include "hooke/io/vtkhdf_columns.h"
@@ -17,7 +18,7 @@ namespace hooke {
 
 namespace {
 
-constexpr std::int64_t kFormat = 1;
+constexpr std::int64_t kFormat = 2;
 
 /// Row `row` of a column of whole numbers; its first component if it has several.
 std::int64_t at(const hdf5::Column& column, hsize_t row) {
@@ -69,6 +70,12 @@ std::size_t count_snapshots(hid_t file) {
   return static_cast<std::size_t>(std::max<std::int64_t>(hdf5::read_integer_attribute(steps.get(), "NSteps"), 0));
 }
 
+void write_info(hid_t group, const RunInfo& info) {
+  const std::string text = to_json(info);
+  hdf5::write_text(group, "run", text);
+  hdf5::set_integer_attribute(group, "run_checksum", static_cast<std::int64_t>(checksum(text)));
+}
+
 RunInfo read_info(hid_t file, const std::filesystem::path& path) {
   if (!hdf5::exists(file, kHookeGroup) || !hdf5::exists(file, kVtkGroup)) {
     throw Failure(Error::Kind::bad_input, path, "is an HDF5 file, but holds no run of Hooke's");
@@ -79,10 +86,14 @@ RunInfo read_info(hid_t file, const std::filesystem::path& path) {
     throw Failure(Error::Kind::bad_input, path,
                   "is of format " + std::to_string(format) + "; this program reads format " + std::to_string(kFormat));
   }
-  return parse_run_info(hdf5::read_text(group.get(), "run"), path);
+  const std::string text = hdf5::read_text(group.get(), "run");
+  if (hdf5::read_integer_attribute(group.get(), "run_checksum") != static_cast<std::int64_t>(checksum(text))) {
+    throw Failure(Error::Kind::bad_input, path, "is damaged: the description of its run is not what was written");
+  }
+  return parse_run_info(text, path);
 }
 
-Snapshot read_snapshot(const VtkhdfColumns& columns, std::size_t index) {
+Snapshot read_snapshot(const VtkhdfColumns& columns, std::size_t index, Precision precision) {
   Snapshot snapshot;
   snapshot.step = at(columns.step, index);
   columns.values.read(index, 1, hdf5::memory_type<double>(), &snapshot.time);
@@ -99,6 +110,9 @@ Snapshot read_snapshot(const VtkhdfColumns& columns, std::size_t index) {
   columns.material.read(row(columns.material_offsets), n, hdf5::memory_type<std::uint16_t>(), p.material.data());
   columns.points.read(row(columns.point_offsets), n, hdf5::memory_type<double>(), p.position.data());
   columns.velocity.read(row(columns.velocity_offsets), n, hdf5::memory_type<double>(), p.velocity.data());
+  if (at(columns.checksum, index) != static_cast<std::int64_t>(checksum(snapshot, precision))) {
+    columns.checksum.fail("snapshot " + std::to_string(index) + " is not what was written");
+  }
   return snapshot;
 }
 
@@ -172,7 +186,8 @@ ParticlesFile ParticlesFile::create(const std::filesystem::path& path, const Run
   hdf5::write_text_attribute(vtk.get(), "Type", "PolyData");
   const hdf5::Handle hooke = hdf5::create_group(root, kHookeGroup);
   hdf5::write_integer_attribute(hooke.get(), "format", {kFormat}, true);
-  hdf5::write_text(hooke.get(), "run", to_json(info));
+  hdf5::write_integer_attribute(hooke.get(), "run_checksum", {0}, true);
+  write_info(hooke.get(), info);
   created.file_.commit();
   publish(path);
   created.file_.bytes().set_path(path);
@@ -189,7 +204,7 @@ ParticlesFile ParticlesFile::update(const std::filesystem::path& path, const Run
   const hdf5::Handle hooke = hdf5::open_group(root, kHookeGroup);
   if (before != info) {
     hdf5::remove(hooke.get(), "run");
-    hdf5::write_text(hooke.get(), "run", to_json(info));
+    write_info(hooke.get(), info);
   }
   if (const std::size_t snapshots = count_snapshots(root)) {
     opened.columns_ = std::make_unique<Columns>(VtkhdfColumns::open(root));
@@ -208,12 +223,12 @@ void ParticlesFile::cut(std::size_t snapshots) {
   hdf5::set_integer_attribute(steps.get(), "NSteps", static_cast<std::int64_t>(snapshots));
   for (hdf5::Column* column :
        {&c.values, &c.part_offsets, &c.number_of_parts, &c.point_offsets, &c.cell_offsets, &c.connectivity_offsets,
-        &c.velocity_offsets, &c.id_offsets, &c.material_offsets, &c.radius_offsets, &c.step}) {
+        &c.velocity_offsets, &c.id_offsets, &c.material_offsets, &c.radius_offsets, &c.step, &c.checksum}) {
     cut_to(*column, snapshots);
   }
   hsize_t particles = 0;
   if (snapshots > 0) {
-    const Snapshot last = read_snapshot(c, snapshots - 1);
+    const Snapshot last = read_snapshot(c, snapshots - 1, info_.precision);
     particles = last.particles.size();
     last_step_ = last.step;
     c.last_id = last.particles.id;
@@ -283,6 +298,7 @@ void ParticlesFile::write_snapshot(const Snapshot& snapshot) {
   put(c.material_offsets, c.last_material_offset);
   put(c.radius_offsets, c.last_radius_offset);
   put(c.step, snapshot.step);
+  put(c.checksum, static_cast<std::int64_t>(checksum(snapshot, info_.precision)));
   const hdf5::Handle steps = hdf5::open_group(file_.id(), "VTKHDF/Steps");
   hdf5::set_integer_attribute(steps.get(), "NSteps", static_cast<std::int64_t>(c.step.rows()));
 }
@@ -323,7 +339,7 @@ Snapshot read_particles(const std::filesystem::path& path, std::size_t index) {
   if (index >= count_snapshots(file.id())) {
     throw Failure(Error::Kind::bad_input, path, "has no snapshot " + std::to_string(index));
   }
-  Snapshot snapshot = read_snapshot(VtkhdfColumns::open(file.id()), index);
+  Snapshot snapshot = read_snapshot(VtkhdfColumns::open(file.id()), index, info.precision);
   const auto is_lost = [](const Vec3d& x) { return !std::isfinite(x.x) || !std::isfinite(x.y) || !std::isfinite(x.z); };
   const std::vector<Vec3d>& position = snapshot.particles.position;
   if (!is_ascending(snapshot.particles.id) || std::any_of(position.begin(), position.end(), is_lost)) {

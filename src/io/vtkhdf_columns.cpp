@@ -59,6 +59,7 @@ void VtkhdfColumns::visit_all(VtkhdfColumns& c, hid_t file, Visit&& visit) {
   visit(c.radius_offsets, data_offsets, "radius", whole, 1, Rows::table);
   const hdf5::Handle hooke = hdf5::open_group(file, kHookeGroup);
   visit(c.step, hooke, "step", whole, 1, Rows::table);
+  visit(c.checksum, hooke, "checksum", whole, 1, Rows::table);
 }
 
 VtkhdfColumns VtkhdfColumns::create(hid_t file, std::size_t particles, Precision precision) {

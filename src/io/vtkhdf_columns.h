@@ -32,7 +32,7 @@ struct VtkhdfColumns {
   // By step: the position of its rows.
   hdf5::Column values, part_offsets, number_of_parts, point_offsets, cell_offsets, connectivity_offsets;
   hdf5::Column velocity_offsets, id_offsets, material_offsets, radius_offsets;
-  hdf5::Column step;  // Hooke's own: the step number
+  hdf5::Column step, checksum;  // Hooke's own: the step number, and the checksum of the snapshot (io/checksum.h)
 
   /// Creates empty tables, with chunks that suit snapshots of this many particles.
   static VtkhdfColumns create(hid_t file, std::size_t particles, Precision precision);
