@@ -12,7 +12,8 @@
 
 namespace hooke {
 
-FileScanner::FileScanner(const std::filesystem::path& file) : buffer_(kLongestLine + 2) {
+FileScanner::FileScanner(const std::filesystem::path& file)
+    : buffer_(std::make_unique_for_overwrite<char[]>(kBufferSize)) {
   std::error_code fault;
   if (std::filesystem::is_directory(file, fault)) throw FileFault(0, "can't be read: it is a folder");
   file_.reset(std::fopen(file.c_str(), "rb"));
@@ -26,10 +27,10 @@ FileScanner::FileScanner(const std::filesystem::path& file) : buffer_(kLongestLi
 
 bool FileScanner::fetch(std::size_t count) {
   if (at_hand() >= count) return true;
-  std::memmove(buffer_.data(), buffer_.data() + begin_, at_hand());
+  std::memmove(buffer_.get(), buffer_.get() + begin_, at_hand());
   end_ -= begin_;
   begin_ = 0;
-  end_ += std::fread(buffer_.data() + end_, 1, buffer_.size() - end_, file_.get());
+  end_ += std::fread(buffer_.get() + end_, 1, kBufferSize - end_, file_.get());
   if (std::ferror(file_.get()) != 0) throw FileFault(0, std::string("can't be read: ") + std::strerror(errno));
   return at_hand() >= count;
 }
@@ -42,14 +43,14 @@ void FileScanner::pass(std::size_t count) {
 void FileScanner::pass_byte_order_mark() {
   constexpr std::size_t kMark = 3;  // bytes
   fetch(kMark);
-  const std::string_view start(buffer_.data(), std::min(at_hand(), kMark));
+  const std::string_view start(buffer_.get(), std::min(at_hand(), kMark));
   pass(start.size() - without_byte_order_mark(start).size());
   const std::string_view two = start.substr(0, 2);
   if (two == "\xff\xfe" || two == "\xfe\xff") throw FileFault(0, "is a text in UTF-16; must be in UTF-8");
 }
 
 const char* FileScanner::find_line_end(std::size_t from) const {
-  const char* const start = buffer_.data() + begin_ + from;
+  const char* const start = buffer_.get() + begin_ + from;
   const std::size_t size = at_hand() - from;
   const auto* const lf = static_cast<const char*>(std::memchr(start, '\n', size));
   const std::size_t before = lf == nullptr ? size : static_cast<std::size_t>(lf - start);
@@ -59,7 +60,7 @@ const char* FileScanner::find_line_end(std::size_t from) const {
 
 std::size_t FileScanner::size_of_line_end(const char* end) {
   if (*end == '\n') return 1;
-  const bool lf_follows = end + 1 < buffer_.data() + end_ && end[1] == '\n';
+  const bool lf_follows = end + 1 < buffer_.get() + end_ && end[1] == '\n';
   if (!lone_cr_) lone_cr_ = !lf_follows;
   return lf_follows && !*lone_cr_ ? 2 : 1;
 }
@@ -67,13 +68,13 @@ std::size_t FileScanner::size_of_line_end(const char* end) {
 std::optional<std::string_view> FileScanner::line() {
   const char* end = find_line_end(0);
   // What follows a CR must be at hand, too.
-  if (end == nullptr || end + 1 == buffer_.data() + end_) {
-    const std::size_t looked_at = end == nullptr ? at_hand() : static_cast<std::size_t>(end - buffer_.data()) - begin_;
-    if (!fetch(buffer_.size()) && at_hand() == 0) return std::nullopt;
+  if (end == nullptr || end + 1 == buffer_.get() + end_) {
+    const std::size_t looked_at = end == nullptr ? at_hand() : static_cast<std::size_t>(end - buffer_.get()) - begin_;
+    if (!fetch(kBufferSize) && at_hand() == 0) return std::nullopt;
     end = find_line_end(looked_at);
   }
   ++place_.line;
-  const char* const start = buffer_.data() + begin_;
+  const char* const start = buffer_.get() + begin_;
   const std::size_t length = end == nullptr ? at_hand() : static_cast<std::size_t>(end - start);
   if (length > kLongestLine) {
     throw FileFault(place_.line, "is longer than " + std::to_string(kLongestLine) + " bytes: no line of particles");
@@ -94,7 +95,7 @@ bool FileScanner::skip_lines(std::uint64_t count) {
 const char* FileScanner::bytes(std::size_t count) {
   HOOKE_ASSERT(count <= kLongestLine, count);
   if (!fetch(count)) return nullptr;
-  const char* start = buffer_.data() + begin_;
+  const char* start = buffer_.get() + begin_;
   pass(count);
   return start;
 }

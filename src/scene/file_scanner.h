@@ -10,7 +10,8 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <vector>
+
+#include "hooke/base/printable.h"
 
 namespace hooke {
 
@@ -18,7 +19,9 @@ namespace hooke {
 class FileFault : public std::runtime_error {
  public:
   /// `place`: line, or byte of a binary file; 0 for the file as a whole.
-  FileFault(std::uint64_t place, const std::string& message) : std::runtime_error(message), place_(place) {}
+  FileFault(std::uint64_t place, const std::string& message)
+      : std::runtime_error(printable(message, std::string::npos)),
+        place_(place) {}
   std::uint64_t place() const { return place_; }
 
  private:
@@ -60,6 +63,8 @@ class FileScanner {
   void go_back(const Place& place);
 
  private:
+  static constexpr std::size_t kBufferSize = kLongestLine + 2;  // with the line's end
+
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
@@ -76,7 +81,7 @@ class FileScanner {
 
   std::unique_ptr<std::FILE, Close> file_;
   std::uint64_t size_ = 0;
-  std::vector<char> buffer_;
+  std::unique_ptr<char[]> buffer_;  // kBufferSize bytes
   std::size_t begin_ = 0;  // unread bytes: [begin_, end_) of the buffer
   std::size_t end_ = 0;
   std::optional<bool> lone_cr_;  // whether CR alone ends the first line

@@ -29,6 +29,9 @@ void Findings::add_elsewhere(std::string where, std::string message) {
 
 void Findings::keep(Entry entry) {
   if (all_.size() < kMost) {
+    // Messages quote what they are about; whatever it is, they stay one line that a terminal can show.
+    entry.finding.where = printable(entry.finding.where, std::string::npos);
+    entry.finding.message = printable(entry.finding.message, std::string::npos);
     all_.push_back(std::move(entry));
   } else {
     left_out_ = true;

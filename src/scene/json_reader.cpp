@@ -143,7 +143,7 @@ class Builder : public nlohmann::json_sax<Json> {
     const auto line_end = before.find_last_of("\r\n");
     const std::size_t column = line_end == std::string_view::npos ? before.size() + 1 : before.size() - line_end;
     out_.stopped =
-        Finding{fmt::format("{}:{}:{}", name_, 1 + count_line_ends(before, 0, offset), column), std::move(what)};
+        Finding{fmt::format("{}:{}:{}", name_, 1 + count_line_ends(before, 0, before.size()), column), std::move(what)};
     return false;
   }
 

@@ -44,6 +44,19 @@ TEST(JsonReader, PassesAByteOrderMark) {
   EXPECT_EQ(read_json("\xef\xbb\xbf", "t").stopped->message, "is empty");
 }
 
+// Also where the text ends within a comment, a string or a word.
+TEST(JsonReader, RefusesTheBeginningOfAText) {
+  const std::string_view text = "{\"a\": [1.5, \"x\\u00e4\", true], /* of b */ \"b\": {\"c\": null}}";
+  for (std::size_t size = 1; size < text.size(); ++size) {
+    const JsonReading r = read_json(text.substr(0, size), "t");
+    ASSERT_TRUE(r.stopped) << text.substr(0, size);
+    EXPECT_EQ(r.stopped->where.rfind("t:1:", 0), 0U) << r.stopped->where;
+    const int column = std::stoi(r.stopped->where.substr(4));
+    EXPECT_GE(column, 1);
+    EXPECT_LE(column, static_cast<int>(size) + 1) << text.substr(0, size);
+  }
+}
+
 // A path of each value would take the product of both.
 TEST(JsonReader, ReadsManyValuesBelowALongKey) {
   const std::string key(1000000, 'k');
