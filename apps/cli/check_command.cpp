@@ -12,6 +12,7 @@
 
 #include "commands.h"
 #include "hooke/base/printable.h"
+#include "hooke/io/report.h"
 #include "hooke/scene/load_scene.h"
 #include "log.h"
 #include "open_simulation.h"
@@ -54,12 +55,18 @@ void print_precision(const Scene& scene) {
              spacing.radii);
 }
 
-// What a run needs at the most: its meshes' fields are made before there are many particles.
-void print_memory(double particles, const FieldMemory& fields) {
+// What a run needs at the most, with the `program` itself, bytes: its meshes' fields are made before there are many
+// particles. Where particles overlap deeply, their list takes more than is counted for a particle: no less than this
+// command has taken, which has made the list.
+void print_memory(double particles, const FieldMemory& fields, double program, double neighbours) {
   const double running = particles * kBytesPerParticle + fields.kept;
-  fmt::print("  memory     about {:.1f} MB", std::max(running, fields.most) * 1e-6);
+  const double counted = program + std::max(running, fields.most), taken = static_cast<double>(peak_resident_bytes());
+  fmt::print("  memory     about {:.1f} MB", std::max(counted, taken) * 1e-6);
   if (fields.most > 0) {
     fmt::print(", {:.1f} MB of it for the distances from meshes", std::max(fields.kept, fields.most) * 1e-6);
+  }
+  if (const double list = particles * neighbours * sizeof(std::uint32_t); taken > counted && 4 * list > taken) {
+    fmt::print(", most of it for lists of {:.3g} neighbours", neighbours);
   }
   fmt::print("\n");
 }
@@ -76,6 +83,7 @@ double expected_births(const Scene& scene) {
 }  // namespace
 
 ExitStatus check_command(const CheckArguments& arguments) {
+  const auto program_bytes = static_cast<double>(peak_resident_bytes());
   const auto opened = open_simulation(arguments.scene, DeviceArguments{}, {});
   if (!opened) return report_error(opened.error());
   const Simulation& simulation = opened->simulation;
@@ -92,7 +100,7 @@ ExitStatus check_command(const CheckArguments& arguments) {
     fmt::print("  emitters   {}; up to about {} particles\n", scene.emitters.size(),
                with_commas(static_cast<std::uint64_t>(most)));
   }
-  print_memory(most, opened->fields);
+  print_memory(most, opened->fields, program_bytes, simulation.neighbour_statistics().slots_per_particle);
   fmt::print("  duration   {} steps, {:.6g} s\n", scene.steps, static_cast<double>(scene.steps) * scene.time_step);
   print_step(simulation);
   print_overlaps(simulation, *now);
