@@ -23,6 +23,18 @@ class FloatingPointGuard {
  private:
   static constexpr unsigned kDefault = 0x1f80;  // all exceptions masked, to nearest, no FTZ, no DAZ
   unsigned saved_;
+#elif defined(__aarch64__)
+  FloatingPointGuard() {
+    asm volatile("mrs %0, fpcr" : "=r"(saved_));
+    if (saved_ != kDefault) asm volatile("msr fpcr, %0" : : "r"(kDefault));
+  }
+  ~FloatingPointGuard() {
+    if (saved_ != kDefault) asm volatile("msr fpcr, %0" : : "r"(saved_));
+  }
+
+ private:
+  static constexpr unsigned long kDefault = 0;  // the same on this processor
+  unsigned long saved_ = kDefault;
 #else
   FloatingPointGuard() = default;
   ~FloatingPointGuard() = default;

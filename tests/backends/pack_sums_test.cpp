@@ -20,8 +20,10 @@ namespace {
 
 template <class Real>
 void add_numbers(const std::string& isa, const std::vector<Real>& values, ExactParts& parts) {
+#if defined(__x86_64__)
   if (isa == "avx512") return avx512::add_numbers(values.data(), values.size(), parts);
   if (isa == "avx2") return avx2::add_numbers(values.data(), values.size(), parts);
+#endif
   portable::add_numbers(values.data(), values.size(), parts);
 }
 

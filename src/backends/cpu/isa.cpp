@@ -26,8 +26,10 @@ namespace hooke {
   constexpr Isa named(const char* name) { return {name, loops<float>(), loops<double>()}; }  \
   }
 HOOKE_DECLARE_LOOPS(portable)
+#if defined(__x86_64__)
 HOOKE_DECLARE_LOOPS(avx2)
 HOOKE_DECLARE_LOOPS(avx512)
+#endif
 #undef HOOKE_DECLARE_LOOPS
 
 std::vector<Isa> available_isas() {

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// SIMD packs: this file and the other pack_*.h files contain the intrinsics. Included by a file that is compiled for
-// one instruction set and defines HOOKE_ISA as the name of its namespace.
+// SIMD packs: this file and the other pack_*.h files contain the intrinsics of AVX2 and AVX-512. Without these, packs
+// are the vectors of 16 bytes that GCC and Clang offer on every processor. Included by a file that is compiled for one
+// instruction set and defines HOOKE_ISA as the name of its namespace.
 // Everything is always inlined, so that no function built for a newer processor can be the copy that the linker keeps.
 
+#if defined(__AVX2__)
 #include <immintrin.h>
+#endif
 
 #include <cstddef>
 #include <cstdint>
@@ -182,10 +185,18 @@ HOOKE_HD unsigned bits(const Mask<double>& m) { return static_cast<unsigned>(_mm
 
 #else
 
-HOOKE_HD Pack<float> sqrt_of(const Pack<float>& a) { return Pack<float>(_mm_sqrt_ps(a.v)); }
-HOOKE_HD Pack<double> sqrt_of(const Pack<double>& a) { return Pack<double>(_mm_sqrt_pd(a.v)); }
-HOOKE_HD unsigned bits(const Mask<float>& m) { return static_cast<unsigned>(_mm_movemask_ps((__m128)m.v)); }
-HOOKE_HD unsigned bits(const Mask<double>& m) { return static_cast<unsigned>(_mm_movemask_pd((__m128d)m.v)); }
+HOOKE_HD Pack<float> sqrt_of(const Pack<float>& a) {
+  return Pack<float>(
+      FloatVector{__builtin_sqrtf(a.v[0]), __builtin_sqrtf(a.v[1]), __builtin_sqrtf(a.v[2]), __builtin_sqrtf(a.v[3])});
+}
+HOOKE_HD Pack<double> sqrt_of(const Pack<double>& a) {
+  return Pack<double>(DoubleVector{__builtin_sqrt(a.v[0]), __builtin_sqrt(a.v[1])});
+}
+HOOKE_HD unsigned bits(const Mask<float>& m) {
+  const Int32Vector set = m.v & Int32Vector{1, 2, 4, 8};
+  return static_cast<unsigned>((set[0] | set[1]) | (set[2] | set[3]));
+}
+HOOKE_HD unsigned bits(const Mask<double>& m) { return static_cast<unsigned>((m.v[0] & 1) | (m.v[1] & 2)); }
 
 #endif
 
@@ -215,7 +226,12 @@ HOOKE_HD Pack<Real> only_where(const Mask<Real>& m, const Pack<Real>& a) {
 // bits() has one bit per lane.
 template <class Real>
 HOOKE_HD bool any(const Mask<Real>& m) {
+#if defined(__AVX2__)
   return bits(m) != 0;
+#else
+  const auto halves = (Int64Vector)m.v;
+  return (halves[0] | halves[1]) != 0;
+#endif
 }
 
 /// Asks for the cache line of an address ahead of time.

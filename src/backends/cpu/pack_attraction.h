@@ -22,7 +22,7 @@ HOOKE_HD Pack<double> inverse_root(const Pack<double>& a) {
   return inverse_root_next(a, inverse_root_next(a, inverse_root_first(a)));
 }
 
-// The processor's estimate of 1 / sqrt(a), good for 12 bits or more; its bits differ between manufacturers.
+// An estimate of 1 / sqrt(a), good for 12 bits or more: the processor's, whose bits differ between manufacturers.
 #if defined(__AVX512F__)
 HOOKE_HD Pack<float> guess_inverse_root(const Pack<float>& a) { return Pack<float>(_mm512_rsqrt14_ps(a.v)); }
 HOOKE_HD Pack<double> guess_inverse_root(const Pack<double>& a) { return Pack<double>(_mm512_rsqrt14_pd(a.v)); }
@@ -36,7 +36,7 @@ HOOKE_HD Pack<double> fused(const Pack<double>& a, const Pack<double>& b, const 
 #if defined(__AVX2__)
 HOOKE_HD Pack<float> guess_inverse_root(const Pack<float>& a) { return Pack<float>(_mm256_rsqrt_ps(a.v)); }
 #else
-HOOKE_HD Pack<float> guess_inverse_root(const Pack<float>& a) { return Pack<float>(_mm_rsqrt_ps(a.v)); }
+HOOKE_HD Pack<float> guess_inverse_root(const Pack<float>& a) { return inverse_root_next(a, inverse_root_first(a)); }
 #endif
 HOOKE_HD Pack<double> guess_inverse_root(const Pack<double>& a) { return inverse_root_first(a); }
 template <class Real>

@@ -95,28 +95,34 @@ HOOKE_HD Quad<double> load_quads(double, const At& at) {
 
 #else
 
-HOOKE_HD Quad<float> transpose(__m128 r0, __m128 r1, __m128 r2, __m128 r3) {
-  _MM_TRANSPOSE4_PS(r0, r1, r2, r3);
-  return {Pack<float>((r0)), Pack<float>((r1)), Pack<float>((r2)), Pack<float>((r3))};
+HOOKE_HD Quad<float> transpose(const FloatVector& r0, const FloatVector& r1, const FloatVector& r2,
+                               const FloatVector& r3) {
+  const FloatVector xy01 = __builtin_shufflevector(r0, r1, 0, 4, 1, 5),
+                    xy23 = __builtin_shufflevector(r2, r3, 0, 4, 1, 5);
+  const FloatVector zw01 = __builtin_shufflevector(r0, r1, 2, 6, 3, 7),
+                    zw23 = __builtin_shufflevector(r2, r3, 2, 6, 3, 7);
+  return {Pack<float>(__builtin_shufflevector(xy01, xy23, 0, 1, 4, 5)),
+          Pack<float>(__builtin_shufflevector(xy01, xy23, 2, 3, 6, 7)),
+          Pack<float>(__builtin_shufflevector(zw01, zw23, 0, 1, 4, 5)),
+          Pack<float>(__builtin_shufflevector(zw01, zw23, 2, 3, 6, 7))};
 }
 template <class At>
 HOOKE_HD Quad<float> load_quads(float, const At& at) {
-  return transpose(_mm_load_ps(at(0)), _mm_load_ps(at(1)), _mm_load_ps(at(2)), _mm_load_ps(at(3)));
+  return transpose(load(at(0)).v, load(at(1)).v, load(at(2)).v, load(at(3)).v);
 }
 template <class At>
 HOOKE_HD void store_quads(const Quad<float>& q, const At& at) {
   const Quad<float> t = transpose(q.a.v, q.b.v, q.c.v, q.d.v);
-  _mm_store_ps(at(0), t.a.v);
-  _mm_store_ps(at(1), t.b.v);
-  _mm_store_ps(at(2), t.c.v);
-  _mm_store_ps(at(3), t.d.v);
+  store(at(0), t.a);
+  store(at(1), t.b);
+  store(at(2), t.c);
+  store(at(3), t.d);
 }
 template <class At>
 HOOKE_HD Quad<double> load_quads(double, const At& at) {
-  const __m128d xy0 = _mm_load_pd(at(0)), zw0 = _mm_load_pd(at(0) + 2);
-  const __m128d xy1 = _mm_load_pd(at(1)), zw1 = _mm_load_pd(at(1) + 2);
-  return {Pack<double>((_mm_unpacklo_pd(xy0, xy1))), Pack<double>((_mm_unpackhi_pd(xy0, xy1))),
-          Pack<double>((_mm_unpacklo_pd(zw0, zw1))), Pack<double>((_mm_unpackhi_pd(zw0, zw1)))};
+  const DoubleVector xy0 = load(at(0)).v, zw0 = load(at(0) + 2).v, xy1 = load(at(1)).v, zw1 = load(at(1) + 2).v;
+  return {Pack<double>(__builtin_shufflevector(xy0, xy1, 0, 2)), Pack<double>(__builtin_shufflevector(xy0, xy1, 1, 3)),
+          Pack<double>(__builtin_shufflevector(zw0, zw1, 0, 2)), Pack<double>(__builtin_shufflevector(zw0, zw1, 1, 3))};
 }
 
 #endif

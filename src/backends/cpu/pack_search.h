@@ -109,12 +109,8 @@ HOOKE_HD Pack<double> max_of(const Pack<double>& a, const Pack<double>& b) {
 
 #else
 
-HOOKE_HD Pack<double> min_of(const Pack<double>& a, const Pack<double>& b) {
-  return Pack<double>(_mm_min_pd(a.v, b.v));
-}
-HOOKE_HD Pack<double> max_of(const Pack<double>& a, const Pack<double>& b) {
-  return Pack<double>(_mm_max_pd(a.v, b.v));
-}
+HOOKE_HD Pack<double> min_of(const Pack<double>& a, const Pack<double>& b) { return select(a < b, a, b); }
+HOOKE_HD Pack<double> max_of(const Pack<double>& a, const Pack<double>& b) { return select(a > b, a, b); }
 
 #endif
 

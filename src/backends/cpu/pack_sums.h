@@ -31,20 +31,43 @@ HOOKE_HD Widened widen(const Pack<float>& a) {
 #else
 
 HOOKE_HD Widened widen(const Pack<float>& a) {
-  return {Pack<double>(_mm_cvtps_pd(a.v)), Pack<double>(_mm_cvtps_pd(_mm_movehl_ps(a.v, a.v)))};
+  return {Pack<double>(DoubleVector{a.v[0], a.v[1]}), Pack<double>(DoubleVector{a.v[2], a.v[3]})};
 }
 
 #endif
 
-// The processor's flag of rounding. The compiler moves no access to memory across these functions.
-HOOKE_HD void forget_rounding() {
-  _mm_setcsr(_mm_getcsr() & ~_MM_EXCEPT_INEXACT);
-  asm volatile("" ::: "memory");
+// a + b minus the rounded `sum`, exactly (Knuth, The Art of Computer Programming, 4.2.2, theorem B).
+HOOKE_HD Pack<double> rounded_off(const Pack<double>& a, const Pack<double>& b, const Pack<double>& sum) {
+  const Pack<double> of_b = sum - a;
+  return (a - (sum - of_b)) + (b - of_b);
 }
-HOOKE_HD bool has_rounded() {
-  asm volatile("" ::: "memory");
-  return (_mm_getcsr() & _MM_EXCEPT_INEXACT) != 0;
-}
+
+// Whether a sum has been rounded since this object was made. With AVX2 the processor's flag says so, and the compiler
+// moves no access to memory across these functions; without, every sum is examined.
+class RoundingWatch {
+ public:
+#if defined(__AVX2__)
+  HOOKE_HD RoundingWatch() {
+    _mm_setcsr(_mm_getcsr() & ~_MM_EXCEPT_INEXACT);
+    asm volatile("" ::: "memory");
+  }
+  HOOKE_HD Pack<double> add(const Pack<double>& a, const Pack<double>& b) { return a + b; }
+  HOOKE_HD bool has_rounded() const {
+    asm volatile("" ::: "memory");
+    return (_mm_getcsr() & _MM_EXCEPT_INEXACT) != 0;
+  }
+#else
+  HOOKE_HD Pack<double> add(const Pack<double>& a, const Pack<double>& b) {
+    const Pack<double> sum = a + b;
+    exact_ = exact_ & (rounded_off(a, b, sum) == Pack<double>(0.0));
+    return sum;
+  }
+  HOOKE_HD bool has_rounded() const { return any(!exact_); }
+
+ private:
+  Mask<double> exact_ = Pack<double>(0.0) == Pack<double>(0.0);
+#endif
+};
 
 // sum_lanes(values, count, to): sums whole packs of numbers lane by lane, writes the sums and returns how many; 0 where
 // they would not be exact.
@@ -52,22 +75,16 @@ HOOKE_HD bool has_rounded() {
 // Doubles hold the exact sums of floats that do not differ too much in size.
 HOOKE_HD std::size_t sum_lanes(const float* values, std::size_t count, double* to) {
   constexpr std::size_t kLanes = Pack<float>::kLanes;
-  forget_rounding();
+  RoundingWatch watch;
   Pack<double> low(0.0), high(0.0);
   for (std::size_t k = 0; k < count; k += kLanes) {
     const Widened wide = widen(load(values + k));
-    low = low + wide.low;
-    high = high + wide.high;
+    low = watch.add(low, wide.low);
+    high = watch.add(high, wide.high);
   }
   store(to, low);
   store(to + kLanes / 2, high);
-  return has_rounded() ? 0 : kLanes;
-}
-
-// a + b minus the rounded `sum`, exactly (Knuth, The Art of Computer Programming, 4.2.2, theorem B).
-HOOKE_HD Pack<double> rounded_off(const Pack<double>& a, const Pack<double>& b, const Pack<double>& sum) {
-  const Pack<double> of_b = sum - a;
-  return (a - (sum - of_b)) + (b - of_b);
+  return watch.has_rounded() ? 0 : kLanes;
 }
 
 // Sums of doubles, and of their rounding errors.
