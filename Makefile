@@ -10,7 +10,7 @@ RUN_ARGS ?=
 BENCH_ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help run gallery test sanitize soak build build-all bench format lint install clean setup setup-test setup-lint setup-soak setup-bench
+.PHONY: help run gallery test sanitize soak fuzz build build-all bench format lint install clean setup setup-test setup-lint setup-soak setup-bench setup-fuzz
 
 help:  ## this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
@@ -39,6 +39,10 @@ sanitize: setup-test  ## the tests again that address and thread sanitizers can 
 soak: setup-soak  ## hours: the long tests, lint, and everything under sanitizers
 	tools/lint.sh
 	tools/test.sh soak
+	tools/compare_builds.sh build-dev/hooke build-clang/hooke
+
+fuzz: setup-fuzz  ## feed readers with changed inputs, FUZZ_SECONDS (60) each
+	tools/fuzz.sh
 
 build: setup  ## release build: build/hooke
 	@cmake --preset release >/dev/null
@@ -61,7 +65,7 @@ install: build-all  ## install program, library, headers and scenes below PREFIX
 	cmake --install build --prefix $(PREFIX)
 
 clean:  ## remove every build folder
-	rm -rf build build-dev build-clang build-asan build-asan-everything build-tsan build-tsan-everything
+	rm -rf build build-dev build-clang build-asan build-asan-everything build-tsan build-tsan-everything build-fuzz
 
 setup:
 	@tools/setup.sh
@@ -77,3 +81,6 @@ setup-soak:
 
 setup-bench:
 	@tools/setup.sh bench
+
+setup-fuzz:
+	@tools/setup.sh fuzz

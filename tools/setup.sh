@@ -7,7 +7,8 @@
 #   tools/setup.sh test     also to test, which checks the format
 #   tools/setup.sh lint     also to lint
 #   tools/setup.sh bench    to build and run, to measure and to draw what was measured
-#   tools/setup.sh soak     all of these
+#   tools/setup.sh fuzz     also to run fuzzers
+#   tools/setup.sh soak     all that soak needs
 set -euo pipefail
 
 build_packages=(
@@ -20,11 +21,13 @@ build_packages=(
 bench_packages=(lammps python3-numpy python3-matplotlib)
 test_packages=(clang-format-19 lammps mold python3-h5py python3-numpy python3-vtk9)
 lint_packages=(clang-19 clang-tidy-19)
+fuzz_packages=(clang-19 libclang-rt-19-dev)
 
 packages=("${build_packages[@]}")
 case "${1:-}" in
   test) packages+=("${test_packages[@]}") ;;
   lint) packages+=("${test_packages[@]}" "${lint_packages[@]}") ;;
+  fuzz) packages+=("${test_packages[@]}" "${fuzz_packages[@]}") ;;
   bench) packages+=("${bench_packages[@]}") ;;
   soak) packages+=("${test_packages[@]}" "${lint_packages[@]}" "${bench_packages[@]}") ;;
 esac
