@@ -3,6 +3,8 @@
 
 #include "hooke/core/simulation_thread.h"
 
+#include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -19,7 +21,11 @@ struct SimulationThread::Impl {
   enum class End { none, now, after_commands };
   static constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
 
+  using Clock = std::chrono::steady_clock;
+  static constexpr Clock::duration kMostDelay = std::chrono::milliseconds(50);  // that is made up for
+
   Simulation simulation;  // the thread's own, once it runs
+  Stepper stepper;
   std::shared_ptr<const Snapshot> mailbox;
 
   mutable std::mutex mutex;  // guards the mailbox and all below
@@ -27,6 +33,8 @@ struct SimulationThread::Impl {
   std::deque<Command> commands;
   std::int64_t steps_left;  // beside the current one
   std::uint64_t orders = 0;  // to pause, resume or step, so far
+  Clock::duration interval{};   // between two steps, at least
+  Clock::time_point next_step;  // is due then
   bool busy;            // with a command, a step or a snapshot
   bool fresh = true;    // the mailbox holds the state as it is
   bool wanted = false;  // a reader wants a fresh one
@@ -34,8 +42,9 @@ struct SimulationThread::Impl {
   std::optional<Error> failure;
   std::thread thread;
 
-  Impl(Simulation started, bool paused)
+  Impl(Simulation started, bool paused, Stepper takes_steps)
       : simulation(std::move(started)),
+        stepper(std::move(takes_steps)),
         mailbox(simulation.snapshot()),
         steps_left(paused ? 0 : kNoLimit),
         busy(!paused),
@@ -43,16 +52,22 @@ struct SimulationThread::Impl {
 
   bool is_idle() const { return commands.empty() && steps_left == 0 && !(wanted && !fresh); }
 
+  // Whether nothing is to be done before the next step is due.
+  bool is_early() const {
+    return commands.empty() && steps_left > 0 && !(wanted && !fresh) && Clock::now() < next_step;
+  }
+
   void work() {
     std::unique_lock lock(mutex);
     for (;;) {
       busy = !is_idle();
       changed.wait(lock, [&] { return end != End::none || !is_idle(); });
       busy = true;
+      if (is_early()) changed.wait_until(lock, next_step, [&] { return end != End::none || !is_early(); });
       if (end == End::now || (end == End::after_commands && commands.empty())) return;
       if (!commands.empty()) {
         carry_out(lock);
-      } else if (steps_left > 0) {
+      } else if (steps_left > 0 && Clock::now() >= next_step) {
         take_step(lock);
       }
       // A state that no longer changes goes into the mailbox unasked.
@@ -76,12 +91,13 @@ struct SimulationThread::Impl {
 
   void take_step(std::unique_lock<std::mutex>& lock) {
     if (steps_left != kNoLimit) --steps_left;
+    next_step = std::max(next_step + interval, Clock::now() - kMostDelay);
     fresh = false;
     const std::uint64_t orders_before = orders;
     lock.unlock();
     std::optional<Error> failed;
     const std::optional<Error> thrown = error_of([&] {
-      if (auto taken = simulation.step(); !taken) failed = std::move(taken).error();
+      if (auto taken = stepper ? stepper(simulation) : simulation.step(); !taken) failed = std::move(taken).error();
     });
     lock.lock();
     failure = thrown ? thrown : failed;
@@ -143,8 +159,8 @@ struct SimulationThread::Impl {
   }
 };
 
-SimulationThread::SimulationThread(Simulation simulation, bool paused)
-    : impl_(std::make_unique<Impl>(std::move(simulation), paused)) {}
+SimulationThread::SimulationThread(Simulation simulation, bool paused, Stepper stepper)
+    : impl_(std::make_unique<Impl>(std::move(simulation), paused, std::move(stepper))) {}
 
 SimulationThread::~SimulationThread() {
   if (impl_) impl_->stop(Impl::End::now);
@@ -166,6 +182,16 @@ void SimulationThread::resume() {
 void SimulationThread::step(std::int64_t count) {
   HOOKE_ASSERT(count > 0, count);
   impl_->order([count](std::int64_t left) { return left == Impl::kNoLimit ? count : left + count; });
+}
+
+void SimulationThread::set_pace(double steps_per_second) {
+  HOOKE_ASSERT(steps_per_second > 0, steps_per_second);
+  constexpr double kLongest = 3600;  // s
+  const std::chrono::duration<double> seconds(std::min(1 / steps_per_second, kLongest));
+  impl_->change([&] {
+    impl_->interval = std::chrono::duration_cast<Impl::Clock::duration>(seconds);
+    impl_->next_step = Impl::Clock::now();
+  });
 }
 
 bool SimulationThread::is_paused() const {

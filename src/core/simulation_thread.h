@@ -31,7 +31,11 @@ class SimulationThread {
   /// An action on the simulation between two steps. What it throws is a failure().
   using Command = std::function<void(Simulation&)>;
 
-  explicit SimulationThread(Simulation simulation, bool paused = false);
+  /// Takes one step of the simulation, with what is to be done before and after each step.
+  using Stepper = std::function<Expected<void>(Simulation&)>;
+
+  /// `stepper` replaces Simulation::step(); it is called on the thread.
+  explicit SimulationThread(Simulation simulation, bool paused = false, Stepper stepper = {});
   /// Ends after the current step or command; waiting commands are not carried out.
   ~SimulationThread();
   SimulationThread(const SimulationThread&) = delete;
@@ -57,6 +61,9 @@ class SimulationThread {
   void resume();
   /// Takes so many steps (> 0), beside those that earlier calls have asked for, then pauses.
   void step(std::int64_t count = 1);
+  /// From now on takes at most so many steps (> 0, infinite: no limit, as at the start) a second of wall time. Steps
+  /// that are late by more than 50 ms are not made up for.
+  void set_pace(double steps_per_second);
   /// Whether nothing runs and nothing waits: latest() is the present state.
   bool is_paused() const;
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -186,6 +187,37 @@ TEST_F(SimulationThreads, OutliveWhatCommandsThrow) {
   thread.post([grip = std::make_shared<Grip>(&thread)](Simulation&) {});
   thread.step(2);
   ASSERT_TRUE(wait_until([&] { return thread.is_paused(); }));
+}
+
+TEST_F(SimulationThreads, TakeStepsThroughTheStepperThatTheyAreGiven) {
+  Simulation alone = pool();
+  ASSERT_TRUE(advance(alone, 12));
+  int called = 0;
+  SimulationThread thread(pool(), true, [&called](Simulation& s) -> Expected<void> {
+    if (++called > 12) return fail(Error::Kind::run_failed, "stepper", "enough");
+    return s.step();
+  });
+  thread.resume();
+  ASSERT_TRUE(wait_until([&] { return thread.is_paused(); }));
+  ASSERT_TRUE(thread.failure());
+  EXPECT_NE(thread.failure()->text().find("enough"), std::string::npos);
+  EXPECT_EQ(thread.finish().state_hash(), alone.state_hash());
+}
+
+TEST_F(SimulationThreads, KeepAPaceAndAnswerInBetween) {
+  SimulationThread thread(pool(), true);
+  thread.set_pace(20);
+  const auto begin = std::chrono::steady_clock::now();
+  thread.step(10);
+  EXPECT_LT(thread.ask([](Simulation& s) { return s.step_count(); }).get(), 10);
+  ASSERT_TRUE(wait_until([&] { return thread.is_paused(); }));
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, 400ms);  // 9 intervals less what is made up for
+  thread.set_pace(1e-3);
+  thread.step(2);
+  ASSERT_TRUE(wait_until([&] { return thread.latest()->step == 11; }));
+  thread.set_pace(std::numeric_limits<double>::infinity());  // ends the wait
+  ASSERT_TRUE(wait_until([&] { return thread.is_paused(); }));
+  EXPECT_EQ(thread.latest()->step, 12);
 }
 
 TEST(SnapshotsOfASimulation, OutliveIt) {
