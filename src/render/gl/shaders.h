@@ -27,5 +27,16 @@ extern const char* const shade_water_frag;
 extern const char* const edges_vert;
 extern const char* const edges_frag;
 extern const char* const resolve_frag;
+// LiveRenderer puts live_scene.glsl before the others.
+extern const char* const live_scene_glsl;
+extern const char* const live_balls_vert;
+extern const char* const live_balls_frag;
+extern const char* const live_points_vert;
+extern const char* const live_points_frag;
+extern const char* const live_meshes_vert;
+extern const char* const live_meshes_frag;
+extern const char* const live_lines_vert;
+extern const char* const live_lines_frag;
+extern const char* const live_final_frag;
 
 }  // namespace hooke::gl::shaders
