@@ -17,6 +17,7 @@
 #include "hooke/io/report.h"
 #include "hooke/io/snapshot.h"
 #include "log.h"
+#include "numbers.h"
 #include "open_simulation.h"
 #include "progress.h"
 

@@ -15,8 +15,8 @@
 #include "hooke/io/report.h"
 #include "hooke/scene/load_scene.h"
 #include "log.h"
+#include "numbers.h"
 #include "open_simulation.h"
-#include "progress.h"
 
 namespace hooke::cli {
 namespace {

@@ -9,31 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "arguments.h"
 #include "hooke/io/export.h"
 #include "hooke/render/coloring.h"
 
 namespace hooke::cli {
-
-/// The exit status of the program.
-enum ExitStatus : int {
-  kDone = 0,
-  kBadInput = 2,       ///< bad input or usage; nothing was written
-  kRunFailed = 3,      ///< the run failed or could not be written; the last good state is kept
-  kInterrupted = 130,  ///< stopped by a signal; the checkpoint is written
-};
-
-/// The scene, and how it is read.
-struct SceneArguments {
-  std::filesystem::path file;
-  std::vector<std::string> overrides;  ///< PATH=VALUE
-  bool allow_outside = false;
-};
-
-/// The back end.
-struct DeviceArguments {
-  std::string device = "cpu";
-  int threads = 0;  ///< 0: as many as the machine has
-};
 
 /// How pictures are drawn.
 struct PictureArguments {
@@ -100,5 +80,7 @@ ExitStatus export_command(const ExportArguments& arguments);
 ExitStatus info_command(const std::filesystem::path& file);
 ExitStatus scenes_command();
 ExitStatus schema_command();
+/// Becomes the program hooke-view, which lies beside this one, with these arguments; returns only where it can't.
+ExitStatus view_command(const std::vector<std::string>& arguments);
 
 }  // namespace hooke::cli

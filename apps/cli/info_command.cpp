@@ -7,7 +7,7 @@
 #include "hooke/base/printable.h"
 #include "hooke/io/describe_file.h"
 #include "log.h"
-#include "progress.h"
+#include "numbers.h"
 
 namespace hooke::cli {
 

@@ -17,11 +17,10 @@
 #include "commands.h"
 #include "hooke/render/film.h"
 #include "log.h"
+#include "scene_options.h"
 
 namespace hooke::cli {
 namespace {
-
-constexpr int kMostThreads = 1024;
 
 /// The arguments of the command line; the chosen command sets `command`.
 struct CommandLine {
@@ -35,25 +34,6 @@ struct CommandLine {
   std::optional<double> end;
   std::function<ExitStatus()> command;
 };
-
-void add_scene_options(CLI::App& command, SceneArguments& scene) {
-  command.add_option("SCENE", scene.file, "scene file (JSON)")->required();
-  command
-      .add_option("--set", scene.overrides,
-                  "replace a value of the scene, e.g. materials.water.radius=0.1; may be repeated")
-      ->option_text("PATH=VALUE")
-      ->allow_extra_args(false);
-  command.add_flag("--allow-outside", scene.allow_outside, "let paths in the scene lead out of its folder");
-}
-
-void add_device_options(CLI::App& command, DeviceArguments& device) {
-  command.add_option("--threads", device.threads, "threads to use (default: all)")
-      ->option_text("N")
-      ->check(CLI::Range(1, kMostThreads));
-  command.add_option("--device", device.device, "cpu (default) or reference (all pairs, double)")
-      ->option_text("DEVICE")
-      ->check(CLI::IsMember({"cpu", "reference"}));
-}
 
 // Parses "1280x720" into width and height.
 std::string parse_size(const std::string& text, PictureArguments& picture) {
@@ -256,6 +236,14 @@ void add_others(CLI::App& app, CommandLine& line) {
   });
 }
 
+// The window is a program of its own, which knows its options.
+void add_view(CLI::App& app, CommandLine& line) {
+  CLI::App& command = *app.add_subcommand("view", "open a window in which a scene runs and can be touched and tuned");
+  command.prefix_command();
+  command.set_help_flag();
+  command.callback([&] { line.command = [&command] { return view_command(command.remaining()); }; });
+}
+
 ExitStatus parse_and_run(int argc, char** argv) {
   CommandLine line;
   CLI::App app("Hooke, a real-time spring-mass particle engine", "hooke");
@@ -266,6 +254,7 @@ ExitStatus parse_and_run(int argc, char** argv) {
   add_bench(app, line);
   add_render(app, line);
   add_export(app, line);
+  add_view(app, line);
   add_others(app, line);
   try {
     app.parse(argc, argv);

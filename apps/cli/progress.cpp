@@ -11,6 +11,7 @@
 #include <cstdio>
 
 #include "hooke/base/assert.h"
+#include "numbers.h"
 
 namespace hooke::cli {
 namespace {
@@ -80,23 +81,6 @@ std::string Progress::line(std::int64_t step, std::uint64_t particles) const {
                                  rate * static_cast<double>(particles) * 1e-6);
   if (rate > 0) text += "   left " + clock_time(static_cast<double>(last_ - step) / rate);
   return text;
-}
-
-std::string with_commas(std::uint64_t number) {
-  std::string digits = std::to_string(number);
-  for (std::size_t at = digits.size(); at > 3;) {
-    at -= 3;
-    digits.insert(at, ",");
-  }
-  return digits;
-}
-
-std::string clock_time(double seconds) {
-  const auto whole = static_cast<std::int64_t>(std::llround(std::clamp(seconds, 0.0, 1e9)));
-  const std::int64_t hours = whole / 3600;
-  const std::int64_t minutes = whole / 60 % 60;
-  return hours > 0 ? fmt::format("{}:{:02}:{:02}", hours, minutes, whole % 60)
-                   : fmt::format("{}:{:02}", minutes, whole % 60);
 }
 
 }  // namespace hooke::cli

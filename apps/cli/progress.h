@@ -76,9 +76,4 @@ class FrameProgress {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// "512,000": a whole number with commas between thousands.
-std::string with_commas(std::uint64_t number);
-/// "1:02:03" or "2:03".
-std::string clock_time(double seconds);
-
 }  // namespace hooke::cli

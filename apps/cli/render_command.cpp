@@ -18,6 +18,7 @@
 #include "interrupt.h"
 #include "kept_scene.h"
 #include "log.h"
+#include "numbers.h"
 #include "output_file.h"
 #include "progress.h"
 #include "studio.h"

@@ -20,6 +20,7 @@
 #include "hooke/render/film.h"
 #include "interrupt.h"
 #include "log.h"
+#include "numbers.h"
 #include "open_simulation.h"
 #include "output_file.h"
 #include "progress.h"

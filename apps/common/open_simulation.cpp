@@ -16,7 +16,7 @@
 #include "hooke/core/body_overlaps.h"
 #include "hooke/io/checkpoint.h"
 #include "hooke/scene/load_scene.h"
-#include "progress.h"
+#include "numbers.h"
 
 namespace hooke::cli {
 

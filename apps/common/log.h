@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "commands.h"
+#include "arguments.h"
 #include "hooke/base/expected.h"
 
 namespace hooke::cli {

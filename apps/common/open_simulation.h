@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "commands.h"
+#include "arguments.h"
 #include "hooke/base/expected.h"
 #include "hooke/core/backend.h"
 #include "hooke/core/simulation.h"
