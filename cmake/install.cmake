@@ -14,5 +14,8 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/hookeConfig.cmake ${CMAKE_CURRENT_BINA
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/hooke)
 if(HOOKE_BUILD_APPS)
   install(TARGETS hooke)
+  if(TARGET hooke-view)
+    install(TARGETS hooke-view)
+  endif()
   install(TARGETS hooke-gl LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/hooke)
 endif()

@@ -17,9 +17,10 @@ build_packages=(
   libopenvdb-dev libboost-iostreams-dev
   libgtest-dev libgmock-dev libbenchmark-dev pkg-config
   libepoxy-dev libegl1 libgl1 libgl1-mesa-dri libpng-dev libcairo2-dev fonts-dejavu-core ffmpeg
+  libglfw3-dev libimgui-dev
   python3)
 bench_packages=(lammps python3-numpy python3-matplotlib)
-test_packages=(clang-format-19 lammps mold python3-h5py python3-numpy python3-vtk9)
+test_packages=(clang-format-19 lammps mold python3-h5py python3-numpy python3-vtk9 xauth xdotool xvfb)
 lint_packages=(clang-19 clang-tidy-19)
 fuzz_packages=(clang-19 libclang-rt-19-dev)
 

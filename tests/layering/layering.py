@@ -34,7 +34,8 @@ KEPT_TO = {
     r"nlohmann/": {"scene", "io", "apps"},
     r"CLI/": {"apps"},
     r"spdlog/": {"apps"},
-    r"epoxy/|E?GLE?S?\w*/": {"render/gl"},
+    r"GLFW/|imgui|backends/imgui": {"apps"},
+    r"epoxy/|(?!GLFW)E?GLE?S?\w*/": {"render/gl"},
     r"cairo|png\.h": {"render"},
     r"([ix]mmintrin|x86intrin|arm_neon)\.h": {"base", "backends/cpu"},
 }
@@ -120,6 +121,8 @@ PLANTED = [  # file, text, a part of the line expected for it (None: no violatio
     ("src/volumes/w.cpp", '#include "hooke/io/snapshot.h"\n', "volumes must not use io"),
     ("src/core/x.cpp", '#include "hooke/volumes/mesh_field.h"\n', "core must not use volumes"),
     ("src/render/r.cpp", "#include <epoxy/gl.h>\n", "kept to render/gl"),
+    ("src/render/gl/y.cpp", "#include <GLFW/glfw3.h>\n", "kept to apps"),
+    ("apps/view/z.cpp", "#include <GLFW/glfw3.h>\n#include <imgui.h>\n", None),
     ("src/render/gl/s.cpp", '#include "hooke/render/frame.h"\n#include "hooke/core/scene.h"\n#include <epoxy/gl.h>\n', None),
     ("src/render/t.cpp", '#include "hooke/render/gl/gl_renderer.h"\n', "render must not use render/gl"),
     ("src/misc/h.cpp", "\n", "belongs to no library"),

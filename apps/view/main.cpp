@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <new>
+#include <optional>
+
+#include "log.h"
+#include "output_file.h"
+#include "replay.h"
+#include "scene_options.h"
+#include "session.h"
+#include "viewer.h"
+#include "window.h"
+
+namespace hooke::view {
+namespace {
+
+using cli::ExitStatus;
+
+struct Arguments {
+  cli::SceneArguments scene;
+  cli::DeviceArguments device;
+  std::filesystem::path resume, record, replay, status;
+  bool headless = false, paused = false;
+  int width = 1280, height = 720;
+};
+
+std::string parse_size(const std::string& text, Arguments& arguments) {
+  int width = 0, height = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 64 || height < 64 || width > 16384 ||
+      height > 16384) {
+    return text + " is no size such as 1280x720, from 64x64 to 16384x16384";
+  }
+  arguments.width = width;
+  arguments.height = height;
+  return {};
+}
+
+void add_options(CLI::App& app, Arguments& arguments) {
+  add_scene_options(app, arguments.scene);
+  app.get_option("SCENE")->required(false);
+  cli::add_device_options(app, arguments.device);
+  app.add_option("--resume", arguments.resume, "go on from a checkpoint of the scene")->option_text("CHECKPOINT");
+  app.add_option("--record", arguments.record, "log every action with the step at which it took effect")
+      ->option_text("FILE");
+  app.add_option("--replay", arguments.replay,
+                 "do again what was logged, and compare the states; SCENE may be left out")
+      ->option_text("FILE");
+  app.add_flag("--headless", arguments.headless, "replay without a window, as fast as possible")->needs("--replay");
+  app.add_flag("--paused", arguments.paused, "open the window with the simulation at rest");
+  app.add_option("--size", "of the window (default: 1280x720)")
+      ->option_text("WxH")
+      ->check([&arguments](const std::string& text) { return parse_size(text, arguments); });
+  app.add_option("--status", arguments.status, "keep a line of JSON in this file that tells what the window shows")
+      ->option_text("FILE");
+}
+
+ExitStatus replay_headless(const Record& record, const Arguments& arguments) {
+  const auto end = replay(record, arguments.scene, arguments.device);
+  if (!end) return cli::report_error(end.error(), true);
+  if (end->report.diverged) {
+    fmt::print("DIVERGED at step {}: the state is not that of the record (equal up to step {})\n",
+               *end->report.diverged, end->report.last_equal);
+    return cli::kRunFailed;
+  }
+  fmt::print("replayed {} steps with the same bits, {} states compared; state hash {:016x}\n", end->steps,
+             end->report.compared, end->state_hash);
+  return cli::kDone;
+}
+
+ExitStatus show(const Arguments& arguments, std::optional<Record> record) {
+  // What takes no time is checked before the scene is read.
+  if (auto display = Window::check_display(); !display) return cli::report_error(display.error());
+  SessionOptions options{arguments.scene, arguments.device, arguments.resume, arguments.record, {}, arguments.paused};
+  if (record) options.replay = std::move(record->entries);
+  auto session = Session::open(options);
+  if (!session) return cli::report_error(session.error());
+  for (const Finding& warning : (*session)->warnings()) cli::report_warning(warning);
+  const std::string title = "Hooke: " + arguments.scene.file.filename().string();
+  auto window = Window::open(title, arguments.width, arguments.height, LiveRenderer::kMajor, LiveRenderer::kMinor);
+  if (!window) return cli::report_error(window.error());
+  auto viewer = Viewer::open(**window, **session, {arguments.status});
+  if (!viewer) return cli::report_error(viewer.error());
+  if (auto shown = (*viewer)->run(); !shown) return cli::report_error(shown.error(), true);
+  const std::uint64_t hash = (*session)->finish();
+  if (!arguments.record.empty()) fmt::print("recorded {}; state hash {:016x}\n", arguments.record.string(), hash);
+  return (*session)->readings().replay.diverged ? cli::kRunFailed : cli::kDone;
+}
+
+ExitStatus parse_and_run(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("Open a window in which a scene runs and can be touched and tuned; F1 in it shows the keys",
+               "hooke view");
+  app.set_version_flag("--version", "hooke " HOOKE_VERSION);
+  add_options(app, arguments);
+  try {
+    app.parse(argc, argv);
+    if (arguments.scene.file.empty() && arguments.replay.empty()) throw CLI::RequiredError("SCENE");
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? cli::kDone : cli::kBadInput;
+  }
+  std::optional<Record> record;
+  if (!arguments.replay.empty()) {
+    auto read = read_record(arguments.replay);
+    if (!read) return cli::report_error(read.error());
+    record = std::move(*read);
+    if (arguments.scene.file.empty()) {
+      arguments.scene = {record->head.scene, record->head.overrides, record->head.allow_outside};
+    }
+    if (arguments.headless) return replay_headless(*record, arguments);
+  }
+  if (!arguments.record.empty()) {
+    if (auto right = cli::check_output_file(arguments.record, "--record"); !right)
+      return cli::report_error(right.error());
+  }
+  return show(arguments, std::move(record));
+}
+
+}  // namespace
+}  // namespace hooke::view
+
+int main(int argc, char** argv) {
+  hooke::cli::start_log(false);
+  try {
+    return hooke::view::parse_and_run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    spdlog::error("out of memory");
+  } catch (const std::exception& error) {
+    spdlog::error("unexpected: {}", error.what());
+  }
+  return hooke::cli::kRunFailed;
+}

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "collider_view.h"
+#include "hooke/base/expected.h"
+#include "hooke/render/frame.h"
+#include "hooke/render/gl/live_renderer.h"
+#include "orbit_camera.h"
+#include "picking.h"
+#include "session.h"
+#include "view_state.h"
+#include "window.h"
+
+namespace hooke::view {
+
+struct ViewerOptions {
+  std::filesystem::path status;  ///< a line of JSON that tells what the window shows; empty: none
+};
+
+/// The window: shows a session, and turns keys, gestures and panels into its actions.
+class Viewer {
+ public:
+  static Expected<std::unique_ptr<Viewer>> open(Window& window, Session& session, const ViewerOptions& options);
+  /// Until the window is closed.
+  Expected<void> run();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  Viewer(Window& window, Session& session, const ViewerOptions& options, LiveRenderer renderer);
+
+  // viewer.cpp: the loop and the picture
+  void follow_scene();
+  void upload(const std::shared_ptr<const ViewFrame>& frame);
+  void draw_picture();
+  ColorRequest color_request() const;
+  std::optional<ClipPlane> clip_plane() const;
+  LiveView live_view() const;
+  std::vector<LiveVertex> lines() const;
+  void show_message(const std::string& text);
+
+  // viewer_input.cpp: keys and the mouse
+  void handle(const InputEvent& event);
+  void press(const InputEvent& event);
+  void press_with_control(const InputEvent& event);
+  void move_mouse(const InputEvent& event);
+  void click(const InputEvent& event);
+  void fly(double seconds);
+  void change_speed(int by);
+
+  // viewer_tools.cpp: what touches the simulation
+  Ray ray_at(double x, double y) const;
+  void take_hold(double x, double y);
+  void lead(double right, double up, double ahead);
+  void let_go();
+  void cut(double x, double y);
+  void pick(double x, double y);
+  void drop_ball();
+  void shoot_ball(double x, double y);
+  void pour();
+  std::optional<Hit> hit_cloth(const Ray& ray) const;
+  double ball_size(const Material& material) const;
+
+  // viewer_panels.cpp
+  void draw_gui();
+  void draw_numbers();
+  void draw_message();
+  void draw_legend();
+  void draw_help();
+
+  // viewer_status.cpp
+  Json status_now() const;
+
+  Window& window_;
+  Session& session_;
+  ViewerOptions options_;
+  LiveRenderer renderer_;
+  ViewState state_;
+
+  std::shared_ptr<const Scene> scene_;
+  std::uint64_t scene_version_ = 0;
+  std::vector<float> radii_;  // by material, as they are drawn
+  double ball_ = 1;           // radius of a typical particle, m
+  ColliderView colliders_;
+  Look look_;
+  Vec3d up_{0, 1, 0};
+  double floor_ = 0, size_ = 1;  // m
+  std::optional<OrbitCamera> camera_;
+
+  std::shared_ptr<const ViewFrame> frame_;
+  std::vector<ColliderPose> poses_;          // of the meshes
+  std::vector<ShadedMesh> collider_meshes_;  // posed
+  std::vector<ShadedMesh> cloth_meshes_;
+  std::uint64_t drawn_ = 0;
+
+  bool turning_ = false, panning_ = false, zooming_ = false, holding_ = false, pouring_ = false;
+  double pressed_x_ = 0, pressed_y_ = 0, mouse_x_ = 0.5, mouse_y_ = 0.5;
+  double held_depth_ = 1;    // of what is held, m
+  Vec3d held_shift_{0, 0, 0};
+  std::optional<std::uint64_t> picked_;
+  Clock::time_point last_frame_{}, last_pour_{};
+  double frame_seconds_ = 0;
+  std::string message_;
+  Clock::time_point message_until_{};
+  std::uint64_t random_ = 1;  // counts random choices
+};
+
+}  // namespace hooke::view

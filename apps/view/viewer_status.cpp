@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include <cmath>
+
+#include "viewer.h"
+
+namespace hooke::view {
+
+Json Viewer::status_now() const {
+  const Readings now = session_.readings();
+  const Camera camera = camera_->camera();
+  constexpr const char* kModes[] = {"view", "move", "cut"};
+  Json json;
+  json["frame"] = drawn_;
+  json["frame_seconds"] = frame_seconds_;
+  json["steps"] = now.steps;
+  json["step_count"] = now.step_count;
+  json["time"] = now.time;
+  json["time_step"] = now.time_step;
+  json["steps_per_second"] = now.steps_per_second;
+  json["runs"] = session_.runs();
+  json["speed"] = std::isinf(session_.speed()) ? Json("fastest") : Json(session_.speed());
+  json["particles"] = now.particles;
+  json["mode"] = kModes[static_cast<int>(state_.mode)];
+  json["flies"] = state_.flies;
+  json["rendering"] = state_.rendering;
+  json["spheres"] = state_.spheres;
+  json["coloring"] = kColorings[static_cast<std::size_t>(state_.coloring)].name;
+  json["clip"] = state_.clip;
+  json["ground"] = state_.ground;
+  json["dark"] = state_.dark;
+  json["panel"] = state_.panel;
+  json["plots"] = state_.plots;
+  json["numbers"] = state_.numbers;
+  json["help"] = state_.help;
+  json["eye"] = {camera.eye.x, camera.eye.y, camera.eye.z};
+  json["target"] = {camera.target.x, camera.target.y, camera.target.z};
+  json["held_collider"] = now.held_collider;
+  json["held_particles"] = now.held_particles;
+  json["picked"] = picked_ ? Json(*picked_) : Json(nullptr);
+  json["can_undo"] = session_.can_undo();
+  json["reach"] = now.reach;
+  json["message"] = message_;
+  json["failure"] = now.failure;
+  json["replay_running"] = now.replay.running;
+  json["diverged"] = now.replay.diverged ? Json(*now.replay.diverged) : Json(nullptr);
+  json["device"] = LiveRenderer::device();
+  json["width"] = window_.width();
+  json["height"] = window_.height();
+  return json;
+}
+
+}  // namespace hooke::view
