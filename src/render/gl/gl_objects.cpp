@@ -82,7 +82,12 @@ VertexArray make_vertex_array() {
 }
 
 Program::Program(const char* vertex, const char* fragment) : program_(glCreateProgram()) {
-  const GLuint shaders[] = {compile(GL_VERTEX_SHADER, vertex), compile(GL_FRAGMENT_SHADER, fragment)};
+  link({compile(GL_VERTEX_SHADER, vertex), compile(GL_FRAGMENT_SHADER, fragment)});
+}
+
+Program::Program(const char* compute) : program_(glCreateProgram()) { link({compile(GL_COMPUTE_SHADER, compute)}); }
+
+void Program::link(std::initializer_list<GLuint> shaders) {
   for (const GLuint shader : shaders) glAttachShader(program_.get(), shader);
   glLinkProgram(program_.get());
   for (const GLuint shader : shaders) glDeleteShader(shader);

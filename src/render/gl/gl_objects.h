@@ -65,6 +65,8 @@ class Program {
  public:
   Program() = default;
   Program(const char* vertex, const char* fragment);
+  /// A compute shader (OpenGL 4.3), likewise.
+  explicit Program(const char* compute);
 
   void use() const { glUseProgram(program_.get()); }
   // Set a uniform of the program in use.
@@ -83,6 +85,8 @@ class Program {
     const auto found = locations_.find(name);
     return found == locations_.end() ? -1 : found->second;
   }
+
+  void link(std::initializer_list<GLuint> shaders);
 
   Object<delete_program> program_;
   std::map<std::string, GLint, std::less<>> locations_;  // of the uniforms in use

@@ -16,6 +16,7 @@
 #include "hooke/base/assert.h"
 #include "hooke/render/gl/gl_buffers.h"
 #include "hooke/render/gl/gl_objects.h"
+#include "hooke/render/gl/live_culling.h"
 #include "hooke/render/gl/shaders.h"
 
 namespace hooke {
@@ -107,8 +108,8 @@ struct LiveRenderer::Impl {
   gl::Program finish = final_program();
   gl::Texture color_map = make_color_map(), materials;
   gl::Buffer scene = gl::make_buffer(), particle_buffer = gl::make_buffer(), line_buffer = gl::make_buffer();
-  gl::VertexArray ball_array = gl::make_vertex_array(), point_array = gl::make_vertex_array(),
-                  line_array = gl::make_vertex_array();
+  gl::VertexArray point_array = gl::make_vertex_array(), line_array = gl::make_vertex_array();
+  LiveCulling culling;
   MeshBuffer mesh_buffer;
   WholePicture whole;
   Target target;
@@ -116,17 +117,13 @@ struct LiveRenderer::Impl {
   std::vector<std::pair<Vec3f, ShadedMesh::Sides>> looks;  // of the meshes
 
   Impl() {
-    for (const auto& [array, divisor] : {std::pair{ball_array.get(), 1u}, {point_array.get(), 0u}}) {
-      glBindVertexArray(array);
-      glBindBuffer(GL_ARRAY_BUFFER, particle_buffer.get());
-      glEnableVertexAttribArray(0);
-      glEnableVertexAttribArray(1);
-      glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(LiveParticle), nullptr);
-      glVertexAttribIPointer(1, 1, GL_UNSIGNED_INT, sizeof(LiveParticle),
-                             reinterpret_cast<const void*>(offsetof(LiveParticle, tag)));
-      glVertexAttribDivisor(0, divisor);
-      glVertexAttribDivisor(1, divisor);
-    }
+    glBindVertexArray(point_array.get());
+    glBindBuffer(GL_ARRAY_BUFFER, particle_buffer.get());
+    glEnableVertexAttribArray(0);
+    glEnableVertexAttribArray(1);
+    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(LiveParticle), nullptr);
+    glVertexAttribIPointer(1, 1, GL_UNSIGNED_INT, sizeof(LiveParticle),
+                           reinterpret_cast<const void*>(offsetof(LiveParticle, tag)));
     glBindVertexArray(line_array.get());
     glBindBuffer(GL_ARRAY_BUFFER, line_buffer.get());
     glEnableVertexAttribArray(0);
@@ -143,11 +140,7 @@ struct LiveRenderer::Impl {
     program.read("materials", 0, materials);
     program.read("colors", 1, color_map);
     program.set("by_value", view.by_value ? 1 : 0);
-    if (view.spheres) {
-      glBindVertexArray(ball_array.get());
-      glDrawArraysInstanced(GL_TRIANGLES, 0, 3, particle_count);
-      return;
-    }
+    if (view.spheres) return culling.draw_seen();
     glEnable(GL_PROGRAM_POINT_SIZE);
     program.set("pixels", view.point);
     glBindVertexArray(point_array.get());
@@ -239,6 +232,8 @@ void LiveRenderer::draw(const LiveView& view, int width, int height) {
   glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, s.scene.get());
 
+  const bool particles = view.particles && s.particle_count > 0;
+  if (particles && view.spheres) s.culling.find_seen(s.particle_buffer, s.particle_count, s.materials, width, height);
   glBindFramebuffer(GL_FRAMEBUFFER, s.target.framebuffer.get());
   glViewport(0, 0, width, height);
   glDisable(GL_BLEND);
@@ -250,7 +245,7 @@ void LiveRenderer::draw(const LiveView& view, int width, int height) {
   glClearDepth(0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   s.draw_meshes(view);
-  if (view.particles && s.particle_count > 0) s.draw_particles(view);
+  if (particles) s.draw_particles(view);
   s.draw_lines();
 
   glBindFramebuffer(GL_FRAMEBUFFER, 0);

@@ -38,5 +38,8 @@ extern const char* const live_meshes_frag;
 extern const char* const live_lines_vert;
 extern const char* const live_lines_frag;
 extern const char* const live_final_frag;
+extern const char* const live_footprint_glsl;
+extern const char* const live_cover_comp;
+extern const char* const live_cull_comp;
 
 }  // namespace hooke::gl::shaders
