@@ -15,7 +15,7 @@
 namespace hooke {
 
 /// How pictures show a material.
-enum class MaterialLook { ball, water, spark };
+enum class MaterialLook { ball, water, spark, skin };
 
 /// Materials that a scene may have: back ends hold a table of all pairs.
 inline constexpr std::size_t kMostMaterials = 1024;
@@ -32,6 +32,9 @@ struct Material {
   SurfaceCoefficients<double> surface{};  ///< as `contact`
   bool interacts = true;  ///< else its particles touch walls and colliders, but no particles
   bool fixed = false;                     ///< no force moves its particles
+  double foam = 1;         ///< how much of it pictures show where it looks like water, >= 0
+  double opacity = 1;      ///< of colliders and cloths in pictures, 0 (left out) to 1
+  double roughness = 0.5;  ///< of their surface in pictures, 0 (polished) to 1 (matt)
 
   /// If not, only colliders may have it.
   bool is_of_particles() const { return radius > 0; }

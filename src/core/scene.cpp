@@ -41,6 +41,9 @@ class Checker {
     finite(where, value);
     if (std::isfinite(value) && value < 0) add(where, fmt::format("{} must be 0 or more", value));
   }
+  void share(const std::string& where, double value) {
+    if (!(value >= 0 && value <= 1)) add(where, fmt::format("{} must be from 0 to 1", value));
+  }
   void coefficients(const std::string& where, const ContactCoefficients<double>& c) {
     not_negative(where + ".stiffness", c.stiffness);
     not_negative(where + ".shear", c.shear);
@@ -108,6 +111,9 @@ void check_materials(const Scene& scene, Checker& check) {
     check.coefficients(where, m.contact);
     check.surface(where, m.surface);
     check.not_negative(where + ".drag", m.drag);
+    check.not_negative(where + ".foam", m.foam);
+    check.share(where + ".opacity", m.opacity);
+    check.share(where + ".roughness", m.roughness);
   }
 }
 
@@ -126,20 +132,6 @@ void check_contacts(const Scene& scene, Checker& check) {
     check.coefficients(where, entry.coefficients);
     check.surface(where, entry.surface);
   }
-}
-
-void check_camera(const SceneCamera& camera, Checker& check) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (camera.eye) check.finite(fmt::format("camera.eye[{}]", axis), component(*camera.eye, axis));
-    if (camera.target) check.finite(fmt::format("camera.target[{}]", axis), component(*camera.target, axis));
-  }
-  if (camera.eye && camera.target && *camera.eye == *camera.target) {
-    check.add("camera.target", "must be another point than camera.eye");
-  }
-  if (!(camera.field_of_view >= 1 && camera.field_of_view <= 150)) {
-    check.add("camera.field_of_view", fmt::format("{} must be from 1 to 150 degrees", camera.field_of_view));
-  }
-  check.finite("camera.orbit", camera.orbit);
 }
 
 }  // namespace
@@ -173,7 +165,8 @@ std::vector<Finding> validate(const Scene& scene) {
   for (Finding& finding : check_emitters(scene)) check.findings.push_back(std::move(finding));
   check.not_negative("output.every", scene.output.seconds);
   if (scene.output.steps < 0) check.add("output.every_steps", fmt::format("{} must be 1 or more", scene.output.steps));
-  check_camera(scene.camera, check);
+  for (Finding& finding : validate(scene.camera)) check.findings.push_back(std::move(finding));
+  for (Finding& finding : validate(scene.picture)) check.findings.push_back(std::move(finding));
   for (Finding& finding : check_fields(scene)) check.findings.push_back(std::move(finding));
   for (Finding& finding : validate_attraction(scene)) check.findings.push_back(std::move(finding));
   if (scene.structure) {

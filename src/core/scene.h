@@ -17,6 +17,7 @@
 #include "hooke/core/emitters.h"
 #include "hooke/core/fields.h"
 #include "hooke/core/materials.h"
+#include "hooke/core/scene_picture.h"
 #include "hooke/core/springs.h"
 
 namespace hooke {
@@ -69,14 +70,6 @@ struct OutputCadence {
   bool is_due(std::int64_t step, double dt) const;
 };
 
-/// From where pictures show a scene. What is left out follows from the scene's action (render/camera.h).
-struct SceneCamera {
-  std::optional<Vec3d> eye;     ///< m
-  std::optional<Vec3d> target;  ///< m, other than the eye
-  double field_of_view = 35;    ///< from the bottom of the picture to its top, degrees, 1 to 150
-  double orbit = 0;             ///< how fast the eye circles the target, around what points up, degrees/s
-};
-
 /// Everything that rules a simulation but the particles themselves: plain data with default values.
 /// A scene file fills it, or code does. SI units.
 struct Scene {
@@ -97,6 +90,7 @@ struct Scene {
   std::optional<Attraction> attraction;  ///< of all particles by each other
   OutputCadence output;
   SceneCamera camera;
+  ScenePicture picture;
 };
 
 /// What makes `scene` unusable, if anything: values that are not finite, wrong signs, empty domains, duplicate names

@@ -6,6 +6,7 @@
 #include <exception>
 #include <new>
 
+#include "hooke/scene/default_warnings.h"
 #include "hooke/scene/findings.h"
 #include "hooke/scene/json_reader.h"
 #include "hooke/scene/overlap_check.h"
@@ -46,6 +47,7 @@ Expected<LoadedScene> parse(std::string_view text, const std::string& name, cons
       load_structure(json, loaded.scene, folder, ties, findings, loaded.particles, loaded.warnings, loaded.fields);
   if (findings.empty()) refuse_overlaps(loaded.scene, loaded.particles, options, findings);
   if (!findings.empty()) return refuse();
+  for (Finding& warning : default_warnings(loaded.scene)) loaded.warnings.push_back(std::move(warning));
   loaded.resolved = pretty(json);
   return loaded;
 }

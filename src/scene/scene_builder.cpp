@@ -17,6 +17,7 @@
 #include "hooke/scene/emitter_builder.h"
 #include "hooke/scene/field_builder.h"
 #include "hooke/scene/json_path.h"
+#include "hooke/scene/picture_builder.h"
 #include "hooke/scene/spelling.h"
 
 namespace hooke {
@@ -150,6 +151,10 @@ void build_materials(const Json& materials, const Json& colliders, Scene& scene,
     material.color = text_or(member(entry, "color"), "");
     if (member(entry, "look") == "water") material.look = MaterialLook::water;
     if (member(entry, "look") == "spark") material.look = MaterialLook::spark;
+    if (member(entry, "look") == "skin") material.look = MaterialLook::skin;
+    material.foam = value("foam", material.foam);
+    material.opacity = value("opacity", material.opacity);
+    material.roughness = value("roughness", material.roughness);
     if (member(entry, "interacts") == false) material.interacts = false;
     scene.materials.push_back(std::move(material));
   }
@@ -172,18 +177,6 @@ ShapeFiles shape_files(const std::filesystem::path& folder, const LoadOptions& o
   files.memory_limit = options.memory_limit;
   files.memory = &loaded.fields;
   return files;
-}
-
-void build_camera(const Json& camera, Scene& scene, Findings& findings) {
-  const auto point = [&](const char* key) -> std::optional<Vec3d> {
-    if (!member(camera, key).is_array() || findings.touches(join_path("camera", key))) return {};
-    return vec3_or(member(camera, key), {});
-  };
-  scene.camera.eye = point("eye");
-  scene.camera.target = point("target");
-  if (findings.touches("camera")) return;
-  scene.camera.field_of_view = number_or(member(camera, "field_of_view"), scene.camera.field_of_view);
-  scene.camera.orbit = number_or(member(camera, "orbit"), scene.camera.orbit);
 }
 
 std::vector<std::string> names_of(const std::vector<Material>& materials) {
@@ -329,6 +322,7 @@ void build_scene(Json& json, const std::filesystem::path& folder, const LoadOpti
     scene.output.steps = count_or(member(json.at("output"), "every_steps"), 0);
   }
   build_camera(member(json, "camera"), scene, findings);
+  build_picture(member(json, "picture"), scene, findings);
   add_core_findings(scene, entries_of, findings);
 }
 
