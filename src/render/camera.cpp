@@ -32,6 +32,25 @@ std::array<Vec3d, 8> corners(const Box3d& box) {
   return all;
 }
 
+// What a path through `value` of the keyframes is at `time`: cubic between two of them, as fast at each as from the one
+// before to the one after, at rest at both ends (E. Catmull and R. Rom, 1974).
+template <class T, class Value>
+T smooth_value(const std::vector<CameraKeyframe>& keys, double time, const Value& value) {
+  if (time <= keys.front().time) return value(keys.front());
+  if (time >= keys.back().time) return value(keys.back());
+  const auto later = std::upper_bound(keys.begin(), keys.end(), time,
+                                      [](double t, const CameraKeyframe& key) { return t < key.time; });
+  const auto b = static_cast<std::size_t>(later - keys.begin()), a = b - 1;
+  const auto rate = [&](std::size_t i) {
+    if (i == 0 || i + 1 == keys.size()) return 0.0 * value(keys[i]);
+    return (1 / (keys[i + 1].time - keys[i - 1].time)) * (value(keys[i + 1]) - value(keys[i - 1]));
+  };
+  const double span = keys[b].time - keys[a].time, s = (time - keys[a].time) / span;
+  const double rise = s * s * (3 - 2 * s);
+  return (1 - rise) * value(keys[a]) + rise * value(keys[b]) + (span * s * (1 - s) * (1 - s)) * rate(a) -
+         (span * s * s * (1 - s)) * rate(b);
+}
+
 }  // namespace
 
 CameraAxes axes(const Camera& camera) {
@@ -52,28 +71,6 @@ double extent_along(const Box3d& box, const Vec3d& direction) {
   HOOKE_ASSERT(is_unit(direction), direction);
   const Vec3d size = box.max - box.min;
   return std::abs(size.x * direction.x) + std::abs(size.y * direction.y) + std::abs(size.z * direction.z);
-}
-
-Box3d action_box(const Scene& scene, const ParticleSet& first) {
-  HOOKE_ASSERT(are_particles_of(first, scene), first.size(), scene.materials.size());
-  constexpr double kHeadroom = 1.15;
-  Box3d box{scene.domain.min, scene.domain.max};
-  if (first.empty()) return box;
-  const Vec3d up = up_of(scene);
-  for (int axis = 0; axis < 3; ++axis) {
-    const double upward = component(up, axis);
-    if (std::abs(upward) < 0.9) continue;  // a level axis, or gravity along none
-    double& floor = component(upward > 0 ? box.min : box.max, axis);
-    double& ceiling = component(upward > 0 ? box.max : box.min, axis);
-    double reach = 0;
-    for (std::size_t i = 0; i < first.size(); ++i) {
-      const double height = std::abs(component(first.position[i], axis) - floor);
-      reach = std::max(reach, height + scene.materials[first.material[i]].radius);
-    }
-    reach = std::min(kHeadroom * reach, scene.domain.length(axis));
-    ceiling = floor + (upward > 0 ? reach : -reach);
-  }
-  return box;
 }
 
 LevelAxes level_axes(const Box3d& box, const Vec3d& up) {
@@ -131,7 +128,22 @@ Camera default_camera(const Box3d& box, const Vec3d& up, double field_of_view, d
   return camera;
 }
 
-Camera camera_at(const Scene& scene, const Box3d& action, double aspect, double time) {
+std::optional<Vec3d> followed_point(const Scene& scene, const ParticleSet& particles, double time) {
+  if (!scene.camera.follow) return {};
+  if (scene.camera.follow->collider) return pose_at(scene.colliders.at(*scene.camera.follow->collider), time).pivot;
+  Vec3d sum{0, 0, 0};
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    if (particles.material[i] != *scene.camera.follow->material) continue;
+    sum += particles.position[i];
+    ++count;
+  }
+  if (count == 0) return {};
+  return (1 / static_cast<double>(count)) * sum;
+}
+
+Camera camera_at(const Scene& scene, const Box3d& action, double aspect, double time,
+                 const std::optional<Vec3d>& followed) {
   const SceneCamera& wanted = scene.camera;
   Camera camera = default_camera(action, up_of(scene), wanted.field_of_view, aspect);
   if (wanted.target) {
@@ -139,10 +151,30 @@ Camera camera_at(const Scene& scene, const Box3d& action, double aspect, double 
     camera.target = *wanted.target;
   }
   if (wanted.eye) camera.eye = *wanted.eye;
+  double roll = wanted.roll;
+  if (const auto& keys = wanted.keyframes; !keys.empty()) {
+    const auto own = [](const auto& value, const auto& fallback) { return value ? *value : fallback; };
+    const Camera base = camera;
+    camera.eye = smooth_value<Vec3d>(keys, time, [&](const CameraKeyframe& k) { return own(k.eye, base.eye); });
+    camera.target =
+        smooth_value<Vec3d>(keys, time, [&](const CameraKeyframe& k) { return own(k.target, base.target); });
+    camera.field_of_view =
+        std::clamp(smooth_value<double>(
+                       keys, time, [&](const CameraKeyframe& k) { return own(k.field_of_view, base.field_of_view); }),
+                   1.0, 150.0);
+    roll = smooth_value<double>(keys, time, [&](const CameraKeyframe& k) { return own(k.roll, wanted.roll); });
+    // Paths between keyframes may meet.
+    if (camera.eye == camera.target) camera.eye += base.eye - base.target;
+  }
+  if (followed) {
+    camera.eye += *followed - camera.target;
+    camera.target = *followed;
+  }
   camera.eye = camera.target + rotated(camera.eye - camera.target, camera.up, wanted.orbit * kDegree * time);
   // For a view straight up or down, any level direction will do as the top of the picture.
   const Vec3d view = normalized(camera.eye - camera.target);
   if (std::abs(dot(view, camera.up)) > 0.9999) camera.up = -level_axes(action, camera.up).front;
+  if (roll != 0) camera.up = normalized(rotated(camera.up, view, -roll * kDegree));
   return camera;
 }
 

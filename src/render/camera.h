@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include "hooke/base/box3.h"
 #include "hooke/base/vec3.h"
 #include "hooke/core/particles.h"
@@ -29,9 +31,6 @@ Vec3d up_of(const Scene& scene);
 /// The length of `box` along the unit vector `direction`, m.
 double extent_along(const Box3d& box, const Vec3d& direction);
 
-/// Where a scene's action takes place: the domain, cut a little above the highest particle at the start, `first`.
-Box3d action_box(const Scene& scene, const ParticleSet& first);
-
 /// Two level unit vectors at right angles; the unit vector `up` points up. `across` is along the longer level side of
 /// `box`, which pictures show from left to right; `front` points to the viewer.
 struct LevelAxes {
@@ -46,8 +45,13 @@ Vec3d direction_to_sun(const Box3d& box, const Vec3d& up);
 /// `field_of_view` in degrees, in (0, 180); `aspect`: width of the picture over its height, > 0.
 Camera default_camera(const Box3d& box, const Vec3d& up, double field_of_view, double aspect);
 
+/// What the scene's camera follows at `time` (s), m; empty where it follows nothing or nothing of it is there.
+std::optional<Vec3d> followed_point(const Scene& scene, const ParticleSet& particles, double time);
+
 /// The camera of a picture at `time` (s): the scene's camera, with the default camera's values where the scene gives
-/// none, carried around the target by the scene's orbit.
-Camera camera_at(const Scene& scene, const Box3d& action, double aspect, double time);
+/// none, along its keyframes, then put where it looks at `followed`, carried around the target by the scene's orbit,
+/// and rolled.
+Camera camera_at(const Scene& scene, const Box3d& action, double aspect, double time,
+                 const std::optional<Vec3d>& followed = {});
 
 }  // namespace hooke

@@ -48,7 +48,12 @@ ShadedMesh make_mesh(const Surface& surface, const Scene& scene, const TornEdges
   for (const std::uint32_t corner : triangles) {
     const std::size_t i = index[corner];
     const double length = std::sqrt(dot(normal[corner], normal[corner]));
-    if (mesh.corners.empty()) mesh.color = color_of(i);
+    if (mesh.corners.empty()) {
+      const Material& material = scene.materials[particles.material[i]];
+      mesh.color = color_of(i);
+      mesh.opacity = static_cast<float>(std::max(material.opacity, 1e-3));
+      mesh.roughness = static_cast<float>(material.roughness);
+    }
     covered[i] = 1;
     mesh.corners.push_back({vec_cast<float>(particles.position[i] - origin),
                             vec_cast<float>((length > 0 ? 1 / length : 0) * normal[corner])});

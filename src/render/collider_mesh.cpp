@@ -144,11 +144,15 @@ std::vector<ShadedMesh> collider_meshes(const Scene& scene, double time, const V
   std::vector<ShadedMesh> meshes;
   for (const Collider& collider : scene.colliders) {
     ShadedMesh mesh;
-    const std::string color = collider.material ? scene.materials[*collider.material].color : "";
+    const Material material = collider.material ? scene.materials[*collider.material] : Material{};
+    if (material.opacity <= 0) continue;
+    mesh.opacity = static_cast<float>(material.opacity);
+    mesh.roughness = static_cast<float>(material.roughness);
+    const std::string& color = material.color;
     mesh.color = parse_color(color.empty() ? kSteel : color.c_str());
     const bool open_mesh = std::holds_alternative<MeshShape>(collider.shape) && !encloses_space(collider.shape);
     const bool cut = collider.hollow && (encloses_space(collider.shape) || open_mesh);
-    mesh.sides = cut ? ShadedMesh::Sides::inner : ShadedMesh::Sides::both;
+    mesh.sides = cut && !mesh.is_glass() ? ShadedMesh::Sides::inner : ShadedMesh::Sides::both;
     mesh.corners = shaded_corners(shape_surface(collider.shape, scene.domain));
     const ColliderPose pose = pose_at(collider, time);
     const Vec3d pivot = pivot_of(collider);

@@ -13,7 +13,7 @@ namespace hooke {
 TriangleMesh shape_surface(const Shape& shape, const Domain& domain);
 
 /// The colliders of a scene as they are drawn at `time` (s), relative to `origin` (m). Of a hollow collider that
-/// encloses a space or is an open mesh, only the far side is drawn.
+/// encloses a space or is an open mesh, and is no glass, only the far side is drawn.
 std::vector<ShadedMesh> collider_meshes(const Scene& scene, double time, const Vec3d& origin);
 
 }  // namespace hooke

@@ -7,6 +7,7 @@
 
 #include "hooke/base/assert.h"
 #include "hooke/core/contacts.h"
+#include "hooke/render/action.h"
 
 namespace hooke {
 

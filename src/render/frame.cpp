@@ -7,9 +7,11 @@
 
 #include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
-#include "hooke/render/aeration.h"
+#include "hooke/render/action.h"
 #include "hooke/render/cloth_meshes.h"
 #include "hooke/render/collider_mesh.h"
+#include "hooke/render/spring_meshes.h"
+#include "hooke/render/water_mixing.h"
 
 namespace hooke {
 
@@ -28,25 +30,42 @@ std::vector<Color> material_colors(const Scene& scene) {
   return colors;
 }
 
-// At their own size, spheres at the water's surface would leave gaps that show the spheres below.
-constexpr float kWaterRadius = 1.25f;
-
 constexpr float kNight = 0.12f;  // of the day's light
 
-// Water turns white where it is fast: clear up to 0.35 of foam_speed, the speed of a fall from the top, white from 0.9
-// of it. It also turns white where it is mixed with air.
-std::uint8_t foam_of(const Vec3d& velocity, double foam_speed, float air) {
-  const double share = std::clamp((std::sqrt(dot(velocity, velocity)) / foam_speed - 0.35) / 0.55, 0.0, 1.0);
-  const double white = 1 - (1 - share * share) * (1 - 0.8 * static_cast<double>(air));
+// Radius of the sphere that draws a particle of a skin, over its own: spheres of a body's lattice then leave no gaps.
+constexpr float kSkinRadius = 1.4f;
+
+float smoothstep(float low, float high, float x) {
+  const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
+  return t * t * (3 - 2 * t);
+}
+
+// Radius of the sphere that draws a particle of water, over its own. At their own size, spheres at the surface of a
+// pool would leave gaps that show the spheres below, and those of a sheet still more; a drop of its own is no larger
+// than it is.
+float water_radius(float filled) {
+  const float sheet = smoothstep(0.06f, 0.2f, filled) * (1 - smoothstep(0.35f, 0.6f, filled));
+  return 0.85f + 0.4f * smoothstep(0.02f, 0.15f, filled) + 0.3f * sheet;
+}
+
+// How far a particle of water is a drop of its own, from 0 to 1.
+float looseness(float filled) { return 1 - smoothstep(0.06f, 0.25f, filled); }
+
+// Water turns white where it churns, which mixes it with air: clear up to 0.07 of the speed of a fall from the top,
+// white from 0.3 of it. Water that falls together and drops that fly alone stay clear.
+std::uint8_t foam_of(const Material& material, const WaterMixing& mixing, double foam_speed) {
+  const float churns = smoothstep(0.07f, 0.3f, mixing.churn / static_cast<float>(foam_speed));
+  const float together = 1 - looseness(mixing.filled);
+  const double white = std::clamp(material.foam * static_cast<double>(churns * together), 0.0, 1.0);
   return static_cast<std::uint8_t>(1 + std::lround(254 * white));
 }
 
 // Empty where no material looks like water.
-std::vector<float> water_aeration(const Scene& scene, const ParticleSet& particles) {
+std::vector<WaterMixing> mixing_of(const Scene& scene, const ParticleSet& particles, double foam_speed) {
   const auto water = std::find_if(scene.materials.begin(), scene.materials.end(),
                                   [](const Material& m) { return m.look == MaterialLook::water; });
   if (water == scene.materials.end()) return {};
-  return aeration(scene, particles, water->radius);
+  return water_mixing(scene, particles, water->radius, foam_speed);
 }
 
 std::optional<double> ground_of(const Scene& scene, const Box3d& action, const Vec3d& up) {
@@ -57,6 +76,50 @@ std::optional<double> ground_of(const Scene& scene, const Box3d& action, const V
     lowest += upward * component(upward > 0 ? action.min : action.max, axis);
   }
   return lowest;
+}
+
+// What the scene says of its pictures.
+void apply(const ScenePicture& picture, Frame& frame) {
+  if (!picture.box) frame.tank.walls = {};
+  if (!picture.ground) frame.ground.reset();
+  frame.ground_lines = picture.ground_lines;
+  if (!picture.ground_color.empty()) frame.ground_color = parse_color(picture.ground_color.c_str());
+  if (picture.background.starts_with('#')) frame.background = parse_color(picture.background.c_str());
+  frame.bright_sky = picture.background == "sky";
+  if (picture.sun) frame.to_sun = (1 / std::sqrt(dot(*picture.sun, *picture.sun))) * *picture.sun;
+  frame.sunlight = static_cast<float>(picture.sunlight);
+  frame.skylight = static_cast<float>(picture.skylight);
+}
+
+// Between rods, particles are small balls, whatever their look.
+void shrink_joints(const Scene& scene, const ParticleSet& particles, Frame& frame) {
+  constexpr float kJoint = 0.6f;  // of the particle's radius
+  const SpringSet& springs = scene.structure->springs;
+  for (const std::vector<std::uint64_t>* ends : {&springs.a, &springs.b}) {
+    for (const std::uint64_t id : *ends) {
+      const std::size_t i = particles.find(id);
+      if (i == particles.size()) continue;
+      frame.spheres[i].skin = false;
+      frame.spheres[i].radius = kJoint * static_cast<float>(scene.materials[particles.material[i]].radius);
+    }
+  }
+}
+
+// Surfaces take the place of their particles; springs come as the scene wants them. Spheres are those of all particles.
+void add_structure(const Scene& scene, const ParticleSet& particles, Frame& frame) {
+  std::vector<char> covered(particles.size(), 0);
+  const auto color_of = [&](std::size_t i) { return frame.spheres[i].color; };
+  const auto add = [&frame](std::vector<ShadedMesh> meshes) {
+    for (ShadedMesh& mesh : meshes) frame.meshes.push_back(std::move(mesh));
+  };
+  add(cloth_meshes(scene, particles, frame.origin, color_of, covered));
+  add(spring_meshes(scene, particles, frame.origin, color_of, covered));
+  if (scene.picture.springs != SpringLook::none) shrink_joints(scene, particles, frame);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    if (covered[i] == 0) frame.spheres[kept++] = frame.spheres[i];
+  }
+  frame.spheres.resize(kept);
 }
 
 }  // namespace
@@ -83,7 +146,7 @@ Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, 
   frame.across = level.across;
   frame.along = level.front;
   frame.to_sun = direction_to_sun(look.action, frame.up);
-  frame.camera = camera_at(scene, look.action, aspect, time);
+  frame.camera = camera_at(scene, look.action, aspect, time, followed_point(scene, particles, time));
   frame.origin = look.action.center();
   frame.camera.eye -= frame.origin;
   frame.camera.target -= frame.origin;
@@ -93,6 +156,7 @@ Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, 
   frame.tank.min = scene.domain.min - frame.origin;
   frame.tank.max = scene.domain.max - frame.origin;
   for (std::size_t axis = 0; axis < 3; ++axis) frame.tank.walls[axis] = scene.domain.boundary[axis] == Boundary::spring;
+  apply(scene.picture, frame);
   frame.meshes = collider_meshes(scene, time, frame.origin);
   if (look.scale.by != ColorBy::material) frame.scale = look.scale;
   const auto glows = [](const Material& m) { return m.look == MaterialLook::spark; };
@@ -100,35 +164,31 @@ Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, 
 
   const std::vector<Color> colors = material_colors(scene);
   const std::vector<double> values = color_values(scene, particles, time, look.action, look.scale.by);
-  const std::vector<float> air = values.empty() ? water_aeration(scene, particles) : std::vector<float>();
+  const std::vector<WaterMixing> mixing =
+      values.empty() ? mixing_of(scene, particles, look.foam_speed) : std::vector<WaterMixing>();
   frame.spheres.resize(particles.size());
   parallel_ranges(particles.size(), 4096, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const Material& material = scene.materials[particles.material[i]];
       const Vec3f at = vec_cast<float>(particles.position[i] - frame.origin);
       Sphere& sphere = frame.spheres[i];
-      sphere = {at.x, at.y,           at.z, static_cast<float>(material.radius), colors[particles.material[i]],
-                0,    glows(material)};
+      sphere = {at.x, at.y, at.z, static_cast<float>(material.radius), colors[particles.material[i]], 0};
+      sphere.glows = glows(material);
+      sphere.roughness = static_cast<std::uint8_t>(std::lround(255 * material.roughness));
+      if (material.look == MaterialLook::skin) {
+        sphere.skin = true;
+        sphere.radius *= kSkinRadius;
+      }
       if (!values.empty()) {
         sphere.color = map_color((values[i] - look.scale.low) / (look.scale.high - look.scale.low));
       } else if (material.look == MaterialLook::water) {
-        sphere.foam = foam_of(particles.velocity[i], look.foam_speed, air[i]);
-        sphere.radius *= kWaterRadius;
+        sphere.foam = foam_of(material, mixing[i], look.foam_speed);
+        sphere.radius *= water_radius(mixing[i].filled);
+        sphere.roughness = static_cast<std::uint8_t>(std::lround(255 * looseness(mixing[i].filled)));
       }
     }
   });
-  if (scene.structure && !scene.structure->surfaces.empty()) {
-    std::vector<char> covered(particles.size(), 0);
-    const auto color_of = [&](std::size_t i) { return frame.spheres[i].color; };
-    for (ShadedMesh& mesh : cloth_meshes(scene, particles, frame.origin, color_of, covered)) {
-      frame.meshes.push_back(std::move(mesh));
-    }
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < particles.size(); ++i) {
-      if (covered[i] == 0) frame.spheres[kept++] = frame.spheres[i];
-    }
-    frame.spheres.resize(kept);
-  }
+  if (scene.structure) add_structure(scene, particles, frame);
   return frame;
 }
 

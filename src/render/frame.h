@@ -23,7 +23,18 @@ struct Sphere {
   Color color;
   std::uint8_t foam;    ///< 0: an opaque ball; else water, 1 clear to 255 white
   bool glows = false;   ///< whether the ball shines by itself and throws no shadow
+  bool skin = false;    ///< whether an opaque ball is part of a smooth skin
+  std::uint8_t roughness = 128;  ///< 0 polished to 255 matt; of water, from 0 in a pool to 255 of a drop of its own
 };
+
+/// What a sphere is part of; each kind is drawn in its own way.
+enum class SphereKind : std::uint8_t { ball, skin, spark, water };
+inline SphereKind kind_of(const Sphere& sphere) {
+  return sphere.foam > 0 ? SphereKind::water
+         : sphere.glows  ? SphereKind::spark
+         : sphere.skin   ? SphereKind::skin
+                         : SphereKind::ball;
+}
 
 /// The tank: the domain, and which of its faces are walls.
 struct Tank {
@@ -44,6 +55,12 @@ struct Frame {
   Vec3d along{0, 0, 1};
   Vec3d to_sun{0, 1, 0};  ///< unit vector
   std::optional<double> ground;     ///< height of the ground along `up`, relative to the origin, m
+  bool ground_lines = true;
+  std::optional<Color> ground_color;  ///< dark without
+  std::optional<Color> background;    ///< one colour behind everything; without, a sky
+  bool bright_sky = false;            ///< whether that sky is bright; else it is dark
+  bool transparent = false;           ///< nothing behind everything: pictures have alpha
+  float sunlight = 1, skylight = 1;   ///< brightness of the sun, and of the light from all around
   bool night = false;  ///< a black sky, as among stars: where particles attract each other and there is no ground
   float daylight = 1;               ///< brightness of sun and sky, less at night
   std::optional<ColorScale> scale;  ///< of the legend; empty: no legend
@@ -51,9 +68,9 @@ struct Frame {
 
 /// What stays the same for all pictures of a run.
 struct Look {
-  Box3d action;
+  Box3d action;             ///< where the scene's action takes place (action.h)
   ColorScale scale;
-  double foam_speed = 1;  ///< speed at which water is white, m/s
+  double foam_speed = 1;  ///< speed of a fall from the top, which water that foams is measured by, m/s, > 0
 };
 
 /// The look of a run, from its scene and its `first` snapshot. `range`, two ascending values, replaces the ends of the

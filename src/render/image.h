@@ -12,7 +12,8 @@
 
 namespace hooke {
 
-/// A picture: 8 bits for each of red, green, blue (sRGB) and a fourth byte that is ignored; the first row is the top.
+/// A picture: 8 bits for each of red, green, blue (sRGB) and alpha, which counts only where a picture is written with
+/// it; the first row is the top.
 struct Image {
   static constexpr std::size_t kChannels = 4;
 
@@ -37,8 +38,8 @@ struct Image {
   const std::uint8_t* at(int x, int y) const { return const_cast<Image*>(this)->at(x, y); }
 };
 
-/// The bytes of a PNG file, 8 bits a channel, without alpha.
-Expected<std::string> encode_png(const Image& image);
+/// The bytes of a PNG file, 8 bits a channel; with alpha (not multiplied into the colours) or without.
+Expected<std::string> encode_png(const Image& image, bool alpha = false);
 /// The picture in the bytes of a PNG file of any kind; bad_input where the bytes are no PNG file.
 Expected<Image> decode_png(const std::string& bytes);
 

@@ -28,15 +28,17 @@ std::vector<std::uint8_t> without_fourth_byte(const std::vector<std::uint8_t>& p
 
 }  // namespace
 
-Expected<std::string> encode_png(const Image& image) {
+Expected<std::string> encode_png(const Image& image, bool alpha) {
   HOOKE_ASSERT(image.pixels.size() == Image(image.width, image.height).pixels.size(), image.width, image.height,
                image.pixels.size());
   png_image png = describe(image);
-  const std::vector<std::uint8_t> rgb = without_fourth_byte(image.pixels);
+  if (alpha) png.format = PNG_FORMAT_RGBA;
+  const std::vector<std::uint8_t> rgb = alpha ? std::vector<std::uint8_t>() : without_fourth_byte(image.pixels);
+  const std::vector<std::uint8_t>& pixels = alpha ? image.pixels : rgb;
   // Asking libpng for the size first would compress twice; libpng's upper bound is cheaper.
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   std::string bytes(size, '\0');
-  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, rgb.data(), 0, nullptr) == 0) {
+  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, pixels.data(), 0, nullptr) == 0) {
     return fail(Error::Kind::io, "PNG", png.message);
   }
   bytes.resize(size);

@@ -25,6 +25,15 @@ struct ShadedMesh {
   std::vector<Corner> corners;  ///< three a triangle, counterclockwise as seen from outside
   Color color;
   Sides sides = Sides::both;
+  float opacity = 1;      ///< below 1 glass, > 0
+  float roughness = 0.5f;  ///< 0 polished to 1 matt
+
+  bool is_glass() const { return opacity < 1; }
+  /// The colour, each channel from 0 to 1.
+  Vec3f tint() const {
+    return (1 / 255.0f) *
+           Vec3f{static_cast<float>(color.red), static_cast<float>(color.green), static_cast<float>(color.blue)};
+  }
 };
 
 /// The corners of a mesh with normals that are smooth where triangles meet at less than 40 degrees.

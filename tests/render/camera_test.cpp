@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "hooke/render/action.h"
+
 namespace hooke {
 namespace {
 
@@ -198,6 +200,77 @@ TEST(ActionBox, IsTheDomainWhereThatIsAllThereIs) {
   Scene scene = tank();
   expect_near(action_box(scene, {}).max, {8, 6, 4});
   expect_near(action_box(scene, at({{1, 5.9, 1}})).max, {8, 6, 4});
+}
+
+TEST(ActionBox, IsAroundWhatIsThereWhereTheDomainIsFarLarger) {
+  Scene scene = tank();
+  scene.domain = {{-500, 0, -500}, {500, 400, 500}, {Boundary::open, Boundary::spring, Boundary::open}};
+  const ParticleSet start = at({{-1, 2, -1}, {1, 4, 1}});
+  Box3d box = action_box(scene, start);
+  EXPECT_LT(box.max.x - box.min.x, 20);
+  EXPECT_TRUE(box.contains({-1.5, 0, -1.5}) && box.contains({1.5, 4.5, 1.5}));
+
+  // What the run is seen to do counts, without the odd particle that flies away.
+  std::vector<ParticleSet> moments{start, start};
+  for (int k = 0; k < 500; ++k) {
+    moments[1].id.push_back(moments[1].id.size() + 1);
+    moments[1].material.push_back(0);
+    moments[1].position.push_back({k == 400 ? 400.0 : 10.0 + 0.01 * k, 0.5, 0});
+    moments[1].velocity.push_back({0, 0, 0});
+  }
+  box = seen_action_box(scene, moments);
+  EXPECT_GT(box.max.x, 15);
+  EXPECT_LT(box.max.x, 20);
+  EXPECT_EQ(box.min.y, 0);
+}
+
+TEST(CameraAt, GoesSmoothlyThroughItsKeyframes) {
+  Scene scene = tank();
+  const Box3d box{scene.domain.min, scene.domain.max};
+  scene.camera.eye = Vec3d{10, 0, 0};
+  scene.camera.target = Vec3d{0, 0, 0};
+  scene.camera.keyframes = {
+      {1, Vec3d{10, 1, 0}, {}, {}, {}}, {3, Vec3d{12, 1, 4}, Vec3d{1, 0, 0}, 50, 20}, {4, {}, {}, {}, {}}};
+  expect_near(camera_at(scene, box, 1, 0).eye, {10, 1, 0});
+  expect_near(camera_at(scene, box, 1, 3).eye, {12, 1, 4});
+  expect_near(camera_at(scene, box, 1, 3).target, {1, 0, 0});
+  EXPECT_EQ(camera_at(scene, box, 1, 3).field_of_view, 50);
+  expect_near(camera_at(scene, box, 1, 9).eye, {10, 0, 0});
+  EXPECT_EQ(camera_at(scene, box, 1, 9).field_of_view, 35);
+  for (double time = 0.5; time < 4.5; time += 0.01) {
+    const Vec3d step = camera_at(scene, box, 1, time + 1e-4).eye - camera_at(scene, box, 1, time).eye;
+    const Vec3d next = camera_at(scene, box, 1, time + 2e-4).eye - camera_at(scene, box, 1, time + 1e-4).eye;
+    EXPECT_LT(norm(next - step), 1e-6) << "no jump, no sudden turn at " << time;
+  }
+}
+
+TEST(CameraAt, RollsClockwise) {
+  Scene scene = tank();
+  scene.camera.eye = Vec3d{0, 0, 10};
+  scene.camera.target = Vec3d{0, 0, 0};
+  scene.camera.roll = 90;
+  expect_near(axes(camera_at(scene, {scene.domain.min, scene.domain.max}, 1, 0)).up, {1, 0, 0});
+}
+
+TEST(CameraAt, FollowsAMaterialOrACollider) {
+  Scene scene = tank();
+  scene.camera.eye = Vec3d{0, 0, 10};
+  scene.camera.target = Vec3d{0, 0, 0};
+  const ParticleSet particles = at({{1, 2, 3}, {3, 2, 3}});
+  EXPECT_FALSE(followed_point(scene, particles, 0));
+  scene.camera.follow = CameraFollow{0, {}};
+  const auto middle = followed_point(scene, particles, 0);
+  ASSERT_TRUE(middle);
+  expect_near(*middle, {2, 2, 3});
+  const Camera camera = camera_at(scene, {scene.domain.min, scene.domain.max}, 1, 0, middle);
+  expect_near(camera.target, {2, 2, 3});
+  expect_near(camera.eye, {2, 2, 13});
+  EXPECT_FALSE(followed_point(scene, {}, 0)) << "nothing of it is there";
+  scene.colliders.resize(1);
+  scene.colliders[0].shape = SphereShape{{1, 1, 1}, 0.5};
+  scene.colliders[0].motion = SteadyMotion{{2, 0, 0}, {0, 0, 0}, {}};
+  scene.camera.follow = CameraFollow{{}, 0};
+  expect_near(*followed_point(scene, particles, 1.5), {4, 1, 1});
 }
 
 TEST(DirectionToSun, IsHighAndOnTheSideOfTheDefaultCamera) {

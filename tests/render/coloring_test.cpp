@@ -3,6 +3,8 @@
 
 #include "hooke/render/coloring.h"
 
+#include "hooke/render/action.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "hooke/render/spring_meshes.h"
+
 namespace hooke {
 namespace {
 
@@ -117,33 +119,8 @@ TEST(MakeFrame, SparksGlowAtNight) {
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(frame.spheres[i].glows, i == 1);
 }
 
-TEST(MakeFrame, OnlyWaterFoams) {
-  const Scene scene = tank();
-  ParticleSet particles = one_of_each();
-  const Look look = make_look(scene, particles, ColorBy::material);
-  for (Vec3d& velocity : particles.velocity) velocity = {100, 0, 0};
-  Frame frame = make_frame(scene, particles, 0, look, 1.5);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(frame.spheres[i].foam, 0) << i;
-  EXPECT_EQ(frame.spheres[3].foam, 255);
-
-  // Foam rises with the speed; at rest it is above 0, because the sphere is water.
-  int before = 0;
-  for (const double speed : {0.0, 0.5, 0.7, 0.9, 2.0}) {
-    particles.velocity[3] = {0, -speed * look.foam_speed, 0};
-    const int foam = make_frame(scene, particles, 0, look, 1.5).spheres[3].foam;
-    EXPECT_GT(foam, before == 255 ? 254 : before) << speed;
-    before = foam;
-  }
-  EXPECT_EQ(before, 255);
-
-  // Coloured by a quantity, water is drawn as balls like everything else.
-  frame = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::speed), 1.5);
-  EXPECT_EQ(frame.spheres[3].foam, 0);
-  EXPECT_EQ(frame.spheres[3].radius, 0.2f);
-}
-
-TEST(MakeFrame, WaterAtRestIsClearInsideAndADropIsNot) {
-  const Scene scene = tank();
+// A block of 1,000 particles of water, and a drop far from it.
+ParticleSet block_and_drop() {
   ParticleSet particles;
   for (std::size_t k = 0; k < 1001; ++k) {
     const auto at = [](std::size_t n) { return 0.3 + 0.38 * static_cast<double>(n); };
@@ -152,10 +129,124 @@ TEST(MakeFrame, WaterAtRestIsClearInsideAndADropIsNot) {
   }
   particles.material.assign(1001, 3);
   particles.velocity.assign(1001, {0, 0, 0});
+  return particles;
+}
+
+TEST(MakeFrame, WaterFoamsWhereItChurns) {
+  Scene scene = tank();
+  ParticleSet particles = block_and_drop();
+  const Look look = make_look(scene, particles, ColorBy::material);
+  const auto foam_at = [&](std::size_t i) { return int{make_frame(scene, particles, 0, look, 1.5).spheres[i].foam}; };
+  EXPECT_EQ(foam_at(555), 1) << "clear, but water";
+  EXPECT_EQ(foam_at(1000), 1);
+
+  // Neighbours that move against each other; the drop is alone.
+  int before = 1;
+  for (const double speed : {0.1, 0.15, 0.25, 0.4}) {
+    for (std::size_t i = 0; i < 1001; ++i) particles.velocity[i] = {(i % 2 ? 1 : -1) * speed * look.foam_speed, 0, 0};
+    EXPECT_GT(foam_at(555), before == 255 ? 254 : before) << speed;
+    EXPECT_EQ(foam_at(1000), 1) << speed;
+    before = foam_at(555);
+  }
+  EXPECT_EQ(before, 255);
+  scene.materials[3].foam = 0.5;
+  EXPECT_NEAR(foam_at(555), 128, 1);
+  scene.materials[3].foam = 0;
+  EXPECT_EQ(foam_at(555), 1);
+
+  // However fast water falls together, it stays clear.
+  scene.materials[3].foam = 1;
+  particles.velocity.assign(1001, {0, -1.5 * look.foam_speed, 0});
+  EXPECT_EQ(foam_at(555), 1);
+}
+
+TEST(MakeFrame, OnlyWaterIsDrawnAsWater) {
+  const Scene scene = tank();
+  const ParticleSet particles = one_of_each();
+  Frame frame = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(kind_of(frame.spheres[i]), i == 3 ? SphereKind::water : SphereKind::ball) << i;
+  }
+  // Coloured by a quantity, water is drawn as balls like everything else.
+  frame = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::speed), 1.5);
+  EXPECT_EQ(frame.spheres[3].foam, 0);
+  EXPECT_EQ(frame.spheres[3].radius, 0.2f);
+}
+
+TEST(MakeFrame, DropsAreSmallAndSheetsWide) {
+  const Scene scene = tank();
+  const ParticleSet particles = block_and_drop();
   const Frame frame = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
-  EXPECT_LT(frame.spheres[555].foam, 40);
-  EXPECT_GT(frame.spheres[555].foam, 0);
-  EXPECT_GT(frame.spheres[1000].foam, 150);
+  EXPECT_LT(frame.spheres[1000].radius, 0.2f);
+  EXPECT_NEAR(frame.spheres[555].radius, 1.25f * 0.2f, 1e-4);
+  ParticleSet sheet = particles;
+  for (std::size_t k = 0; k < 1000; ++k) sheet.position[k].y = k < 100 ? 3 : 5.5;
+  EXPECT_GT(make_frame(scene, sheet, 0, make_look(scene, particles, ColorBy::material), 1.5).spheres[55].radius, 0.26f);
+}
+
+TEST(MakeFrame, SkinIsWiderThanItsParticlesAndOpaque) {
+  Scene scene = tank();
+  scene.materials[0].look = MaterialLook::skin;
+  scene.materials[0].roughness = 0;
+  const ParticleSet particles = one_of_each();
+  const Frame frame = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
+  EXPECT_EQ(kind_of(frame.spheres[0]), SphereKind::skin);
+  EXPECT_GT(frame.spheres[0].radius, 0.25f);
+  EXPECT_EQ(frame.spheres[0].roughness, 0);
+  EXPECT_EQ(frame.spheres[1].roughness, 128) << "half by default";
+}
+
+TEST(MakeFrame, ThePictureIsAsTheSceneWantsIt) {
+  Scene scene = tank();
+  const ParticleSet particles = one_of_each();
+  const auto frame = [&] {
+    return make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
+  };
+  EXPECT_TRUE(frame().tank.walls[0]);
+  EXPECT_TRUE(frame().ground);
+  EXPECT_FALSE(frame().background);
+  scene.picture.box = scene.picture.ground = scene.picture.ground_lines = false;
+  scene.picture.background = "#ff8000";
+  scene.picture.ground_color = "#102030";
+  scene.picture.sun = Vec3d{0, 0, 5};
+  scene.picture.sunlight = 2;
+  const Frame own = frame();
+  EXPECT_FALSE(own.tank.walls[0]);
+  EXPECT_FALSE(own.ground);
+  EXPECT_FALSE(own.ground_lines);
+  EXPECT_EQ(own.background, (Color{255, 128, 0}));
+  EXPECT_EQ(own.ground_color, (Color{16, 32, 48}));
+  EXPECT_EQ(own.to_sun, (Vec3d{0, 0, 1}));
+  EXPECT_EQ(own.sunlight, 2);
+  scene.picture.background = "sky";
+  EXPECT_TRUE(frame().bright_sky);
+}
+
+TEST(MakeFrame, SpringsAreDrawnOnDemand) {
+  Scene scene = tank();
+  ParticleSet particles = one_of_each();
+  auto structure = std::make_shared<Structure>();
+  structure->springs.push_back({1, 2, 1, 100});
+  structure->springs.push_back({2, 3, 1, 100, 0, 0.1});
+  scene.structure = structure;
+  particles.position[1] = particles.position[0] + Vec3d{1.05, 0, 0};
+  particles.position[2] = particles.position[1] + Vec3d{1.05, 0, 0};
+  const auto frame = [&] {
+    return make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
+  };
+  EXPECT_TRUE(frame().meshes.empty());
+  scene.picture.springs = SpringLook::rods;
+  ASSERT_EQ(frame().meshes.size(), 2u) << "a colour each";
+  EXPECT_EQ(frame().meshes[0].color, (Color{0xc0, 0x20, 0x40}));
+  EXPECT_EQ(frame().spheres.size(), 4u);
+  scene.picture.springs = SpringLook::strain;
+  const Color half = frame().meshes[0].color;
+  EXPECT_EQ(half, strain_color(0.5)) << "5 % of the 10 % that are coloured fully";
+  EXPECT_GT(half.red, half.blue);
+  particles.position[2].x += 0.2;
+  EXPECT_EQ(frame().meshes.size(), 1u) << "the other is broken";
+  particles.position[1].x -= 0.2;
+  EXPECT_EQ(frame().meshes[0].color, strain_color(-1)) << "pushed together";
 }
 
 TEST(MakeFrame, ColoursFollowTheScale) {

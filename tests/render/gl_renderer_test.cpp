@@ -204,25 +204,102 @@ TEST_F(GlRenderer, FromInsideOfABallItIsNotSeen) {
   EXPECT_EQ(count(draw(frame), is_red), 0);
 }
 
-TEST_F(GlRenderer, FastWaterIsWhite) {
+TEST_F(GlRenderer, ChurnedWaterIsWhite) {
   PictureScene p{"", ball_tank({4, 2, 3}, 0.1, "#2f7fd6"), {}};
   p.scene.materials[0].look = MaterialLook::water;
   for (int k = 0; k < 40 * 20 * 30; ++k) {
     add(p.particles, {0.1 * (k % 40) + 0.05, 0.1 * (k / 1200) + 0.05, 0.1 * (k / 40 % 30) + 0.05});
   }
+  const Look look = make_look(p.scene, p.particles, ColorBy::material);
   const auto middle = [&] {
-    const Frame frame = frame_of(p);
-    const Image image = draw(frame);
+    const Image image = draw(make_frame(p.scene, p.particles, 0, look, kAspect));
     return at(image, kWidth / 2, kHeight / 2);
   };
   const Pixel still = middle();
   EXPECT_GT(still[2], still[0] + 20) << testing::PrintToString(still);
-  const Look look = make_look(p.scene, p.particles, ColorBy::material);
   for (Vec3d& velocity : p.particles.velocity) velocity = {look.foam_speed, 0, 0};
-  const Frame fast = make_frame(p.scene, p.particles, 0, look, kAspect);
-  const Pixel white = at(draw(fast), kWidth / 2, kHeight / 2);
+  EXPECT_EQ(middle(), still) << "however fast it moves together";
+  for (std::size_t i = 0; i < p.particles.size(); i += 2) p.particles.velocity[i] = {-look.foam_speed, 0, 0};
+  const Pixel white = middle();
   EXPECT_GT(white[0], still[0] + 40) << testing::PrintToString(white);
   EXPECT_LT(white[2] - white[0], 60) << testing::PrintToString(white);
+}
+
+// A drop is clear: what is behind it shows, so a red ball is seen through it.
+TEST_F(GlRenderer, WaterIsSeenThrough) {
+  Frame frame = red_balls({{4, 2, 3}, {4, 2, 3}});
+  Sphere& drop = frame.spheres[1];
+  const Vec3f towards = vec_cast<float>(0.9 * axes(frame.camera).back);
+  drop = {drop.x + towards.x, drop.y + towards.y, drop.z + towards.z, 0.25f, {0xd0, 0xe4, 0xf4}, 1, false, false, 255};
+  const Image both = draw(frame);
+  EXPECT_EQ(renderer().figures().spheres_drawn, 2u);
+  const auto [x, y] = pixel_of(frame, 1);
+  const Pixel through = at(both, x, y);
+  EXPECT_GT(through[0], std::max(through[1], through[2]) + 60) << testing::PrintToString(through);
+  frame.spheres.resize(1);
+  EXPECT_NE(at(draw(frame), x, y), at(both, x, y)) << "but it is there";
+}
+
+TEST_F(GlRenderer, GlassIsSeenThrough) {
+  const auto with_opacity = [](double opacity) {
+    PictureScene p{"", ball_tank({8, 4, 6}, 0.5, "#e01010"), {}};
+    ParticleSet high;
+    add(high, {4, 3.5, 3});
+    add(p.particles, {4, 1, 3});
+    Material glass;
+    glass.name = "glass";
+    glass.color = "#10c010";
+    glass.opacity = opacity;
+    p.scene.materials.push_back(glass);
+    p.scene.colliders.resize(1);
+    p.scene.colliders[0].shape = BoxShape{{3, 0.1, 2}, {5, 2.1, 4}};
+    p.scene.colliders[0].material = p.scene.materials.size() - 1;
+    return draw(make_frame(p.scene, p.particles, 0, make_look(p.scene, high, ColorBy::material), kAspect));
+  };
+  const int alone = count(with_opacity(0), is_red);
+  EXPECT_EQ(alone, count(draw(red_balls({{4, 1, 3}})), is_red)) << "not drawn";
+  EXPECT_EQ(count(with_opacity(1), is_red), 0);
+  EXPECT_GT(count(with_opacity(0.1), is_red), 0.5 * alone);
+  EXPECT_NE(with_opacity(0.1).pixels, with_opacity(0).pixels);
+}
+
+TEST_F(GlRenderer, SkinIsSmooth) {
+  PictureScene p{"", ball_tank({8, 4, 6}, 0.15, "#e01010"), {}};
+  for (int k = 0; k < 20 * 12; ++k) add(p.particles, {2 + 0.2 * (k % 20), 0.5 + 0.2 * (k / 20), 3});
+  // How much the picture's brightness varies over the wall of balls.
+  const auto roughness = [&] {
+    const Image image = draw(frame_of(p));
+    double sum = 0;
+    for (int x = kWidth / 2 - 30; x < kWidth / 2 + 30; ++x) {
+      sum += std::abs(at(image, x + 1, kHeight / 2)[0] - at(image, x, kHeight / 2)[0]);
+    }
+    return sum;
+  };
+  const double balls = roughness();
+  p.scene.materials[0].look = MaterialLook::skin;
+  EXPECT_LT(roughness(), 0.25 * balls);
+}
+
+TEST_F(GlRenderer, ABackgroundIsItsColour) {
+  PictureScene p{"", ball_tank({8, 4, 6}, 0.5, "#e01010"), {}};
+  add(p.particles, {4, 2, 3});
+  p.scene.picture.background = "#c86432";
+  p.scene.picture.ground = p.scene.picture.box = false;
+  const Pixel corner = at(draw(frame_of(p)), 2, 2);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(corner[k], (Pixel{0xc8, 0x64, 0x32}[k]), 2) << k;
+}
+
+TEST_F(GlRenderer, AlphaTellsWhereSomethingIs) {
+  Frame frame = red_balls({{4, 2, 3}});
+  EXPECT_EQ(draw(frame).at(2, 2)[3], 255);
+  frame.transparent = true;
+  frame.ground.reset();
+  frame.tank.walls = {};
+  const Image image = draw(frame);
+  const auto [x, y] = pixel_of(frame, 0);
+  EXPECT_EQ(image.at(x, y)[3], 255);
+  EXPECT_TRUE(is_red(at(image, x, y)));
+  EXPECT_EQ(image.at(2, 2)[3], 0);
 }
 
 // At night, balls that do not glow are dark, and balls that glow are as bright as their colour.

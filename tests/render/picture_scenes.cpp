@@ -81,7 +81,11 @@ PictureScene orbit() {
   PictureScene picture{"orbit", ball_tank({4, 4, 4}, 0.3, "#4cb35a"), {}};
   picture.scene.gravity = {0, 0, -9.8};
   picture.scene.domain.boundary[2] = Boundary::open;
-  picture.scene.camera = {Vec3d{-7, -5, 4}, Vec3d{2, 2, 1}, 40, 30};
+  SceneCamera& camera = picture.scene.camera;
+  camera.eye = Vec3d{-7, -5, 4};
+  camera.target = Vec3d{2, 2, 1};
+  camera.field_of_view = 40;
+  camera.orbit = 30;
   picture.time = 2;
   for_lattice({0.4, 0.4, 0.3}, {3.7, 3.7, 2.8}, 0.55, [&](const Vec3d& at, std::uint64_t k) {
     if (at.x + at.y + 1.5 * at.z < 5) add(picture.particles, jittered(at, 0.05, k));

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "hooke/core/scene.h"
-#include "hooke/render/aeration.h"
+#include "hooke/render/action.h"
 #include "hooke/render/camera.h"
 #include "hooke/render/cloth_meshes.h"
 #include "hooke/render/color_map.h"
@@ -14,6 +14,7 @@
 #include "hooke/render/image.h"
 #include "hooke/render/interpolate.h"
 #include "hooke/render/visible_spheres.h"
+#include "hooke/render/water_mixing.h"
 #include "hooke/render/water_thickness.h"
 #include "support/assertions.h"
 
@@ -60,7 +61,9 @@ TEST(RenderPreconditions, PixelsAreThePictures) {
 }
 
 TEST(RenderPreconditions, SizesArePositive) {
-  EXPECT_ASSERTS((void)aeration({}, {}, 0), "radius = 0");
+  EXPECT_ASSERTS((void)water_mixing({}, {}, 0, 1), "radius = 0");
+  EXPECT_ASSERTS((void)water_mixing({}, {}, 1, 0), "fastest = 0");
+  EXPECT_ASSERTS((void)seen_action_box({}, {}), "moments");
   EXPECT_ASSERTS((void)visible_spheres({}, {}), "view.width = 0");
   EXPECT_ASSERTS((void)water_thickness({}, {}), "view.width = 0");
   const std::uint32_t one = 1;

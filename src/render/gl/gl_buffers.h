@@ -21,6 +21,7 @@ class SphereBuffer {
     attribute(0, 3, GL_FLOAT, offsetof(Sphere, x));
     attribute(1, 1, GL_FLOAT, offsetof(Sphere, radius));
     attribute(2, 4, GL_UNSIGNED_BYTE, offsetof(Sphere, color));
+    attribute(3, 1, GL_UNSIGNED_BYTE, offsetof(Sphere, roughness));
   }
 
   bool empty() const { return spheres_.empty(); }
@@ -88,12 +89,15 @@ class MeshBuffer {
                  GL_STREAM_DRAW);
   }
 
+  /// Which triangles are drawn: all, or those that face away from the eye or towards it.
+  enum class Faces { all, away, towards };
+
   /// Draws the k-th mesh uploaded.
-  void draw(std::size_t k, ShadedMesh::Sides sides) const {
+  void draw(std::size_t k, Faces faces) const {
     glBindVertexArray(array_.get());
-    if (sides == ShadedMesh::Sides::inner) {
+    if (faces != Faces::all) {
       glEnable(GL_CULL_FACE);
-      glCullFace(GL_FRONT);
+      glCullFace(faces == Faces::away ? GL_FRONT : GL_BACK);
     }
     HOOKE_ASSERT(k + 1 < first_.size(), k, first_.size());
     glDrawArrays(GL_TRIANGLES, first_[k], first_[k + 1] - first_[k]);

@@ -18,10 +18,13 @@
 #include "hooke/render/gl/egl_context.h"
 #include "hooke/render/gl/gl_buffers.h"
 #include "hooke/render/gl/gl_objects.h"
+#include "hooke/render/gl/glass_layer.h"
 #include "hooke/render/gl/render_programs.h"
 #include "hooke/render/gl/render_targets.h"
+#include "hooke/render/gl/seen_spheres.h"
 #include "hooke/render/gl/sun.h"
 #include "hooke/render/gl/surface_passes.h"
+#include "hooke/render/gl/surroundings.h"
 #include "hooke/render/gl/tank_edges.h"
 #include "hooke/render/visible_spheres.h"
 #include "hooke/render/water_thickness.h"
@@ -56,35 +59,31 @@ class GlRenderer final : public Renderer {
     context_.make_current();
     const Projection view = project(frame.camera, targets_.samples_across, targets_.samples_down);
     const Sun sun = make_sun(frame);
-    std::vector<std::uint32_t> seen, sunlit;
     parallel_ranges(2, 1, [&](std::size_t first, std::size_t last) {
       for (std::size_t k = first; k < last; ++k) {
-        (k == 0 ? seen : sunlit) = visible_spheres(frame.spheres, k == 0 ? view : sun.projection);
+        k == 0 ? eye_.find(frame.spheres, view) : sun_.find(frame.spheres, sun.projection);
       }
     });
-    const bool water =
-        std::any_of(frame.spheres.begin(), frame.spheres.end(), [](const Sphere& s) { return s.foam > 0; });
+    const bool water = !eye_.indices(true).empty();
     if (water) upload_thickness(water_thickness(frame.spheres, view));
-    figures_ = {seen.size(), seconds_since(start), 0};
+    figures_ = {eye_.count(), seconds_since(start), 0};
 
-    const float sphere_size = typical_radius(frame);
     meshes_.upload(frame.meshes);
-    upload(frame.spheres, sunlit);
-    draw_sun_map(sun, frame.meshes);
-    upload(frame.spheres, seen);
-    draw_surfaces(view, frame.meshes);
+    eye_.upload();
+    sun_.upload();
+    draw_sun_maps(sun, frame);
     const Projection pixels = project(frame.camera, settings_.width, settings_.height);
-    const PixelRectangle box = frame.meshes.empty() ? bounds_on_picture(frame.spheres, seen, pixels)
-                                                    : PixelRectangle{0, 0, settings_.width, settings_.height};
-    surface_passes_.run(frame, pixels, box, sphere_size, water);
-    draw_backdrop(frame, pixels, sun, sphere_size);
-    clear_shaded();
-    if (!balls_.empty() || !frame.meshes.empty()) shade_balls(frame, view, sun, sphere_size);
-    if (water) shade_water(frame, view, sun, sphere_size);
-    if (!sparks_.empty()) shade_sparks();
-    resolve();
-    draw_tank(frame, pixels);
-    Image image = read_image();
+    light_ = {&frame, sun, typical_radius(frame, eye_.indices(false).empty() ? SphereKind::water : SphereKind::ball),
+              water};
+    draw_solids(view, pixels);
+    draw_backdrop(pixels);
+    if (water) draw_water(view, pixels);
+    const bool glass =
+        std::any_of(frame.meshes.begin(), frame.meshes.end(), [](const auto& m) { return m.is_glass(); });
+    if (glass) draw_glass(view);
+    resolve(targets_.to_result, true, glass);
+    draw_tank(targets_.to_result, frame, pixels);
+    Image image = targets_.read_result();
     if (const GLenum error = glGetError(); error != GL_NO_ERROR) {
       return fail(Error::Kind::run_failed, "OpenGL", "error " + std::to_string(error) + " of " + context_.device());
     }
@@ -96,8 +95,13 @@ class GlRenderer final : public Renderer {
   std::string device() const override { return context_.device(); }
 
  private:
-  static float typical_radius(const Frame& frame) {
-    return frame.spheres.empty() ? 1.0f : frame.spheres[frame.spheres.size() / 2].radius;
+  // The radius of a sphere in the middle of those of a kind; 1 m where there is none.
+  static float typical_radius(const Frame& frame, SphereKind kind) {
+    const auto is_one = [kind](const Sphere& s) { return kind_of(s) == kind; };
+    const auto middle = frame.spheres.begin() + static_cast<std::ptrdiff_t>(frame.spheres.size() / 2);
+    auto found = std::find_if(middle, frame.spheres.end(), is_one);
+    if (found == frame.spheres.end()) found = std::find_if(frame.spheres.begin(), middle, is_one);
+    return found == frame.spheres.end() || !is_one(*found) ? 1.0f : found->radius;
   }
 
   void upload_thickness(const WaterThickness& thickness) {
@@ -106,50 +110,76 @@ class GlRenderer final : public Renderer {
                  thickness.meters.data());
   }
 
-  void upload(std::span<const Sphere> spheres, std::span<const std::uint32_t> chosen) {
-    balls_.clear();
-    water_.clear();
-    sparks_.clear();
-    for (const std::uint32_t i : chosen) {
-      (spheres[i].foam > 0 ? water_ : spheres[i].glows ? sparks_ : balls_).add(spheres[i]);
-    }
-    for (const SphereBuffer* buffer : {&balls_, &water_, &sparks_}) buffer->upload();
-  }
-
   static void use_for_sun_map(const Program& program, const Sun& sun) {
     program.use();
     set_view(program, sun.projection);
-    program.set("scale", sun.scale(), sun.scale());
+    program.set("clip_scale", sun.scale(), sun.scale());
     program.set("parallel", 1);
     program.set("range", sun.range);
   }
 
-  void draw_sun_map(const Sun& sun, std::span<const ShadedMesh> meshes) {
-    targets_.begin_sun_map();
+  // How far the sun's light gets past solids, and past water.
+  void draw_sun_maps(const Sun& sun, const Frame& frame) {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glClearDepth(1);
+    targets_.begin_sun_map(targets_.to_sun_map);
     glClear(GL_DEPTH_BUFFER_BIT);
     use_for_sun_map(programs_.sun, sun);
-    balls_.draw();
-    water_.draw();
+    sun_.of(SphereKind::ball).draw();
+    sun_.of(SphereKind::skin).draw();
     use_for_sun_map(programs_.mesh_sun, sun);
-    for (std::size_t k = 0; k < meshes.size(); ++k) {
-      // A mesh that is cut open for the eye lets the light in too.
-      if (meshes[k].sides == ShadedMesh::Sides::both) meshes_.draw(k, meshes[k].sides);
+    for (std::size_t k = 0; k < frame.meshes.size(); ++k) {
+      // A mesh that is cut open for the eye, or of glass, lets the light in.
+      const ShadedMesh& mesh = frame.meshes[k];
+      if (mesh.sides == ShadedMesh::Sides::both && !mesh.is_glass()) meshes_.draw(k, MeshBuffer::Faces::all);
+    }
+    if (eye_.has(SphereKind::water)) {
+      targets_.begin_sun_map(targets_.to_water_sun_map);
+      glClear(GL_DEPTH_BUFFER_BIT);
+      use_for_sun_map(programs_.sun, sun);
+      sun_.of(SphereKind::water).draw();
     }
     glDisable(GL_DEPTH_TEST);
   }
 
   // The stencil tells what each sample shows, so that each kind is shaded by itself.
-  enum Stencil { kNothing, kBall, kWater, kSpark };
+  enum Stencil { kNothing, kBall, kSkin, kSpark };
 
   static void use_for_surfaces(const Program& program, const Projection& view) {
     program.use();
     set_view(program, view);
-    program.set("scale", 2 * view.scale / view.width, 2 * view.scale / view.height);
+    program.set("clip_scale", 2 * view.scale / view.width, 2 * view.scale / view.height);
     program.set("parallel", 0);
     program.set("nearest", view.nearest);
+    program.set("side", 1.0f);
+  }
+
+  // Draws and shades all but water and glass.
+  void draw_solids(const Projection& view, const Projection& pixels) {
+    const Frame& frame = *light_.frame;
+    const bool skin = eye_.has(SphereKind::skin);
+    const bool matt = eye_.has(SphereKind::ball) || !frame.meshes.empty();
+    draw_surfaces(view, frame.meshes);
+    const PixelRectangle box = frame.meshes.empty() ? bounds_on_picture(frame.spheres, eye_.indices(false), pixels)
+                                                    : PixelRectangle{0, 0, settings_.width, settings_.height};
+    const float skin_size = typical_radius(frame, SphereKind::skin);
+    if (skin) {
+      surface_passes_.smooth(frame, pixels, box, skin_size);
+      draw_smoothed(view, SphereKind::skin, GL_GEQUAL, 1);  // from now on it counts as solid
+    }
+    surface_passes_.find_solids(frame, pixels, box, light_.sphere_size, matt && !skin);
+    clear_shaded();
+    if (matt) shade(programs_.ball, kBall, view);
+    if (skin) {
+      programs_.skin.use();
+      programs_.skin.read("surface", 5, targets_.surface[0]);
+      programs_.skin.read("skin_normals", 6, targets_.water_normal);
+      programs_.skin.set("samples", settings_.samples);
+      programs_.skin.set("skin_size", skin_size);
+      shade(programs_.skin, kSkin, view);
+    }
+    if (eye_.has(SphereKind::spark)) shade(programs_.spark, kSpark, view);
   }
 
   void draw_surfaces(const Projection& view, std::span<const ShadedMesh> meshes) {
@@ -164,52 +194,76 @@ class GlRenderer final : public Renderer {
     glEnable(GL_STENCIL_TEST);
     glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
     glStencilFunc(GL_ALWAYS, kBall, 0xff);
-    balls_.draw();
-    glStencilFunc(GL_ALWAYS, kWater, 0xff);
-    water_.draw();
+    eye_.of(SphereKind::ball).draw();
     glStencilFunc(GL_ALWAYS, kSpark, 0xff);
-    sparks_.draw();
+    eye_.of(SphereKind::spark).draw();
     glStencilFunc(GL_ALWAYS, kBall, 0xff);  // meshes are shaded alike
     use_for_surfaces(programs_.mesh, view);
     for (std::size_t k = 0; k < meshes.size(); ++k) {
-      const Color c = meshes[k].color;
-      programs_.mesh.set("tint", (1 / 255.0f) * Vec3f{static_cast<float>(c.red), static_cast<float>(c.green),
-                                                      static_cast<float>(c.blue)});
-      meshes_.draw(k, meshes[k].sides);
+      if (meshes[k].is_glass()) continue;
+      programs_.mesh.set("tint", meshes[k].tint());
+      programs_.mesh.set("roughness", meshes[k].roughness);
+      meshes_.draw(k, meshes[k].sides == ShadedMesh::Sides::inner ? MeshBuffer::Faces::away : MeshBuffer::Faces::all);
     }
+    glStencilFunc(GL_ALWAYS, kSkin, 0xff);
+    draw_smoothed(view, SphereKind::skin, GL_GREATER, -1);
     glDisable(GL_STENCIL_TEST);
     glDisable(GL_DEPTH_TEST);
   }
 
+  // Over what is drawn already. `side`: -1 where the surface passes are to smooth it.
+  void draw_smoothed(const Projection& view, SphereKind kind, GLenum passes, float side) {
+    if (!eye_.has(kind)) return;
+    targets_.begin_samples(targets_.to_spheres);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(passes);
+    use_for_surfaces(programs_.sphere, view);
+    programs_.sphere.set("side", side);
+    eye_.of(kind).draw();
+    glDisable(GL_DEPTH_TEST);
+  }
+
+  void draw_water(const Projection& view, const Projection& pixels) {
+    const Frame& frame = *light_.frame;
+    const bool glass =
+        std::any_of(frame.meshes.begin(), frame.meshes.end(), [](const auto& m) { return m.is_glass(); });
+    if (glass) draw_glass(view);
+    resolve(targets_.to_behind, false, glass);
+    draw_tank(targets_.to_behind, frame, pixels);
+    draw_smoothed(view, SphereKind::water, GL_GREATER, -1);
+    const float water_size = typical_radius(frame, SphereKind::water);
+    surface_passes_.smooth(frame, pixels, bounds_on_picture(frame.spheres, eye_.indices(true), pixels), water_size);
+    shade_water(pixels, water_size);
+  }
+
+  void draw_glass(const Projection& view) {
+    set_light(programs_.glass, view);
+    use_for_surfaces(programs_.glass, view);
+    programs_.glass.set("lead", light_.water ? 1.2f * typical_radius(*light_.frame, SphereKind::water) : 0.0f);
+    glass_.draw(targets_, programs_.glass, meshes_, light_.frame->meshes, view.eye);
+  }
+
   // Sets the uniforms of light.glsl.
-  void set_light(const Program& program, const Frame& frame, const Projection& view, const Sun& sun,
-                 float sphere_size) const {
+  void set_light(const Program& program, const Projection& view) const {
+    const Frame& frame = *light_.frame;
+    const Sun& sun = light_.sun;
     program.use();
     set_picture(program, view);
     set_view(program, view);
     program.read("sun_map", 0, targets_.sun_map);
-    program.set_rows("to_sun", sun.projection.right, sun.projection.up, sun.projection.back);
-    program.set("to_light", sun.to);
-    program.set("sun_eye", sun.projection.eye);
-    const float scale = sun.scale();
-    program.set("sun_scale", Vec3f{scale, scale, 1 / sun.range});
-    program.set("sun_blur", 0.003f * sun.range);
-    program.set("up", vec_cast<float>(frame.up));
-    program.set("has_ground", frame.ground ? 1 : 0);
-    program.set("ground", static_cast<float>(frame.ground.value_or(0)));
-    program.set("sky_light", frame.night ? 0.03f : 1.0f);
-    program.set("action_center", vec_cast<float>(frame.action.center()));
-    program.set("action_size", action_size(frame));
-    program.set("sphere_size", sphere_size);
-    program.set("daylight", frame.daylight);
+    program.read("water_sun_map", 9, targets_.water_sun_map);
+    program.set("has_water", light_.water ? 1 : 0);
+    program.set("sphere_size", light_.sphere_size);
+    sun.set(program);
+    set_surroundings(program, frame);
   }
 
-  void draw_backdrop(const Frame& frame, const Projection& pixels, const Sun& sun, float sphere_size) {
+  void draw_backdrop(const Projection& pixels) {
     targets_.begin_pixels(targets_.to_backdrop);
-    set_light(programs_.backdrop, frame, pixels, sun, sphere_size);
-    programs_.backdrop.set("across", vec_cast<float>(frame.across));
-    programs_.backdrop.set("along", vec_cast<float>(frame.along));
-    programs_.backdrop.set("line_step", ground_step(frame));
+    set_light(programs_.backdrop, pixels);
+    programs_.backdrop.set("across", vec_cast<float>(light_.frame->across));
+    programs_.backdrop.set("along", vec_cast<float>(light_.frame->along));
+    programs_.backdrop.set("line_step", light_.frame->ground_lines ? ground_step(*light_.frame) : 0.0f);
     whole_.draw();
   }
 
@@ -219,7 +273,9 @@ class GlRenderer final : public Renderer {
     glClear(GL_COLOR_BUFFER_BIT);
   }
 
-  void begin_shading(const Program& program, Stencil kind) {
+  // Shades the samples that show a kind.
+  void shade(const Program& program, Stencil kind, const Projection& view) {
+    set_light(program, view);
     program.read("depths", 1, targets_.depth);
     program.read("colors", 2, targets_.color);
     program.read("normals", 3, targets_.normal);
@@ -228,82 +284,66 @@ class GlRenderer final : public Renderer {
     glEnable(GL_STENCIL_TEST);
     glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
     glStencilFunc(GL_EQUAL, kind, 0xff);
-  }
-
-  void shade_balls(const Frame& frame, const Projection& view, const Sun& sun, float sphere_size) {
-    set_light(programs_.ball, frame, view, sun, sphere_size);
-    begin_shading(programs_.ball, kBall);
     whole_.draw();
     glDisable(GL_STENCIL_TEST);
   }
 
-  void shade_sparks() {
-    programs_.spark.use();
-    begin_shading(programs_.spark, kSpark);
-    whole_.draw();
-    glDisable(GL_STENCIL_TEST);
-  }
-
-  void shade_water(const Frame& frame, const Projection& view, const Sun& sun, float sphere_size) {
+  void shade_water(const Projection& pixels, float water_size) {
     const Program& program = programs_.water;
-    set_light(program, frame, view, sun, sphere_size);
+    targets_.begin_pixels(targets_.to_water);
+    set_light(program, pixels);
+    program.read("depths", 1, targets_.depth);
+    program.read("colors", 2, targets_.color);
+    program.read("normals", 3, targets_.normal);
+    program.read("ambient", 4, targets_.ambient[1]);
     program.read("surface", 5, targets_.surface[0]);
     program.read("water_normals", 6, targets_.water_normal);
     program.read("thickness", 7, targets_.thickness);
+    program.read("behind", 8, targets_.behind);
+    program.read("solids", 10, targets_.solids);
     program.set("samples", settings_.samples);
-    const double height = extent_along(frame.action, frame.up);
+    const double height = extent_along(light_.frame->action, light_.frame->up);
     program.set("water_scale", static_cast<float>(0.6 * height));
-    begin_shading(program, kWater);
-    whole_.draw();
-    glDisable(GL_STENCIL_TEST);
-  }
-
-  void resolve() {
-    targets_.begin_pixels(targets_.to_result);
-    programs_.resolve.use();
-    programs_.resolve.read("shaded", 1, targets_.shaded);
-    programs_.resolve.read("backdrop", 2, targets_.backdrop);
-    programs_.resolve.set("samples", settings_.samples);
+    program.set("water_size", water_size);
     whole_.draw();
   }
 
-  void draw_tank(const Frame& frame, const Projection& view) {
-    const Program& program = programs_.edge;
-    tank_edges_.upload(frame.tank);
-    targets_.begin_pixels(targets_.to_result);
+  void resolve(const gl::Framebuffer& target, bool last, bool glass) {
+    targets_.begin_pixels(target);
+    const Program& program = programs_.resolve;
     program.use();
-    set_view(program, view);
-    program.set("scale", 2 * view.scale / view.width, 2 * view.scale / view.height);
-    program.set("picture", view.width, view.height);
-    program.set("width", 1.4f);
-    program.set("nearest", view.nearest);
-    program.read("depths", 0, targets_.depth);
+    program.read("shaded", 1, targets_.shaded);
+    program.read("backdrop", 2, targets_.backdrop);
+    program.read("depths", 3, targets_.depth);
+    program.read("water", 4, targets_.water);
     program.set("samples", settings_.samples);
-    program.set("color", Vec3f{0.93f, 0.95f, 0.97f});
-    program.set("opacity", 0.55f);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    tank_edges_.draw();
-    glDisable(GL_BLEND);
+    program.read("glass", 5, glass ? glass_.texture() : targets_.shaded);
+    program.set("has_glass", glass ? 1 : 0);
+    program.set("last", last ? 1 : 0);
+    program.set("transparent", light_.frame->transparent ? 1 : 0);
+    whole_.draw();
   }
 
-  Image read_image() const {
-    Image flipped(settings_.width, settings_.height);
-    glReadPixels(0, 0, flipped.width, flipped.height, GL_RGBA, GL_UNSIGNED_BYTE, flipped.pixels.data());
-    const std::size_t row = Image::kChannels * static_cast<std::size_t>(flipped.width);
-    for (int y = 0; y < flipped.height / 2; ++y) {
-      std::swap_ranges(flipped.at(0, y), flipped.at(0, y) + row, flipped.at(0, flipped.height - 1 - y));
-    }
-    return flipped;
+  void draw_tank(const gl::Framebuffer& target, const Frame& frame, const Projection& view) {
+    targets_.begin_pixels(target);
+    tank_edges_.upload(frame.tank);
+    tank_edges_.draw(programs_.edge, view, targets_.depth, settings_.samples);
   }
 
   std::thread::id thread_ = std::this_thread::get_id();  // the thread that made the renderer
   EglContext context_;  // declared first, so it outlives the OpenGL objects
   RenderSettings settings_;
   RenderFigures figures_;
+  struct {
+    const Frame* frame = nullptr;
+    Sun sun;
+    float sphere_size = 1;  // radius of a typical ball, m
+    bool water = false;
+  } light_;  // of the picture that is drawn
   RenderTargets targets_;
   RenderPrograms programs_;
-  SphereBuffer balls_, water_, sparks_;
+  SeenSpheres eye_, sun_;
+  GlassLayer glass_;
   MeshBuffer meshes_;
   TankEdges tank_edges_;
   WholePicture whole_;

@@ -24,7 +24,9 @@ RenderPrograms::RenderPrograms() {
   blur = picture(blur_frag);
   backdrop = picture(lit + backdrop_frag);
   ball = picture(lit + shade_ball_frag);
+  skin = picture(lit + shade_skin_frag);
   water = picture(lit + shade_water_frag);
+  glass = Program(meshes_vert, (lit + glass_frag).c_str());
   spark = picture(view + shade_spark_frag);
   resolve = picture(view + resolve_frag);
   edge = Program(edges_vert, edges_frag);

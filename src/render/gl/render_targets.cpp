@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "hooke/render/gl/render_targets.h"
 
+#include <algorithm>
+
 #include "hooke/render/gl/sun.h"
 
 namespace hooke {
@@ -21,14 +23,20 @@ RenderTargets::RenderTargets(const RenderSettings& settings)
   shaded = per_sample(GL_RGBA8);
   for (gl::Texture& s : surface) s = gl::make_texture(width, height, GL_RG32F, GL_NEAREST);
   for (gl::Texture& a : ambient) a = gl::make_texture(half(width), half(height), GL_R8, GL_LINEAR);
-  water_normal = gl::make_texture(width, height, GL_RGBA8, GL_LINEAR);
+  water_normal = gl::make_texture(width, height, GL_RGBA16F, GL_NEAREST);
   thickness = gl::make_texture(1, 1, GL_R32F, GL_LINEAR);
   backdrop = gl::make_texture(width, height, GL_RGBA8, GL_NEAREST);
+  behind = gl::make_texture(width, height, GL_RGBA8, GL_LINEAR);
+  solids = gl::make_texture(width, height, GL_RG32F, GL_NEAREST);
+  water = gl::make_texture(width, height, GL_RGBA8, GL_NEAREST);
   result = gl::make_texture(width, height, GL_RGBA8, GL_NEAREST);
-  sun_map = gl::make_texture(kSunMap, kSunMap, GL_DEPTH_COMPONENT32F, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  for (gl::Texture* map : {&sun_map, &water_sun_map}) {
+    *map = gl::make_texture(kSunMap, kSunMap, GL_DEPTH_COMPONENT32F, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  }
 
   to_sun_map = gl::make_framebuffer({}, &sun_map);
+  to_water_sun_map = gl::make_framebuffer({}, &water_sun_map);
   to_spheres = gl::make_framebuffer({&color, &normal, &depth}, &depth_stencil);
   to_surface[0] = gl::make_framebuffer({&surface[0]}, nullptr);
   to_surface[1] = gl::make_framebuffer({&surface[1]}, nullptr);
@@ -37,10 +45,24 @@ RenderTargets::RenderTargets(const RenderSettings& settings)
   to_blurred = gl::make_framebuffer({&ambient[1]}, nullptr);
   to_backdrop = gl::make_framebuffer({&backdrop}, nullptr);
   to_shaded = gl::make_framebuffer({&shaded}, &depth_stencil);
+  to_behind = gl::make_framebuffer({&behind}, nullptr);
+  to_solids = gl::make_framebuffer({&solids}, nullptr);
+  to_water = gl::make_framebuffer({&water}, nullptr);
   to_result = gl::make_framebuffer({&result}, nullptr);
 }
 
-void RenderTargets::begin_sun_map() const { begin(to_sun_map, kSunMap, kSunMap); }
+Image RenderTargets::read_result() const {
+  begin_pixels(to_result);
+  Image flipped(width, height);
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, flipped.pixels.data());
+  const std::size_t row = Image::kChannels * static_cast<std::size_t>(width);
+  for (int y = 0; y < height / 2; ++y) {
+    std::swap_ranges(flipped.at(0, y), flipped.at(0, y) + row, flipped.at(0, height - 1 - y));
+  }
+  return flipped;
+}
+
+void RenderTargets::begin_sun_map(const gl::Framebuffer& target) const { begin(target, kSunMap, kSunMap); }
 
 void RenderTargets::begin(const gl::Framebuffer& target, int across, int down) {
   glBindFramebuffer(GL_FRAMEBUFFER, target.get());

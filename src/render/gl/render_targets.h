@@ -18,19 +18,23 @@ struct RenderTargets {
 
   // Several samples a pixel.
   gl::Texture color, normal, depth, depth_stencil, shaded;
-  // One sample a pixel, except the sun's map and the water's thickness.
-  gl::Texture sun_map, water_normal, thickness, backdrop, result;
+  // One sample a pixel, except the sun's maps and the water's thickness.
+  gl::Texture sun_map, water_sun_map, water_normal, thickness, backdrop, behind, solids, water, result;
   std::array<gl::Texture, 2> surface;
   std::array<gl::Texture, 2> ambient;  ///< for every second pixel along each side
 
-  gl::Framebuffer to_sun_map, to_spheres, to_water_normal, to_ambient, to_blurred, to_backdrop, to_shaded, to_result;
+  gl::Framebuffer to_sun_map, to_water_sun_map, to_spheres, to_water_normal, to_ambient, to_blurred, to_backdrop,
+      to_shaded, to_behind, to_solids, to_water, to_result;
   std::array<gl::Framebuffer, 2> to_surface;
 
   // Direct later drawing into `target`.
   void begin_samples(const gl::Framebuffer& target) const { begin(target, samples_across, samples_down); }
   void begin_pixels(const gl::Framebuffer& target) const { begin(target, width, height); }
   void begin_ambient(const gl::Framebuffer& target) const { begin(target, half(width), half(height)); }
-  void begin_sun_map() const;
+  void begin_sun_map(const gl::Framebuffer& target) const;
+
+  /// The picture in `result`.
+  Image read_result() const;
 
   static int half(int pixels) { return (pixels + 1) / 2; }
 

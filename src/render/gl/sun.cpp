@@ -25,4 +25,12 @@ Sun make_sun(const Frame& frame) {
   return sun;
 }
 
+void Sun::set(const gl::Program& program) const {
+  program.set_rows("to_sun", projection.right, projection.up, projection.back);
+  program.set("to_light", to);
+  program.set("sun_eye", projection.eye);
+  program.set("sun_scale", Vec3f{scale(), scale(), 1 / range});
+  program.set("sun_blur", 0.003f * range);
+}
+
 }  // namespace hooke

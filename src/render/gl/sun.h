@@ -3,6 +3,7 @@
 #pragma once
 
 #include "hooke/render/frame.h"
+#include "hooke/render/gl/gl_objects.h"
 #include "hooke/render/visible_spheres.h"
 
 namespace hooke {
@@ -15,6 +16,8 @@ struct Sun {
   float range = 1;  ///< m, from the projection's eye to the farthest lit point
   Vec3f to;         ///< unit vector
 
+  /// Sets the uniforms of light.glsl that say where the sun is and how its map is read.
+  void set(const gl::Program& program) const;
   /// From metres to coordinates of the map in [-1, 1].
   float scale() const { return 2 * projection.scale / kSunMap; }
 };

@@ -16,28 +16,39 @@ void restrict_to(const PixelRectangle& box) {
 
 }  // namespace
 
-void SurfacePasses::run(const Frame& frame, const Projection& pixels, const PixelRectangle& box, float sphere_size,
-                        bool water) const {
+void SurfacePasses::find_solids(const Frame& frame, const Projection& pixels, const PixelRectangle& box,
+                                float sphere_size, bool ambient) const {
   HOOKE_ASSERT(sphere_size > 0, sphere_size);
-  clear();
+  glClearColor(0, 0, 0, 0);
+  targets_.begin_pixels(targets_.to_solids);
+  glClear(GL_COLOR_BUFFER_BIT);
+  if (ambient) clear_ambient();
   glEnable(GL_SCISSOR_TEST);
   restrict_to(box);
-  reduce();
-  if (water) {
-    smooth_water(pixels, sphere_size);
-    find_water_normals(pixels, sphere_size);
-  }
-  restrict_to({box.x / 2, box.y / 2, RenderTargets::half(box.width), RenderTargets::half(box.height)});
-  draw_ambient(frame, pixels, sphere_size);
+  reduce(targets_.to_solids);
+  if (ambient) draw_ambient(frame, pixels, targets_.solids, box, sphere_size);
   glDisable(GL_SCISSOR_TEST);
 }
 
-void SurfacePasses::clear() const {
+void SurfacePasses::smooth(const Frame& frame, const Projection& pixels, const PixelRectangle& box,
+                           float sphere_size) const {
+  HOOKE_ASSERT(sphere_size > 0, sphere_size);
   glClearColor(0, 0, 0, 0);
   for (const gl::Framebuffer& target : targets_.to_surface) {
     targets_.begin_pixels(target);
     glClear(GL_COLOR_BUFFER_BIT);
   }
+  clear_ambient();
+  glEnable(GL_SCISSOR_TEST);
+  restrict_to(box);
+  reduce(targets_.to_surface[0]);
+  smooth_depths(pixels, sphere_size);
+  find_normals(pixels, sphere_size);
+  draw_ambient(frame, pixels, targets_.surface[0], box, sphere_size);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void SurfacePasses::clear_ambient() const {
   glClearColor(1, 1, 1, 1);
   for (const gl::Framebuffer* target : {&targets_.to_ambient, &targets_.to_blurred}) {
     targets_.begin_ambient(*target);
@@ -45,9 +56,9 @@ void SurfacePasses::clear() const {
   }
 }
 
-void SurfacePasses::reduce() const {
+void SurfacePasses::reduce(const gl::Framebuffer& target) const {
   const gl::Program& program = programs_.reduce;
-  targets_.begin_pixels(targets_.to_surface[0]);
+  targets_.begin_pixels(target);
   program.use();
   program.read("depths", 0, targets_.depth);
   program.read("colors", 1, targets_.color);
@@ -55,39 +66,44 @@ void SurfacePasses::reduce() const {
   whole_.draw();
 }
 
-void SurfacePasses::smooth_water(const Projection& pixels, float sphere_size) const {
+void SurfacePasses::smooth_depths(const Projection& pixels, float sphere_size) const {
   const gl::Program& program = programs_.smooth;
   program.use();
-  program.set("range", 4.0f * sphere_size);
+  program.set("range", 4.5f * sphere_size);
+  program.set("rim", 0.6f * sphere_size);
   program.set("scale", pixels.scale);
-  // First a wide filter with few samples, then a narrow one that fills in between the samples.
-  const float reaches[] = {4.0f, 1.5f};
-  const int taps[] = {10, 6};
-  for (std::size_t pass = 0; pass < 2; ++pass) {
-    targets_.begin_pixels(targets_.to_surface[1 - pass]);
-    program.read("surface", 0, targets_.surface[pass]);
-    program.set("reach", reaches[pass] * sphere_size);
-    program.set("taps", taps[pass]);
+  // Across and down; first a wide filter, whose steps between samples narrower ones then even out.
+  constexpr float kReaches[] = {4.0f, 4.0f, 1.8f, 1.8f, 0.6f, 0.6f};
+  constexpr int kTaps[] = {8, 8, 6, 6, 8, 8};
+  for (int pass = 0; pass < 6; ++pass) {
+    const auto from = static_cast<std::size_t>(pass % 2);
+    targets_.begin_pixels(targets_.to_surface[1 - from]);
+    program.read("surface", 0, targets_.surface[from]);
+    program.set("along", 1 - pass % 2, pass % 2);
+    program.set("reach", kReaches[pass] * sphere_size);
+    program.set("taps", kTaps[pass]);
     whole_.draw();
   }
 }
 
-void SurfacePasses::find_water_normals(const Projection& pixels, float sphere_size) const {
+void SurfacePasses::find_normals(const Projection& pixels, float sphere_size) const {
   const gl::Program& program = programs_.water_normal;
   targets_.begin_pixels(targets_.to_water_normal);
   program.use();
   set_picture(program, pixels);
   program.read("surface", 0, targets_.surface[0]);
-  program.set("range", 10.0f * sphere_size);
+  program.set("range", 4.0f * sphere_size);
   whole_.draw();
 }
 
-void SurfacePasses::draw_ambient(const Frame& frame, const Projection& pixels, float sphere_size) const {
+void SurfacePasses::draw_ambient(const Frame& frame, const Projection& pixels, const gl::Texture& surface,
+                                 const PixelRectangle& box, float sphere_size) const {
+  restrict_to({box.x / 2, box.y / 2, RenderTargets::half(box.width), RenderTargets::half(box.height)});
   const gl::Program& program = programs_.ambient;
   targets_.begin_ambient(targets_.to_ambient);
   program.use();
   set_picture(program, pixels);
-  program.read("surface", 0, targets_.surface[0]);
+  program.read("surface", 0, surface);
   program.read("normals", 1, targets_.normal);
   program.read("water_normals", 2, targets_.water_normal);
   program.set("samples", samples_);

@@ -10,9 +10,10 @@
 
 namespace hooke {
 
-/// Computes once a pixel, from surfaces drawn with several samples a pixel: the nearest surface, smoothed where it is
-/// water, the water's normals, and how much ambient light arrives. Runs only where there are surfaces: in `box`, and
-/// as far around it as the passes read.
+/// Computes once a pixel, from surfaces drawn with several samples a pixel: the nearest surface, and how much ambient
+/// light arrives; of what is to be smoothed, water or skin, the smooth surface and its normals. Runs only where there
+/// are surfaces: in `box`, and as far around it as the passes read. `sphere_size` is the radius of a typical sphere, m,
+/// > 0.
 class SurfacePasses {
  public:
   SurfacePasses(const RenderTargets& targets, const RenderPrograms& programs, int samples)
@@ -20,16 +21,19 @@ class SurfacePasses {
         programs_(programs),
         samples_(samples) {}
 
-  /// `sphere_size` is the radius of a typical sphere, m, > 0.
-  void run(const Frame& frame, const Projection& pixels, const PixelRectangle& box, float sphere_size,
-           bool water) const;
+  /// Finds the smooth surface and its normals, and the ambient light there and on other surfaces.
+  void smooth(const Frame& frame, const Projection& pixels, const PixelRectangle& box, float sphere_size) const;
+  /// Finds the depths of what is not smoothed, and, where asked, its ambient light.
+  void find_solids(const Frame& frame, const Projection& pixels, const PixelRectangle& box, float sphere_size,
+                   bool ambient) const;
 
  private:
-  void clear() const;
-  void reduce() const;
-  void smooth_water(const Projection& pixels, float sphere_size) const;
-  void find_water_normals(const Projection& pixels, float sphere_size) const;
-  void draw_ambient(const Frame& frame, const Projection& pixels, float sphere_size) const;
+  void clear_ambient() const;
+  void reduce(const gl::Framebuffer& target) const;
+  void smooth_depths(const Projection& pixels, float sphere_size) const;
+  void find_normals(const Projection& pixels, float sphere_size) const;
+  void draw_ambient(const Frame& frame, const Projection& pixels, const gl::Texture& surface, const PixelRectangle& box,
+                    float sphere_size) const;
 
   const RenderTargets& targets_;
   const RenderPrograms& programs_;

@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "hooke/render/gl/render_programs.h"
+
 namespace hooke {
 
 TankEdges::TankEdges() : array_(gl::make_vertex_array()), buffer_(gl::make_buffer()) {
@@ -37,9 +39,22 @@ void TankEdges::upload(const Tank& tank) {
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(ends.size() * sizeof(Vec3f)), ends.data(), GL_STREAM_DRAW);
 }
 
-void TankEdges::draw() const {
+void TankEdges::draw(const gl::Program& program, const Projection& view, const gl::Texture& depths, int samples) const {
+  program.use();
+  set_view(program, view);
+  program.set("scale", 2 * view.scale / view.width, 2 * view.scale / view.height);
+  program.set("picture", view.width, view.height);
+  program.set("width", 1.4f);
+  program.set("nearest", view.nearest);
+  program.read("depths", 0, depths);
+  program.set("samples", samples);
+  program.set("color", Vec3f{0.93f, 0.95f, 0.97f});
+  program.set("opacity", 0.55f);
+  glEnable(GL_BLEND);
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glBindVertexArray(array_.get());
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count_);
+  glDisable(GL_BLEND);
 }
 
 }  // namespace hooke

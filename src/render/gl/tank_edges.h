@@ -4,6 +4,7 @@
 
 #include "hooke/render/frame.h"
 #include "hooke/render/gl/gl_objects.h"
+#include "hooke/render/visible_spheres.h"
 
 namespace hooke {
 
@@ -12,7 +13,8 @@ class TankEdges {
  public:
   TankEdges();
   void upload(const Tank& tank);
-  void draw() const;
+  /// Draws them into what is drawn into, where nothing of `depths`, several samples a pixel, is before them.
+  void draw(const gl::Program& program, const Projection& view, const gl::Texture& depths, int samples) const;
 
  private:
   gl::VertexArray array_;

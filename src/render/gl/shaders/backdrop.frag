@@ -1,7 +1,7 @@
 // The ground and the sky behind everything.
 uniform vec3 across;             // level unit vectors, along the ground's lines
 uniform vec3 along;
-uniform float line_step;         // m
+uniform float line_step;         // m; 0: no lines
 
 out vec4 shaded;
 
@@ -14,12 +14,14 @@ float lines(float place) {
 
 void main() {
   vec3 direction = normalize(view_point(gl_FragCoord.xy, 1.0)) * to_view;
-  vec3 point = ground_point(eye, direction);
-  float line = max(lines(dot(point - action_center, across) / line_step), lines(dot(point - action_center, along) / line_step));
+  vec3 point = ground_point(eye, direction), from = point - action_center;
   vec3 color = sky(direction);
   if (sees_ground(eye, direction)) {
-    color = ground_color(point, sunlight(point + 0.02 * sphere_size * up, noise(gl_FragCoord.xy), 3));
-    color += 0.035 * line * exp(-length(point - action_center) / action_size);
+    color = ground_color(point, softened_sunlight(point + 0.02 * sphere_size * up, noise(gl_FragCoord.xy), 3));
+    if (line_step > 0.0) {
+      float line = max(lines(dot(from, across) / line_step), lines(dot(from, along) / line_step));
+      color += (0.015 + 0.2 * ground_tint) * line * exp(-length(from) / action_size);
+    }
   }
   shaded = stored(color);
 }

@@ -2,15 +2,17 @@
 // Where the ray of a sample meets a sphere. Computed relative to the sphere's centre: far from the eye, a ball may be
 // smaller than the rounding error of its distance.
 uniform float nearest;     // m
+uniform float side;        // -1 for surfaces that are smoothed, else 1
 
 flat in vec3 view_center;
 flat in float view_radius;
 flat in vec4 tint;
+flat in float rough;
 in vec3 offset;
 
 layout(location = 0) out vec4 color;   // of the material, and its foam
-layout(location = 1) out vec4 normal;  // in view space, from [-1, 1] to [0, 1]
-layout(location = 2) out vec4 depth;   // m; negative where water
+layout(location = 1) out vec4 normal;  // in view space, from [-1, 1] to [0, 1]; and roughness
+layout(location = 2) out vec4 depth;   // m; negative where it is smoothed: water and skin
 
 void main() {
   vec3 ray = normalize(view_center + offset);
@@ -22,6 +24,6 @@ void main() {
   if (distance < nearest) discard;
   gl_FragDepth = nearest / distance;
   color = tint;
-  normal = vec4(0.5 + 0.5 * hit / view_radius, 1.0);
-  depth = vec4(tint.a > 0.0 ? -distance : distance);
+  normal = vec4(0.5 + 0.5 * hit / view_radius, rough);
+  depth = vec4(side * distance);
 }

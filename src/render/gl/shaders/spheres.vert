@@ -3,16 +3,18 @@
 // to set up than the two of a square. Lengths in metres.
 uniform vec3 eye;
 uniform mat3 to_view;      // right, up, back
-uniform vec2 scale;        // from metres (at depth 1 where not parallel) to half a picture
+uniform vec2 clip_scale;   // from metres (at depth 1 where not parallel) to half a picture
 uniform bool parallel;     // the sun's rays
 
 layout(location = 0) in vec3 center;
 layout(location = 1) in float radius;
 layout(location = 2) in vec4 color;
+layout(location = 3) in float roughness;
 
 flat out vec3 view_center;
 flat out float view_radius;
 flat out vec4 tint;
+flat out float rough;
 out vec3 offset;           // from the centre to a point of the triangle
 
 void main() {
@@ -20,9 +22,10 @@ void main() {
   view_center = to_view * (center - eye);
   view_radius = radius;
   tint = color;
+  rough = roughness;
   if (parallel) {
     offset = radius * vec3(corner, 1.0);
-    gl_Position = vec4((view_center + offset).xy * scale, 0.0, 1.0);
+    gl_Position = vec4((view_center + offset).xy * clip_scale, 0.0, 1.0);
     return;
   }
   float d = length(view_center);
@@ -33,5 +36,5 @@ void main() {
   offset = -radius * ahead + half_side * (corner.x * u + corner.y * v);
   vec3 point = view_center + offset;
   // An eye inside a sphere does not see that sphere.
-  gl_Position = d > radius ? vec4(point.xy * scale, 0.0, -point.z) : vec4(2.0, 2.0, 2.0, 1.0);
+  gl_Position = d > radius ? vec4(point.xy * clip_scale, 0.0, -point.z) : vec4(2.0, 2.0, 2.0, 1.0);
 }

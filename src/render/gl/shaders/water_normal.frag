@@ -1,24 +1,32 @@
 // The normal of the smoothed water.
-uniform sampler2D surface;   // depth (negative: water, smoothed) and foam
+uniform sampler2D surface;   // depth (negative: water, smoothed; 0: nothing) and foam
 uniform float range;         // a step in depth up to this belongs to the same surface, m
 
 out vec4 water_normal;       // in view space, from [-1, 1] to [0, 1]
 
-float depth_at(ivec2 pixel) { return abs(texelFetch(surface, pixel, 0).x); }
+const float kNothing = 1e30;
+
+float depth_at(ivec2 pixel) {
+  float depth = texelFetch(surface, clamp(pixel, ivec2(0), textureSize(surface, 0) - 1), 0).x;
+  return depth < 0.0 ? -depth : kNothing;
+}
 
 // Direction of the surface towards `side`: the sum of the steps from behind and to ahead where both neighbours lie on
-// the surface, else the shorter step in depth.
+// the surface, else the one that does.
 vec3 surface_step(ivec2 side, vec3 here) {
   vec2 at = gl_FragCoord.xy;
   ivec2 pixel = ivec2(at);
   vec3 ahead = view_point(at + vec2(side), depth_at(pixel + side)) - here;
   vec3 behind = here - view_point(at - vec2(side), depth_at(pixel - side));
-  if (abs(ahead.z) < range && abs(behind.z) < range) return ahead + behind;
-  return abs(ahead.z) < abs(behind.z) ? ahead : behind;
+  bool goes_on = abs(ahead.z) < range, comes_from = abs(behind.z) < range;
+  if (goes_on && comes_from) return ahead + behind;
+  return goes_on ? ahead : comes_from ? behind : vec3(vec2(side), 0.0);
 }
 
 void main() {
-  vec3 here = view_point(gl_FragCoord.xy, depth_at(ivec2(gl_FragCoord.xy)));
-  vec3 normal = normalize(cross(surface_step(ivec2(1, 0), here), surface_step(ivec2(0, 1), here)));
-  water_normal = vec4(0.5 + 0.5 * normal, 1.0);
+  float depth = texelFetch(surface, ivec2(gl_FragCoord.xy), 0).x;
+  water_normal = vec4(0.5, 0.5, 1.0, 1.0);
+  if (depth >= 0.0) return;
+  vec3 here = view_point(gl_FragCoord.xy, -depth);
+  water_normal.xyz = 0.5 + 0.5 * normalize(cross(surface_step(ivec2(1, 0), here), surface_step(ivec2(0, 1), here)));
 }
