@@ -20,10 +20,14 @@ struct PictureArguments {
   int width = 1280;  ///< pixels
   int height = 720;  ///< pixels
   double frames_per_second = 30;
+  double speed = 1;  ///< simulated seconds a second of film
   int samples = 2;  ///< squared: the samples per pixel
   ColorBy color_by = ColorBy::material;
   std::optional<std::array<double, 2>> range;  ///< of the colour map
   bool legend = true;
+  bool alpha = false;  ///< whether nothing is drawn behind everything
+
+  double seconds_a_frame() const { return speed / frames_per_second; }  ///< simulated
 };
 
 struct RunArguments {
@@ -57,6 +61,8 @@ struct RenderArguments {
   std::filesystem::path run;
   std::filesystem::path output;
   std::optional<double> time;          ///< of a still, s
+  std::optional<double> from, to;      ///< the part of the run that a film shows, s
+  std::optional<std::int64_t> every;   ///< a frame for every n-th snapshot, instead of by time
   std::vector<std::string> overrides;  ///< of the run's scene, PATH=VALUE
   PictureArguments picture;
 };

@@ -33,7 +33,7 @@ struct FilmThread::Impl {
   std::filesystem::path file;
   PictureArguments picture;
   Scene scene;
-  std::int64_t next_frame = 0;  // its time is next_frame / frames_per_second
+  std::int64_t next_frame = 0;  // its time is next_frame * seconds_a_frame()
 
   std::mutex mutex;
   std::condition_variable changed;
@@ -43,7 +43,7 @@ struct FilmThread::Impl {
   Summary summary;
   std::thread thread;
 
-  double time_of(std::int64_t frame) const { return static_cast<double>(frame) / picture.frames_per_second; }
+  double time_of(std::int64_t frame) const { return static_cast<double>(frame) * picture.seconds_a_frame(); }
 
   // Runs in the film's own thread: OpenGL belongs to the thread that opened it.
   void draw(std::shared_ptr<const Snapshot> first, std::promise<Expected<void>> started) {
@@ -111,7 +111,7 @@ Expected<std::unique_ptr<FilmThread>> FilmThread::start(const std::filesystem::p
   impl->file = file;
   impl->picture = picture;
   impl->scene = simulation.scene();
-  impl->next_frame = static_cast<std::int64_t>(std::ceil(simulation.time() * picture.frames_per_second - 1e-6));
+  impl->next_frame = static_cast<std::int64_t>(std::ceil(simulation.time() / picture.seconds_a_frame() - 1e-6));
   std::promise<Expected<void>> started;
   auto outcome = started.get_future();
   impl->thread = std::thread([&impl = *impl, first = simulation.snapshot(), started = std::move(started)]() mutable {

@@ -11,9 +11,9 @@
 
 namespace hooke::cli {
 
-/// Draws a film of a run in its own thread while the run continues: a frame at every multiple of 1 / frames_per_second
-/// of simulated time. A frame shows the first step at or after its time, drawn back by the difference. To be used by
-/// one thread at a time.
+/// Draws a film of a run in its own thread while the run continues: a frame at every multiple of
+/// PictureArguments::seconds_a_frame() of simulated time. A frame shows the first step at or after its time, drawn back
+/// by the difference. To be used by one thread at a time.
 class FilmThread {
  public:
   struct Summary {

@@ -60,9 +60,14 @@ void add_picture_options(CLI::App& command, PictureArguments& picture) {
           "--size", [](const std::string&) {}, "of the picture, pixels (default: 1280x720)")
       ->option_text("WxH")
       ->check([&picture](const std::string& text) { return parse_size(text, picture); });
-  command.add_option("--fps", picture.frames_per_second, "frames of a film for each simulated second (default: 30)")
+  command.add_option("--fps", picture.frames_per_second, "frames a second of film (default: 30)")
       ->option_text("F")
       ->check(CLI::Range(1e-3, 1000.0) & CLI::Validator(not_nan, ""));
+  command
+      .add_option("--speed", picture.speed,
+                  "simulated seconds that a second of film shows: 0.25 is slow motion (default: 1)")
+      ->option_text("X")
+      ->check(CLI::Range(1e-6, 1e6) & CLI::Validator(not_nan, ""));
   std::map<std::string, ColorBy> names;
   for (const ColorByName& name : kColorByNames) names[name.name] = name.by;
   command
@@ -167,9 +172,17 @@ void add_render(CLI::App& app, CommandLine& line) {
       ->required();
   command.add_option("--time", render.time, "of a picture, s, between two snapshots too (default: the last snapshot)")
       ->option_text("T");
+  command.add_option("--from", render.from, "where a film starts, s (default: the first snapshot)")->option_text("T");
+  command.add_option("--to", render.to, "where a film ends, s (default: the last snapshot)")->option_text("T");
   add_picture_options(command, render.picture);
+  command.add_option("--every", render.every, "a frame for every N-th snapshot, as it was written, instead of by time")
+      ->option_text("N")
+      ->check(CLI::PositiveNumber)
+      ->excludes("--speed");
+  command.add_flag("--alpha", render.picture.alpha, "pictures (.png) with alpha, without ground, sky and legend");
   command
-      .add_option("--set", render.overrides, "replace a value of the run's scene, e.g. camera.orbit=5; may be repeated")
+      .add_option("--set", render.overrides,
+                  "replace a value of the run's scene, e.g. camera.orbit=5 or picture.box=false; may be repeated")
       ->option_text("PATH=VALUE")
       ->allow_extra_args(false);
   command.callback([&line] { line.command = [&line] { return render_command(line.render); }; });

@@ -8,6 +8,7 @@
 #include <optional>
 #include <regex>
 #include <utility>
+#include <vector>
 
 #include "commands.h"
 #include "hooke/io/report.h"
@@ -73,18 +74,72 @@ std::optional<std::string> numbered_name(const std::filesystem::path& pattern, s
   return match.prefix().str() + fmt::format("{:0{}}", number, digits) + match.suffix().str();
 }
 
-Expected<void> write_picture(const Image& image, const std::filesystem::path& file) {
-  const auto bytes = encode_png(image);
+Expected<void> write_picture(const Image& image, bool alpha, const std::filesystem::path& file) {
+  const auto bytes = encode_png(image, alpha);
   if (!bytes) return fail(bytes.error());
   return write_text_file(file, *bytes);
 }
 
-Expected<void> check_time(double time, const RunReader& run) {
+Expected<void> check_time(const char* option, std::optional<double> time, const RunReader& run) {
+  if (!time) return {};
   const double first = run.times().front(), last = run.times().back();
   const double rounding = 1e-9 * std::max(1.0, std::abs(last));
-  if (time >= first - rounding && time <= last + rounding) return {};
-  return fail(Error::Kind::bad_input, "--time",
-              fmt::format("{} s is outside of the run, which goes from {} s to {} s", time, first, last));
+  if (*time >= first - rounding && *time <= last + rounding) return {};
+  return fail(Error::Kind::bad_input, option,
+              fmt::format("{} s is outside of the run, which goes from {} s to {} s", *time, first, last));
+}
+
+// What is wrong with the options, for a picture or a film.
+Expected<void> check_options(const RenderArguments& arguments, bool still) {
+  const auto wrong = [](const char* option, const char* why) { return fail(Error::Kind::bad_input, option, why); };
+  if (!still && arguments.time) return wrong("--time", "is of a single picture (.png); a film has --from and --to");
+  if (still && (arguments.from || arguments.to)) return wrong(arguments.from ? "--from" : "--to", "is of a film");
+  if (still && arguments.every) return wrong("--every", "is of a film");
+  if (arguments.from && arguments.to && !(*arguments.from <= *arguments.to)) {
+    return wrong("--to", "must not be before --from");
+  }
+  if (arguments.picture.alpha && is_film(arguments.output)) {
+    return wrong("--alpha", "is of pictures (.png), which may be numbered; films have no alpha");
+  }
+  return {};
+}
+
+// The times of a film's frames, s.
+std::vector<double> frame_times(const RenderArguments& arguments, const RunReader& run) {
+  const double first = std::max(arguments.from.value_or(run.times().front()), run.times().front());
+  const double last = std::min(arguments.to.value_or(run.times().back()), run.times().back());
+  std::vector<double> times;
+  if (arguments.every) {
+    std::int64_t number = 0;
+    for (const double time : run.times()) {
+      if (time >= first && time <= last && number++ % *arguments.every == 0) times.push_back(time);
+    }
+    return times;
+  }
+  const double step = arguments.picture.seconds_a_frame();
+  const auto count = static_cast<std::int64_t>(std::floor((last - first) / step + 1e-6)) + 1;
+  for (std::int64_t frame = 0; frame < count; ++frame) {
+    times.push_back(std::min(first + static_cast<double>(frame) * step, last));
+  }
+  return times;
+}
+
+// Frames what the run does, where the scene leaves that to the camera.
+Expected<void> frame_action(const RunReader& run, const Scene& scene, Studio& studio) {
+  constexpr std::size_t kMoments = 5;
+  if (scene.camera.eye && scene.camera.target) return {};
+  std::vector<ParticleSet> moments;
+  std::optional<std::size_t> before;
+  for (std::size_t k = 0; k < kMoments; ++k) {
+    const std::size_t index = k * (run.size() - 1) / (kMoments - 1);
+    if (before == index) continue;
+    auto snapshot = run.read(index);
+    if (!snapshot) return fail(std::move(snapshot).error());
+    moments.push_back(std::move(snapshot->particles));
+    before = index;
+  }
+  studio.frame_action(moments);
+  return {};
 }
 
 Expected<void> render_still(const RenderArguments& arguments, const RunReader& run, Playback& playback,
@@ -95,23 +150,22 @@ Expected<void> render_still(const RenderArguments& arguments, const RunReader& r
   if (!particles) return fail(particles.error());
   const auto image = studio.picture(*particles, time);
   if (!image) return fail(image.error());
-  if (auto written = write_picture(*image, arguments.output); !written) return written;
+  if (auto written = write_picture(*image, arguments.picture.alpha, arguments.output); !written) return written;
   fmt::print("{} particles at {:.6g} s in {}\n", with_commas(particles->size()), time, arguments.output.string());
   return {};
 }
 
-// Gives one image per frame of simulated time to `take`; returns their number and whether a signal came first.
+// Gives one image per frame to `take`; returns their number and whether a signal came first.
 template <class Take>
 Expected<std::pair<std::int64_t, bool>> render_frames(const RenderArguments& arguments, const RunReader& run,
                                                       Playback& playback, Studio& studio, const Take& take) {
-  const double first = run.times().front(), last = run.times().back();
-  const double fps = arguments.picture.frames_per_second;
-  const auto count = static_cast<std::int64_t>(std::floor((last - first) * fps + 1e-6)) + 1;
+  const std::vector<double> times = frame_times(arguments, run);
+  const auto count = static_cast<std::int64_t>(times.size());
   const Interrupt interrupt;
   FrameProgress progress(count);
   std::int64_t frame = 0;
   for (; frame < count && !interrupt.requested(); ++frame) {
-    const double time = std::min(first + static_cast<double>(frame) / fps, last);
+    const double time = times[static_cast<std::size_t>(frame)];
     const auto particles = playback.at(time);
     if (!particles) return fail(particles.error());
     const auto image = studio.picture(*particles, time);
@@ -141,7 +195,8 @@ Expected<ExitStatus> render_sequence(const RenderArguments& arguments, const Run
                                      Studio& studio) {
   const std::filesystem::path folder = arguments.output.parent_path();
   const auto done = render_frames(arguments, run, playback, studio, [&](const Image& image, std::int64_t frame) {
-    return write_picture(image, folder / *numbered_name(arguments.output, static_cast<std::size_t>(frame)));
+    return write_picture(image, arguments.picture.alpha,
+                         folder / *numbered_name(arguments.output, static_cast<std::size_t>(frame)));
   });
   if (!done) return fail(done.error());
   fmt::print("{} pictures, the first of them {}{}\n", done->first,
@@ -155,9 +210,7 @@ Expected<ExitStatus> render(const RenderArguments& arguments) {
     return fail(Error::Kind::bad_input, arguments.output.string(),
                 "has no extension of a picture or a film; known are .png, " + film_extensions());
   }
-  if (!still && arguments.time) {
-    return fail(Error::Kind::bad_input, "--time", "is of a single picture (.png); a film shows the whole run");
-  }
+  if (auto good = check_options(arguments, still); !good) return fail(std::move(good).error());
   if (auto writable = check_output_file(arguments.output, "--output"); !writable) return fail(writable.error());
   if (is_film(arguments.output)) {
     const PictureArguments& p = arguments.picture;
@@ -168,8 +221,9 @@ Expected<ExitStatus> render(const RenderArguments& arguments) {
   const auto run = RunReader::open(arguments.run);
   if (!run) return fail(run.error());
   if (run->size() == 0) return fail(Error::Kind::bad_input, arguments.run.string(), "holds no snapshot yet");
-  if (arguments.time) {
-    if (auto inside = check_time(*arguments.time, *run); !inside) return fail(inside.error());
+  for (const auto& [option, time] :
+       {std::pair{"--time", arguments.time}, {"--from", arguments.from}, {"--to", arguments.to}}) {
+    if (auto inside = check_time(option, time, *run); !inside) return fail(inside.error());
   }
   const std::filesystem::path folder =
       std::filesystem::is_directory(arguments.run) ? arguments.run : arguments.run.parent_path();
@@ -185,6 +239,7 @@ Expected<ExitStatus> render(const RenderArguments& arguments) {
   const auto first = run->read(0);
   if (!first) return fail(first.error());
   studio->set_scene(loaded->scene, first->particles);
+  if (auto framed = frame_action(*run, loaded->scene, *studio); !framed) return fail(std::move(framed).error());
 
   Playback playback(*run, loaded->scene);
   if (is_film(arguments.output)) return render_film(arguments, *run, playback, *studio);

@@ -307,6 +307,7 @@ ExitStatus run_command(const RunArguments& arguments) {
   if (!complete) return report_failure(complete.error(), *writer);
   const auto report = write_reports(run, simulation, *writer, arguments);
   if (!report) return report_failure(report.error(), *writer);
+  if (const std::string soft = soft_particles(simulation, report->measurements); !soft.empty()) spdlog::warn(soft);
 
   spdlog::info("{} at step {}, {:.1f} steps/s, state {:016x}", *complete ? "done" : "interrupted", report->step,
                report->steps_per_second(), report->state_hash);

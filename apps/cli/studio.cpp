@@ -7,6 +7,7 @@
 
 #include "gl_loader.h"
 #include "hooke/base/assert.h"
+#include "hooke/render/action.h"
 #include "hooke/render/legend.h"
 
 namespace hooke::cli {
@@ -22,15 +23,25 @@ void Studio::set_scene(const Scene& scene, const ParticleSet& first) {
   look_ = make_look(scene, first, arguments_.color_by, arguments_.range);
 }
 
+void Studio::frame_action(std::span<const ParticleSet> moments) {
+  HOOKE_ASSERT(scene_ != nullptr);
+  look_.action = seen_action_box(*scene_, moments);
+}
+
 Expected<Image> Studio::picture(const ParticleSet& particles, double time) {
   HOOKE_ASSERT(scene_ != nullptr);
   const double aspect = static_cast<double>(arguments_.width) / arguments_.height;
-  const Frame frame = make_frame(*scene_, particles, time, look_, aspect);
+  Frame frame = make_frame(*scene_, particles, time, look_, aspect);
+  if (arguments_.alpha) {
+    frame.transparent = true;
+    frame.ground.reset();
+  }
   auto image = renderer_->render(frame);
   if (!image) return image;
   figures_ = renderer_->figures();
-  if (frame.scale && arguments_.legend) draw_legend(*image, *frame.scale);
-  if (arguments_.legend) draw_caption(*image, fmt::format("{:.2f} s", time));
+  const bool legend = arguments_.legend && !arguments_.alpha;  // nothing to write it on
+  if (frame.scale && legend) draw_legend(*image, *frame.scale);
+  if (legend) draw_caption(*image, fmt::format("{:.2f} s", time));
   return image;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "commands.h"
 #include "hooke/base/expected.h"
@@ -23,6 +24,9 @@ class Studio {
 
   /// `first`: the first snapshot of the run, which determines scales and camera. `scene` must outlive the studio.
   void set_scene(const Scene& scene, const ParticleSet& first);
+
+  /// Frames what particles do at these times of the run, at least one, instead of what its start lets expect.
+  void frame_action(std::span<const ParticleSet> moments);
 
   /// The picture at `time` (s), with its legend. To be called after set_scene().
   Expected<Image> picture(const ParticleSet& particles, double time);

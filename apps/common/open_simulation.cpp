@@ -92,6 +92,24 @@ std::string coarse_positions(const Simulation& simulation) {
       radii, kFinest);
 }
 
+std::string soft_particles(const Simulation& simulation, const Measurements& now) {
+  constexpr double kSoft = 0.05;
+  if (now.contacts == 0 || now.mean_overlap_ratio <= kSoft) return {};
+  const double factor = now.mean_overlap_ratio / kSoft;
+  std::vector<const Material*> materials;
+  for (const Material& material : simulation.scene().materials) {
+    if (material.is_of_particles() && material.interacts) materials.push_back(&material);
+  }
+  const std::string enough = materials.size() == 1
+                                 ? fmt::format("materials{}.stiffness {:.2g} N/m", path_step(materials[0]->name),
+                                               factor * materials[0]->contact.stiffness)
+                                 : fmt::format("{:.2g} times the stiffness", factor);
+  return fmt::format(
+      "particles overlap by {:.1f} % of the sum of their radii on average, by about twice that at the bottom: too soft "
+      "for their depth; {} would do, with a time step {:.2g} times as long",
+      100 * now.mean_overlap_ratio, enough, 1 / std::sqrt(factor));
+}
+
 namespace {
 
 std::vector<BodyOverlap> body_overlaps(const Simulation& simulation) {

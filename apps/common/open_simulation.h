@@ -49,6 +49,10 @@ std::vector<std::string> overlapped_bodies(const Simulation& simulation);
 /// JSON path of its entry. None for a run that goes on from a checkpoint.
 std::vector<Finding> deep_starts(const Simulation& simulation);
 
+/// A sentence about particles that are too soft for their depth, with the stiffness that would do: where they overlap
+/// by more than 5 % of the sum of their radii on average, so by about 10 % at the bottom; empty where they do not.
+std::string soft_particles(const Simulation& simulation, const Measurements& now);
+
 /// A sentence about a domain too large for the single precision in use; empty if it is not too large.
 std::string coarse_positions(const Simulation& simulation);
 

@@ -123,6 +123,28 @@ TEST_F(RenderCommand, FilmsLastAsLongAsTheRun) {
   EXPECT_EQ(files().size(), 5u);
 }
 
+TEST_F(RenderCommand, FilmsShowPartsOfTheRunAtAnySpeed) {
+  EXPECT_THAT(hooke_ok(render("f.mp4", {"--fps", "50", "--from", "0.1", "--to", "0.2"})), HasSubstr("6 frames"));
+  EXPECT_THAT(hooke_ok(render("f.mp4", {"--fps", "50", "--speed", "0.5"})), HasSubstr("31 frames, 0.62 s"));
+  EXPECT_THAT(hooke_ok(render("f.mp4", {"--fps", "50", "--every", "2"})), HasSubstr("5 frames"));
+  std::filesystem::create_directory(path("f"));
+  hooke_ok(render("f/p_%d.png", {"--fps", "10", "--speed", "0.5", "--from", "0.1"}));
+  hooke_ok(render("still.png", {"--time", "0.15"}));
+  EXPECT_EQ(read("f/p_1.png"), read("still.png"));
+  hooke_ok({"run", "s.json", "-o", "t", "--quiet", "--film", "r.mp4", "--size", "96x54", "--samples", "1", "--fps",
+            "50", "--speed", "0.5"});
+  EXPECT_EQ(probe_film(path("r.mp4")).frames, 31);
+}
+
+TEST_F(RenderCommand, PicturesMayHaveAlpha) {
+  hooke_ok(render("p.png", {"--alpha"}));
+  const Image image = picture("p.png");
+  EXPECT_EQ(image.at(1, 1)[3], 0);
+  int solid = 0;
+  for (std::size_t i = 3; i < image.pixels.size(); i += 4) solid += image.pixels[i] == 255;
+  EXPECT_GT(solid, 96 * 54 / 40);
+}
+
 TEST_F(RenderCommand, RefusesWhatItCanNotDraw) {
   expect_refused(render("f.avi"), "known are .png, .mp4, .mov, .mkv, .webm, .gif");
   expect_refused(render("f"), "known are");
@@ -132,6 +154,13 @@ TEST_F(RenderCommand, RefusesWhatItCanNotDraw) {
   expect_refused(render("p.png", {"--time", "-0.1"}), "--time: -0.1 s is outside of the run");
   expect_refused(render("p.png", {"--time", "nan"}), "--time");
   expect_refused(render("f.mp4", {"--time", "0.1"}), "of a single picture");
+  expect_refused(render("p.png", {"--from", "0.1"}), "--from: is of a film");
+  expect_refused(render("p.png", {"--every", "2"}), "--every: is of a film");
+  expect_refused(render("f.mp4", {"--to", "0.4"}), "--to: 0.4 s is outside of the run");
+  expect_refused(render("f.mp4", {"--from", "0.2", "--to", "0.1"}), "must not be before --from");
+  expect_refused(render("f.mp4", {"--every", "2", "--speed", "2"}), "--speed");
+  expect_refused(render("f.mp4", {"--speed", "0"}), "--speed");
+  expect_refused(render("f.mp4", {"--alpha"}), "films have no alpha");
   expect_refused({"render", "s", "-o", "f.mp4", "--size", "95x54"}, "must be even; 95x54 is not");
   expect_refused({"render", "missing", "-o", "p.png"}, "missing");
   expect_refused({"render", "s.json", "-o", "p.png"}, "s.json");
