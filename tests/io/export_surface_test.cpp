@@ -146,6 +146,41 @@ TEST_P(ExportSurfacePly, CarriesTheFluidsVelocity) {
   }
 }
 
+// Two materials side by side: a closed surface each, in its colour.
+TEST_P(ExportSurface, IsByMaterial) {
+  add({0, 0, 0});
+  add({1.5 * kRadius, 0, 0});
+  EXPECT_EQ(measured({1, 1.5, 0.1}).bad_edges, 0);
+  snapshot_.particles.material[1] = 1;
+  const RunInfo info{"s",
+                     0.005,
+                     Integrator::symplectic_euler,
+                     Precision::single_precision,
+                     {{"water", kRadius, 1}, {"oil", kRadius, 1}}};
+  const RunReader run = samples::write_run(folder_ / "two", info, {snapshot_});
+  Scene scene;
+  scene.materials = {{"water", kRadius, 1, {}, 0, "#0000ff"}, {"oil", kRadius, 1, {}, 0, "#ff8000"}};
+  ExportOptions options;
+  options.content = ExportContent::surface;
+  options.scene = &scene;
+  const auto file = folder_ / (std::string("two.") + GetParam());
+  const auto files = export_run(run, std::vector<std::size_t>{0}, file, options);
+  ASSERT_TRUE(files) << files.error().text();
+  const auto words = samples::words(samples::output_of(
+      fmt::format("/usr/bin/python3 '{}/tests/io/read_mesh.py' '{}'", HOOKE_SOURCE_DIR, file.string())));
+  EXPECT_EQ(samples::number(words.at(2)), 0) << "bad edges";
+  EXPECT_NEAR(samples::number(words.at(3)) / kSphere, 2, 0.1) << "two whole spheres";
+  const std::string text = samples::read_file(file);
+  if (std::string(GetParam()) == "obj") {
+    EXPECT_NE(text.find("\no water\n"), std::string::npos);
+    EXPECT_NE(text.find("\no oil\n"), std::string::npos);
+    EXPECT_NE(text.find(" 0 0 1\n"), std::string::npos) << "blue";
+    EXPECT_NE(text.find(" 1 0.502 0\n"), std::string::npos) << "orange";
+  } else {
+    EXPECT_NE(text.find("property uchar blue"), std::string::npos);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Formats, ExportSurfacePly, testing::Values("ply"),
                          [](const auto& format) { return std::string(format.param); });
 
