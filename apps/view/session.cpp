@@ -233,11 +233,16 @@ std::shared_ptr<const Json> Session::wanted() {
   return wanted_;
 }
 
-void Session::change_scene(const Json& wanted_text) {
+bool Session::is_text_settled() const {
+  const std::lock_guard lock(mutex_);
+  return text_changes_ == 0;
+}
+
+void Session::change_scene(const Json& wanted_text, bool continues) {
   const std::shared_ptr<const Json> before = wanted();
   const Json patch = Json::diff(*before, wanted_text);
   if (patch.empty()) return;
-  undo_.push_back(before);
+  if (!continues || undo_.empty()) undo_.push_back(before);
   if (undo_.size() > kMostUndo) undo_.erase(undo_.begin());
   redo_.clear();
   wanted_ = std::make_shared<const Json>(wanted_text);

@@ -72,6 +72,8 @@ class Session {
   // Time ------------------------------------------------------------------------------------------------------------
   void run(bool on);
   bool runs() const { return runs_; }
+  /// Whether nothing runs and nothing waits.
+  bool is_idle() const { return thread_->is_paused(); }
   void step(std::int64_t count = 1);
   void go_back(std::int64_t steps);
   /// Simulated seconds a second, > 0; infinite: as fast as possible.
@@ -83,8 +85,11 @@ class Session {
   void act(Action action);
   /// The text of the scene with all changes that were asked for.
   std::shared_ptr<const Json> wanted();
-  /// Changes the scene so that its text becomes `wanted`; may be undone.
-  void change_scene(const Json& wanted);
+  /// Changes the scene so that its text becomes `wanted_text`; may be undone. `continues`: undone with the change
+  /// before.
+  void change_scene(const Json& wanted_text, bool continues = false);
+  /// Whether all changes that were asked for have taken effect.
+  bool is_text_settled() const;
   void undo();
   void redo();
   bool can_undo() const { return !undo_.empty(); }
@@ -96,6 +101,8 @@ class Session {
   std::shared_ptr<const ViewFrame> frame(const ColorRequest& color);
   /// The scene's text as it is now, with its colliders where a hand has led them.
   Json text_to_save();
+  /// A recent state; when the engine is idle, the present one.
+  std::shared_ptr<const Snapshot> snapshot() { return thread_->latest(); }
   Readings readings() const;
   std::shared_ptr<const Figures> figures() const;
   /// The scene as it is simulated now; changes are in it when they have taken effect.

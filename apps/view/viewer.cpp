@@ -229,15 +229,20 @@ Expected<void> Viewer::run() {
 
     follow_scene();
     upload(session_.frame(color_request()));
+    history_.add(session_.figures(), session_.readings());
     draw_gui();
     if (state_.rendering) draw_picture();
+    capture();
+    finish_film_still();
+    step_film();
     window_.draw_gui();
     window_.show();
     ++drawn_;
     status.write(status_now());
-    busy = session_.runs() || !events.empty() || drawn_ < 4 || session_.readings().version != shown;
+    busy = session_.runs() || film_ || !events.empty() || drawn_ < 4 || session_.readings().version != shown;
     shown = session_.readings().version;
   }
+  if (film_) end_film();
   return {};
 }
 

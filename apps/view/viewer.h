@@ -2,22 +2,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
-#include <deque>
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "collider_view.h"
+#include "history.h"
 #include "hooke/base/expected.h"
 #include "hooke/render/frame.h"
 #include "hooke/render/gl/live_renderer.h"
 #include "orbit_camera.h"
 #include "picking.h"
 #include "session.h"
+#include "stability_reading.h"
+#include "stills.h"
 #include "view_state.h"
 #include "window.h"
 
@@ -71,11 +75,35 @@ class Viewer {
   std::optional<Hit> hit_cloth(const Ray& ray) const;
   double ball_size(const Material& material) const;
 
+  // viewer_record.cpp: what is saved
+  std::string output_name() const;
+  void save_still();
+  void capture();
+  void toggle_film();
+  void step_film();
+  void end_film();
+  void save_film_still();
+  void finish_film_still();
+  void save_scene();
+  std::filesystem::path next_checkpoint() const;
+  void load_checkpoint(const std::filesystem::path& file);
+
+  // viewer_side_panel.cpp
+  void draw_side_panel();
+  void draw_time_controls();
+  void draw_stability();
+  void draw_tune();
+  void draw_see();
+  void draw_touch();
+  void draw_inspection();
+  void draw_save();
+
   // viewer_panels.cpp
   void draw_gui();
   void draw_numbers();
   void draw_message();
   void draw_legend();
+  void draw_plot_window();
   void draw_help();
 
   // viewer_status.cpp
@@ -113,6 +141,18 @@ class Viewer {
   std::string message_;
   Clock::time_point message_until_{};
   std::uint64_t random_ = 1;  // counts random choices
+
+  StabilityReading stability_;
+  std::uint64_t stability_version_ = 0;  // of the scene
+  std::shared_ptr<const Json> draft_;    // the text while a slider is dragged
+  bool draft_continues_ = false;         // its first value has been tried
+  History history_;
+  std::array<char, 512> checkpoint_name_{};
+
+  std::optional<std::filesystem::path> still_wanted_;
+  std::optional<WindowFilm> film_;
+  bool film_runs_ = false;
+  std::future<Expected<Image>> film_still_;
 };
 
 }  // namespace hooke::view

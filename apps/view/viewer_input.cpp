@@ -122,6 +122,9 @@ void Viewer::press(const InputEvent& event) {
     case GLFW_KEY_X:
       state_.clip = !state_.clip;
       break;
+    case GLFW_KEY_S:
+      (event.modifiers & GLFW_MOD_SHIFT) != 0 ? toggle_film() : save_still();
+      break;
     case GLFW_KEY_HOME:
       camera_->reset();
       break;
@@ -146,6 +149,9 @@ void Viewer::press(const InputEvent& event) {
 }
 
 void Viewer::press_with_control(const InputEvent& event) {
+  if (event.repeated) return;
+  if (event.code == GLFW_KEY_S) save_scene();
+  if (event.code == GLFW_KEY_E) session_.save_checkpoint(next_checkpoint());
   if (event.code == GLFW_KEY_Z && (event.modifiers & GLFW_MOD_SHIFT) == 0) session_.undo();
   if (event.code == GLFW_KEY_Y || (event.code == GLFW_KEY_Z && (event.modifiers & GLFW_MOD_SHIFT) != 0))
     session_.redo();

@@ -44,6 +44,8 @@ constexpr std::array kHelp = {
     HelpLine{"x  g  b", "clipping plane; ground; dark or light"},
     HelpLine{"h  t  n", "panel; plots; numbers"},
     HelpLine{"control z, control y", "undo and redo a change of the scene"},
+    HelpLine{"control s, control e", "save the scene as it is now; save a checkpoint"},
+    HelpLine{"s, shift s", "a still; a film, begin and end; beside it the scene that made it"},
     HelpLine{"delete", "pick nothing"},
     HelpLine{"F1 or ?", "this help"},
     HelpLine{"q, escape", "quit"},
@@ -70,6 +72,8 @@ void line(const std::string& text) { ImGui::TextUnformatted(text.c_str()); }
 void Viewer::draw_gui() {
   if (state_.numbers) draw_numbers();
   draw_legend();
+  if (state_.panel) draw_side_panel();
+  if (state_.plots) draw_plot_window();
   draw_message();
   if (state_.help) draw_help();
 }
@@ -153,6 +157,14 @@ void Viewer::draw_legend() {
   const std::string high = fmt::format("{:.4g}", state_.high[by]);
   ImGui::SameLine(width + ImGui::GetStyle().WindowPadding.x - ImGui::CalcTextSize(high.c_str()).x);
   line(high);
+  ImGui::End();
+}
+
+void Viewer::draw_plot_window() {
+  const float scale = window_.scale();
+  ImGui::SetNextWindowPos({10 * scale, 120 * scale}, ImGuiCond_Once);
+  ImGui::SetNextWindowSize({330 * scale, 420 * scale}, ImGuiCond_Once);
+  if (ImGui::Begin("Plots", &state_.plots, ImGuiWindowFlags_NoSavedSettings)) draw_plots(history_);
   ImGui::End();
 }
 
