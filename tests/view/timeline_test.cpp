@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "timeline.h"
+
+#include <gmock/gmock.h>
+
+#include "open_simulation.h"
+#include "view_scene.h"
+
+namespace hooke::test {
+namespace {
+
+using namespace view;
+
+class Timelines : public ViewTest {
+ protected:
+  void SetUp() override {
+    auto opened = cli::open_simulation(options().scene, options().device, {});
+    ASSERT_TRUE(opened) << opened.error().text();
+    Timeline::Settings settings;
+    settings.source = scene_source(options().scene, options().device);
+    settings.scene = Json::parse(opened->resolved);
+    simulation.emplace(std::move(opened->simulation));
+    timeline.emplace(std::move(settings), *simulation);
+  }
+  void advance(int steps) {
+    for (int i = 0; i < steps; ++i) ASSERT_TRUE(timeline->step(*simulation));
+  }
+  void act(const Action& action) {
+    const auto acted = timeline->act(*simulation, action);
+    ASSERT_TRUE(acted) << acted.error().text();
+  }
+
+  std::optional<Simulation> simulation;
+  std::optional<Timeline> timeline;
+};
+
+TEST_F(Timelines, LeadACollidersNoFasterThanParticlesCanFollow) {
+  act(HoldCollider{"ball", {0, 0, 0}});
+  act(Lead{{0, -0.5, 0}});
+  Vec3d last = simulation->collider_poses()[0].pivot;
+  for (int i = 0; i < 300; ++i) {
+    advance(1);
+    const ColliderPose& pose = simulation->collider_poses()[0];
+    EXPECT_LE(std::abs(pose.pivot.y - last.y), 0.1001 * 0.03) << "a tenth of the smallest radius";
+    last = pose.pivot;
+  }
+  EXPECT_NEAR(last.y, 0.4, 1e-6);
+  EXPECT_EQ(timeline->hand().held_collider(), "ball");
+  act(LetGo{});
+  advance(1);
+  EXPECT_EQ(simulation->collider_poses()[0].velocity, (Vec3d{0, 0, 0}));
+  EXPECT_NEAR(simulation->collider_poses()[0].pivot.y, 0.4, 1e-6) << "it stays where it is";
+}
+
+TEST_F(Timelines, PullParticlesToWhereTheyAreLed) {
+  const Vec3d before = simulation->find(1)->position;
+  act(HoldParticles{{1}});
+  act(Lead{{0, 1, 0}});
+  advance(600);
+  const Vec3d after = simulation->find(1)->position;
+  EXPECT_NEAR(after.y, before.y + 1, 0.01);
+  act(LetGo{});
+  advance(200);
+  EXPECT_LT(simulation->find(1)->position.y, before.y + 0.9) << "it falls again";
+}
+
+TEST_F(Timelines, CutSpringsForGood) {
+  ASSERT_TRUE(simulation->broken_springs().empty());
+  act(CutSprings{{3, 9}});
+  EXPECT_EQ(simulation->broken_springs(), (std::vector<std::uint64_t>{3, 9}));
+  advance(5);
+  act(CutSprings{{4}});
+  EXPECT_EQ(simulation->broken_springs(), (std::vector<std::uint64_t>{3, 4, 9}));
+  EXPECT_FALSE(timeline->act(*simulation, CutSprings{{4}})) << "there is none to cut";
+}
+
+TEST_F(Timelines, AddBallsOnlyWhereThereIsRoom) {
+  const std::uint64_t before = simulation->particle_count();
+  act(AddBall{"red", {1, 0.3, 1}, 0.4, {0, 0, 0}});  // half of it inside of the block
+  EXPECT_GT(simulation->particle_count(), before);
+  const auto figures = simulation->measure();
+  ASSERT_TRUE(figures);
+  EXPECT_LT(figures->max_pair_overlap_ratio, 1e-3);
+}
+
+TEST_F(Timelines, ScatterAllButWhatSpringsTie) {
+  const std::uint64_t before = simulation->particle_count();
+  const std::uint64_t tied = simulation->scene().structure->springs.a[0];
+  const Vec3d held = simulation->find(tied)->position, loose = simulation->find(1)->position;
+  act(Scatter{5});
+  EXPECT_EQ(simulation->particle_count(), before);
+  EXPECT_EQ(simulation->find(tied)->position, held);
+  EXPECT_NE(simulation->find(1)->position, loose);
+  advance(20);
+}
+
+TEST_F(Timelines, KnowWhenParticlesWereBorn) {
+  advance(10);
+  act(AddBall{"red", {1, 1.2, 0.4}, 0.1, {0, 0, 0}});
+  ASSERT_EQ(timeline->births().size(), 2u);
+  EXPECT_DOUBLE_EQ(timeline->births()[1].time, 0.01);
+  ASSERT_TRUE(timeline->go_back(*simulation, 5));
+  EXPECT_EQ(timeline->births().size(), 1u);
+}
+
+TEST(EffectsOfChanges, FollowFromWhereTheyAre) {
+  EXPECT_EQ(effect_of("/name"), Effect::nothing);
+  EXPECT_EQ(effect_of("/time/end"), Effect::nothing);
+  EXPECT_EQ(effect_of("/materials/water/radius"), Effect::at_once);
+  EXPECT_EQ(effect_of("/colliders/12/motion/velocity/0"), Effect::at_once);
+  EXPECT_EQ(effect_of("/colliders/12/shape/sphere/radius"), Effect::rebuild);
+  EXPECT_EQ(effect_of("/time/step"), Effect::rebuild);
+  EXPECT_EQ(effect_of("/gravity/1"), Effect::rebuild);
+  EXPECT_EQ(effect_of("/particles/0/block/spacing"), Effect::reset);
+}
+
+}  // namespace
+}  // namespace hooke::test
