@@ -221,10 +221,16 @@ void Session::apply_pace() {
   thread_->set_pace(std::isfinite(speed_) ? speed_ / dt : std::numeric_limits<double>::infinity());
 }
 
-void Session::act(Action action) {
+void Session::act(Action action, bool quiet) {
   const bool changes_text = std::holds_alternative<ChangeScene>(action) || std::holds_alternative<Reset>(action) ||
                             std::holds_alternative<LoadCheckpoint>(action);
-  post([this, action = std::move(action)](Simulation& s) { return timeline_->act(s, action); }, changes_text);
+  post(
+      [this, action = std::move(action), quiet](Simulation& s) -> Expected<void> {
+        auto done = timeline_->act(s, action);
+        if (!done && quiet) return {};
+        return done;
+      },
+      changes_text);
 }
 
 std::shared_ptr<const Json> Session::wanted() {

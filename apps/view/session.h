@@ -81,8 +81,8 @@ class Session {
   double speed() const { return speed_; }
 
   // Actions ---------------------------------------------------------------------------------------------------------
-  /// Queues an action; what it complains about comes with next_message().
-  void act(Action action);
+  /// Queues an action; what it complains about comes with next_message(), unless `quiet`.
+  void act(Action action, bool quiet = false);
   /// The text of the scene with all changes that were asked for.
   std::shared_ptr<const Json> wanted();
   /// Changes the scene so that its text becomes `wanted_text`; may be undone. `continues`: undone with the change

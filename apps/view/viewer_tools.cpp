@@ -183,7 +183,8 @@ void Viewer::pour() {
     const double high = component(scene_->domain.max, axis) - radius - material->radius;
     component(at, axis) = std::max(low, std::min(high, component(at, axis)));
   }
-  session_.act(AddBall{material->name, at, radius, {0, 0, 0}});
+  session_.act(AddBall{material->name, at, radius, {0, 0, 0}},
+               true);  // where the last ones still lie there is no room
 }
 
 }  // namespace hooke::view

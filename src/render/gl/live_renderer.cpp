@@ -30,7 +30,7 @@ struct SceneBlock {
   Vec4f eye, right, up, back, to_sun, sky_up, clip, picture, action, balls;
 };
 
-constexpr float kRelief = 0.11f;
+constexpr float kRelief = 0.16f;
 
 Vec4f with(const Vec3d& v, double w) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};

@@ -5,9 +5,14 @@ uniform sampler2D depths;
 
 out vec4 shaded;
 
-// How far before `depth` the surface at another pixel stands, in multiples of `unit`, as far as it darkens.
+// How far the surface at another pixel stands before `depth`, in multiples of `unit`, as far as it counts.
 float stands_before(vec2 at, float depth, float unit) {
-  return clamp((depth - eye.w / max(texture(depths, at).r, 1e-9)) / unit, 0.0, 2.0);
+  return clamp((depth - eye.w / max(texture(depths, at).r, 1e-9)) / unit, -2.0, 2.0);
+}
+
+// The same of both sides together: 0 on a plane, however it is inclined.
+float hollow(vec2 at, vec2 aside, float depth, float unit) {
+  return max(0.0, stands_before(at + aside, depth, unit) + stands_before(at - aside, depth, unit));
 }
 
 // The share of a pixel that lines take; a line lies at every whole number.
@@ -49,10 +54,8 @@ void main() {
     float depth = eye.w / kept;
     float unit = max(balls.x, 8.0 * depth / (up.w * picture.y));
     vec2 pixel = 1.0 / picture.xy;
-    dark += stands_before(at + pixel * vec2(2.0, 0.0), depth, unit) + stands_before(at - pixel * vec2(2.0, 0.0), depth, unit);
-    dark += stands_before(at + pixel * vec2(0.0, 2.0), depth, unit) + stands_before(at - pixel * vec2(0.0, 2.0), depth, unit);
-    dark += stands_before(at + pixel * vec2(5.0, 5.0), depth, unit) + stands_before(at - pixel * vec2(5.0, 5.0), depth, unit);
-    dark += stands_before(at + pixel * vec2(5.0, -5.0), depth, unit) + stands_before(at - pixel * vec2(5.0, -5.0), depth, unit);
+    dark += hollow(at, pixel * vec2(2.0, 0.0), depth, unit) + hollow(at, pixel * vec2(0.0, 2.0), depth, unit);
+    dark += hollow(at, pixel * vec2(5.0, 5.0), depth, unit) + hollow(at, pixel * vec2(5.0, -5.0), depth, unit);
   }
   shaded = vec4(surface.rgb * exp(-balls.y * dark), 1.0);
 }

@@ -25,6 +25,6 @@ vec4 clip_position(vec3 v, float depth) {
 
 vec3 lit(vec3 color, vec3 normal, float shine) {
   float sun = max(0.0, dot(normal, to_sun.xyz));
-  vec3 sky = mix(vec3(0.20, 0.19, 0.19), vec3(0.50, 0.56, 0.64), 0.5 + 0.5 * dot(normal, sky_up.xyz));
-  return color * (sky + 0.85 * sun) * to_sun.w + shine;
+  vec3 sky = mix(vec3(0.17, 0.16, 0.16), vec3(0.44, 0.49, 0.56), 0.5 + 0.5 * dot(normal, sky_up.xyz));
+  return color * (sky + 0.80 * sun) * to_sun.w + shine;
 }
