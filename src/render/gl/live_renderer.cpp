@@ -114,7 +114,7 @@ struct LiveRenderer::Impl {
   WholePicture whole;
   Target target;
   GLsizei particle_count = 0, line_ends = 0;
-  std::vector<std::pair<Vec3f, ShadedMesh::Sides>> looks;  // of the meshes
+  std::vector<std::pair<Vec3f, MeshBuffer::Faces>> looks;  // of the meshes
 
   Impl() {
     glBindVertexArray(point_array.get());
@@ -210,8 +210,10 @@ void LiveRenderer::set_meshes(std::span<const ShadedMesh> meshes) {
   impl_->looks.clear();
   for (const ShadedMesh& mesh : meshes) {
     const auto channel = [](std::uint8_t value) { return static_cast<float>(value) / 255; };
-    impl_->looks.push_back(
-        {{channel(mesh.color.red), channel(mesh.color.green), channel(mesh.color.blue)}, mesh.sides});
+    // What is within glass shows as what is within an open mesh does.
+    const bool open = mesh.sides == ShadedMesh::Sides::inner || mesh.is_glass();
+    impl_->looks.push_back({{channel(mesh.color.red), channel(mesh.color.green), channel(mesh.color.blue)},
+                            open ? MeshBuffer::Faces::away : MeshBuffer::Faces::all});
   }
 }
 
