@@ -65,7 +65,7 @@ install: build-all  ## install program, library, headers and scenes below PREFIX
 	cmake --install build --prefix $(PREFIX)
 
 clean:  ## remove every build folder
-	rm -rf build build-dev build-clang build-asan build-asan-everything build-asan-window build-tsan build-tsan-everything build-fuzz
+	rm -rf build build-dev build-clang build-asan build-asan-everything build-tsan build-tsan-everything build-fuzz
 
 setup:
 	@tools/setup.sh

@@ -24,13 +24,12 @@ case "${1:-}" in
     ;;
   sanitize)
     build_and_test asan
-    build_and_test asan-window
     build_and_test tsan
     ;;
   soak)
     build_and_test soak dev soak
     build_and_test asan-everything
-    build_and_test asan-window-soak asan-window asan-window
+    ctest --preset asan-soak
     build_and_test tsan-everything
     ;;
   *)
