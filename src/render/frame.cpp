@@ -124,6 +124,14 @@ void add_structure(const Scene& scene, const ParticleSet& particles, Frame& fram
 
 }  // namespace
 
+float typical_radius(const Frame& frame, SphereKind kind) {
+  const auto is_one = [kind](const Sphere& sphere) { return kind_of(sphere) == kind; };
+  const auto middle = frame.spheres.begin() + static_cast<std::ptrdiff_t>(frame.spheres.size() / 2);
+  auto found = std::find_if(middle, frame.spheres.end(), is_one);
+  if (found == frame.spheres.end()) found = std::find_if(frame.spheres.begin(), middle, is_one);
+  return found == frame.spheres.end() || !is_one(*found) ? 1.0f : found->radius;
+}
+
 Look make_look(const Scene& scene, const ParticleSet& first, ColorBy by,
                const std::optional<std::array<double, 2>>& range) {
   Look look{action_box(scene, first), default_scale(scene, first, by), 0};

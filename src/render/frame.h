@@ -66,6 +66,9 @@ struct Frame {
   std::optional<ColorScale> scale;  ///< of the legend; empty: no legend
 };
 
+/// The radius of a sphere in the middle of those of a kind, m; 1 m where there is none.
+float typical_radius(const Frame& frame, SphereKind kind);
+
 /// What stays the same for all pictures of a run.
 struct Look {
   Box3d action;             ///< where the scene's action takes place (action.h)

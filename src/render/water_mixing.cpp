@@ -51,51 +51,55 @@ Cells make_cells(const ParticleSet& particles, double radius) {
   return cells;
 }
 
-// Velocities are summed in whole units, since sums of whole numbers do not depend on their order.
-constexpr double kUnits = 1 << 20;  // in the fastest speed
-
-// Sums over the particles of a cell: their number, velocities and squared speeds.
+// Sums over the velocities of the particles of a cell and over their squares, in whole units, since sums of whole
+// numbers do not depend on their order.
 struct Sums {
-  std::int64_t count = 0, x = 0, y = 0, z = 0, square = 0;
+  std::int32_t x = 0, y = 0, z = 0, square = 0;
 
-  Sums& operator+=(const Sums& o) {
-    count += o.count;
-    x += o.x;
-    y += o.y;
-    z += o.z;
-    square += o.square;
-    return *this;
-  }
+  friend Sums operator+(const Sums& a, const Sums& b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.square + b.square}; }
 };
 
-void add_atomically(Sums& sums, const Vec3d& v) {
-  const auto add = [](std::int64_t& sum, double value) {
-    std::atomic_ref(sum).fetch_add(std::lround(value), std::memory_order_relaxed);
+void add_atomically(Sums& sums, const Vec3d& v, double units) {
+  const auto add = [units](std::int32_t& sum, double value) {
+    std::atomic_ref(sum).fetch_add(static_cast<std::int32_t>(std::lround(units * value)), std::memory_order_relaxed);
   };
-  add(sums.count, 1);
-  add(sums.x, kUnits * v.x);
-  add(sums.y, kUnits * v.y);
-  add(sums.z, kUnits * v.z);
-  add(sums.square, kUnits * dot(v, v));
+  add(sums.x, v.x);
+  add(sums.y, v.y);
+  add(sums.z, v.z);
+  add(sums.square, dot(v, v));
 }
 
-// Each cell becomes the sum of itself and its two neighbours along one axis.
-void add_neighbours(std::vector<Sums>& values, std::size_t count, std::size_t stride) {
-  const std::size_t lines = values.size() / count;
-  parallel_ranges(lines, 256, [&](std::size_t first, std::size_t last) {
-    for (std::size_t line = first; line < last; ++line) {
-      Sums* const start = values.data() + line / stride * stride * count + line % stride;
-      Sums before, own = start[0];
+// Each cell becomes the sum of itself and its two neighbours along one axis, `count` cells long; neighbours are
+// `stride` apart.
+template <class T>
+void add_neighbours(std::vector<T>& values, std::size_t count, std::size_t stride) {
+  constexpr std::size_t kAbreast = 128;  // lines at once, which lie side by side
+  const std::size_t pieces = (stride + kAbreast - 1) / kAbreast, planes = values.size() / (count * stride);
+  parallel_ranges(pieces * planes, 4, [&](std::size_t first, std::size_t last) {
+    std::vector<T> before(kAbreast), own(kAbreast);
+    for (std::size_t piece = first; piece < last; ++piece) {
+      const std::size_t from = piece % pieces * kAbreast, width = std::min(kAbreast, stride - from);
+      T* const start = values.data() + piece / pieces * count * stride + from;
+      std::fill_n(before.begin(), width, T{});
       for (std::size_t i = 0; i < count; ++i) {
-        const Sums after = i + 1 < count ? start[(i + 1) * stride] : Sums{};
-        start[i * stride] = before;
-        start[i * stride] += own;
-        start[i * stride] += after;
-        before = own;
-        own = after;
+        T* const row = start + i * stride;
+        std::copy_n(row, width, own.begin());
+        if (i + 1 < count) {
+          for (std::size_t k = 0; k < width; ++k) row[k] = before[k] + own[k] + row[k + stride];
+        } else {
+          for (std::size_t k = 0; k < width; ++k) row[k] = before[k] + own[k];
+        }
+        std::swap(before, own);
       }
     }
   });
+}
+
+template <class T>
+void add_all_neighbours(std::vector<T>& values, const Cells& cells) {
+  add_neighbours(values, cells.count[0], 1);
+  add_neighbours(values, cells.count[1], cells.count[0]);
+  add_neighbours(values, cells.count[2], cells.count[0] * cells.count[1]);
 }
 
 // Length inside the domain of `cell` and its two neighbours along `axis`, m: beyond a wall is no space to fill.
@@ -112,18 +116,25 @@ std::vector<WaterMixing> water_mixing(const Scene& scene, const ParticleSet& par
   std::vector<WaterMixing> mixing(particles.size());
   if (particles.empty()) return mixing;
   const Cells cells = make_cells(particles, radius);
+  std::vector<std::uint32_t> counts(cells.size());
+  parallel_ranges(particles.size(), 8192, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      std::atomic_ref(counts[cells.of(particles.position[i])]).fetch_add(1, std::memory_order_relaxed);
+    }
+  });
+  add_all_neighbours(counts, cells);
+  // Squares of up to 4 that no sum of the fullest cell overflows.
+  const double units = std::floor(2e9 / (4.0 * *std::max_element(counts.begin(), counts.end())));
   std::vector<Sums> sums(cells.size());
   parallel_ranges(particles.size(), 8192, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       Vec3d v = (1 / fastest) * particles.velocity[i];
       const double square = dot(v, v);
       if (square > 4) v = (2 / std::sqrt(square)) * v;
-      add_atomically(sums[cells.of(particles.position[i])], v);
+      add_atomically(sums[cells.of(particles.position[i])], v, units);
     }
   });
-  add_neighbours(sums, cells.count[0], 1);
-  add_neighbours(sums, cells.count[1], cells.count[0]);
-  add_neighbours(sums, cells.count[2], cells.count[0] * cells.count[1]);
+  add_all_neighbours(sums, cells);
 
   std::array<std::vector<double>, 3> rooms;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -137,9 +148,10 @@ std::vector<WaterMixing> water_mixing(const Scene& scene, const ParticleSet& par
       const Vec3d& x = particles.position[i];
       const double space =
           rooms[0][cells.along(x.x, 0)] * rooms[1][cells.along(x.y, 1)] * rooms[2][cells.along(x.z, 2)];
-      const Sums& around = sums[cells.of(x)];
-      const auto n = static_cast<double>(around.count);
-      const auto mean = [n](std::int64_t sum) { return static_cast<double>(sum) / (kUnits * n); };
+      const std::size_t cell = cells.of(x);
+      const Sums& around = sums[cell];
+      const double n = counts[cell];
+      const auto mean = [&](std::int32_t sum) { return sum / (units * n); };
       const Vec3d drift{mean(around.x), mean(around.y), mean(around.z)};
       const double variance = mean(around.square) - dot(drift, drift);
       mixing[i].filled = static_cast<float>(n * particle / space);

@@ -19,12 +19,12 @@
 #include "hooke/render/gl/gl_buffers.h"
 #include "hooke/render/gl/gl_objects.h"
 #include "hooke/render/gl/glass_layer.h"
+#include "hooke/render/gl/lighting.h"
 #include "hooke/render/gl/render_programs.h"
 #include "hooke/render/gl/render_targets.h"
 #include "hooke/render/gl/seen_spheres.h"
-#include "hooke/render/gl/sun.h"
+#include "hooke/render/gl/sun_maps.h"
 #include "hooke/render/gl/surface_passes.h"
-#include "hooke/render/gl/surroundings.h"
 #include "hooke/render/gl/tank_edges.h"
 #include "hooke/render/visible_spheres.h"
 #include "hooke/render/water_thickness.h"
@@ -40,6 +40,10 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 // Distance between the ground's lines, m: a power of ten, such that the action's diagonal is 3 to 30 steps long.
 float ground_step(const Frame& frame) { return std::pow(10.0f, std::floor(std::log10(action_size(frame) / 3))); }
+
+bool has_glass(const Frame& frame) {
+  return std::any_of(frame.meshes.begin(), frame.meshes.end(), [](const ShadedMesh& m) { return m.is_glass(); });
+}
 
 class GlRenderer final : public Renderer {
  public:
@@ -65,21 +69,19 @@ class GlRenderer final : public Renderer {
       }
     });
     const bool water = !eye_.indices(true).empty();
-    if (water) upload_thickness(water_thickness(frame.spheres, view));
+    if (water) targets_.upload_thickness(water_thickness(frame.spheres, view));
     figures_ = {eye_.count(), seconds_since(start), 0};
 
     meshes_.upload(frame.meshes);
     eye_.upload();
     sun_.upload();
-    draw_sun_maps(sun, frame);
+    draw_sun_maps(targets_, programs_, sun, sun_, water, meshes_, frame.meshes);
     const Projection pixels = project(frame.camera, settings_.width, settings_.height);
-    light_ = {&frame, sun, typical_radius(frame, eye_.indices(false).empty() ? SphereKind::water : SphereKind::ball),
-              water};
+    light_ = {&frame, sun, typical_radius(frame, main_kind()), water};
     draw_solids(view, pixels);
     draw_backdrop(pixels);
     if (water) draw_water(view, pixels);
-    const bool glass =
-        std::any_of(frame.meshes.begin(), frame.meshes.end(), [](const auto& m) { return m.is_glass(); });
+    const bool glass = has_glass(frame);
     if (glass) draw_glass(view);
     resolve(targets_.to_result, true, glass);
     draw_tank(targets_.to_result, frame, pixels);
@@ -95,52 +97,12 @@ class GlRenderer final : public Renderer {
   std::string device() const override { return context_.device(); }
 
  private:
-  // The radius of a sphere in the middle of those of a kind; 1 m where there is none.
-  static float typical_radius(const Frame& frame, SphereKind kind) {
-    const auto is_one = [kind](const Sphere& s) { return kind_of(s) == kind; };
-    const auto middle = frame.spheres.begin() + static_cast<std::ptrdiff_t>(frame.spheres.size() / 2);
-    auto found = std::find_if(middle, frame.spheres.end(), is_one);
-    if (found == frame.spheres.end()) found = std::find_if(frame.spheres.begin(), middle, is_one);
-    return found == frame.spheres.end() || !is_one(*found) ? 1.0f : found->radius;
-  }
-
-  void upload_thickness(const WaterThickness& thickness) {
-    glBindTexture(GL_TEXTURE_2D, targets_.thickness.get());
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_R32F, thickness.columns, thickness.rows, 0, GL_RED, GL_FLOAT,
-                 thickness.meters.data());
-  }
-
-  static void use_for_sun_map(const Program& program, const Sun& sun) {
-    program.use();
-    set_view(program, sun.projection);
-    program.set("clip_scale", sun.scale(), sun.scale());
-    program.set("parallel", 1);
-    program.set("range", sun.range);
-  }
-
-  // How far the sun's light gets past solids, and past water.
-  void draw_sun_maps(const Sun& sun, const Frame& frame) {
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LESS);
-    glClearDepth(1);
-    targets_.begin_sun_map(targets_.to_sun_map);
-    glClear(GL_DEPTH_BUFFER_BIT);
-    use_for_sun_map(programs_.sun, sun);
-    sun_.of(SphereKind::ball).draw();
-    sun_.of(SphereKind::skin).draw();
-    use_for_sun_map(programs_.mesh_sun, sun);
-    for (std::size_t k = 0; k < frame.meshes.size(); ++k) {
-      // A mesh that is cut open for the eye, or of glass, lets the light in.
-      const ShadedMesh& mesh = frame.meshes[k];
-      if (mesh.sides == ShadedMesh::Sides::both && !mesh.is_glass()) meshes_.draw(k, MeshBuffer::Faces::all);
+  // The kind of sphere whose size shades are made for.
+  SphereKind main_kind() const {
+    for (const SphereKind kind : {SphereKind::ball, SphereKind::skin, SphereKind::water}) {
+      if (eye_.has(kind)) return kind;
     }
-    if (eye_.has(SphereKind::water)) {
-      targets_.begin_sun_map(targets_.to_water_sun_map);
-      glClear(GL_DEPTH_BUFFER_BIT);
-      use_for_sun_map(programs_.sun, sun);
-      sun_.of(SphereKind::water).draw();
-    }
-    glDisable(GL_DEPTH_TEST);
+    return SphereKind::spark;
   }
 
   // The stencil tells what each sample shows, so that each kind is shaded by itself.
@@ -153,6 +115,7 @@ class GlRenderer final : public Renderer {
     program.set("parallel", 0);
     program.set("nearest", view.nearest);
     program.set("side", 1.0f);
+    program.set("trimmed", 0);
   }
 
   // Draws and shades all but water and glass.
@@ -160,13 +123,15 @@ class GlRenderer final : public Renderer {
     const Frame& frame = *light_.frame;
     const bool skin = eye_.has(SphereKind::skin);
     const bool matt = eye_.has(SphereKind::ball) || !frame.meshes.empty();
-    draw_surfaces(view, frame.meshes);
+    draw_surfaces(view, frame.meshes, false);
     const PixelRectangle box = frame.meshes.empty() ? bounds_on_picture(frame.spheres, eye_.indices(false), pixels)
                                                     : PixelRectangle{0, 0, settings_.width, settings_.height};
     const float skin_size = typical_radius(frame, SphereKind::skin);
     if (skin) {
+      surface_passes_.find_outline(pixels, box, skin_size);
+      draw_surfaces(view, frame.meshes, true);
       surface_passes_.smooth(frame, pixels, box, skin_size);
-      draw_smoothed(view, SphereKind::skin, GL_GEQUAL, 1);  // from now on it counts as solid
+      draw_smoothed(view, SphereKind::skin, GL_EQUAL, 1);  // from now on it counts as solid
     }
     surface_passes_.find_solids(frame, pixels, box, light_.sphere_size, matt && !skin);
     clear_shaded();
@@ -182,7 +147,8 @@ class GlRenderer final : public Renderer {
     if (eye_.has(SphereKind::spark)) shade(programs_.spark, kSpark, view);
   }
 
-  void draw_surfaces(const Projection& view, std::span<const ShadedMesh> meshes) {
+  // `trimmed`: without what sticks out of the outline of skins, once that is known.
+  void draw_surfaces(const Projection& view, std::span<const ShadedMesh> meshes, bool trimmed) {
     targets_.begin_samples(targets_.to_spheres);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);  // stored depth decreases with distance
@@ -206,29 +172,38 @@ class GlRenderer final : public Renderer {
       meshes_.draw(k, meshes[k].sides == ShadedMesh::Sides::inner ? MeshBuffer::Faces::away : MeshBuffer::Faces::all);
     }
     glStencilFunc(GL_ALWAYS, kSkin, 0xff);
-    draw_smoothed(view, SphereKind::skin, GL_GREATER, -1);
+    draw_smoothed(view, SphereKind::skin, GL_GREATER, -1, trimmed);
     glDisable(GL_STENCIL_TEST);
     glDisable(GL_DEPTH_TEST);
   }
 
   // Over what is drawn already. `side`: -1 where the surface passes are to smooth it.
-  void draw_smoothed(const Projection& view, SphereKind kind, GLenum passes, float side) {
+  void draw_smoothed(const Projection& view, SphereKind kind, GLenum passes, float side, bool trimmed = false) {
     if (!eye_.has(kind)) return;
     targets_.begin_samples(targets_.to_spheres);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(passes);
     use_for_surfaces(programs_.sphere, view);
     programs_.sphere.set("side", side);
+    if (trimmed) {
+      programs_.sphere.set("trimmed", 1);
+      programs_.sphere.read("outline", 0, targets_.outline);
+      programs_.sphere.read("surface", 1, targets_.surface[0]);
+      programs_.sphere.set("sample_picture", view.width, view.height);
+    }
     eye_.of(kind).draw();
     glDisable(GL_DEPTH_TEST);
   }
 
   void draw_water(const Projection& view, const Projection& pixels) {
     const Frame& frame = *light_.frame;
-    const bool glass =
-        std::any_of(frame.meshes.begin(), frame.meshes.end(), [](const auto& m) { return m.is_glass(); });
+    const bool glass = has_glass(frame);
     if (glass) draw_glass(view);
-    resolve(targets_.to_behind, false, glass);
+    if (glass || !frame.meshes.empty() || !eye_.indices(false).empty()) {
+      resolve(targets_.to_behind, false, glass);
+    } else {
+      targets_.copy(targets_.to_backdrop, targets_.to_behind);
+    }
     draw_tank(targets_.to_behind, frame, pixels);
     draw_smoothed(view, SphereKind::water, GL_GREATER, -1);
     const float water_size = typical_radius(frame, SphereKind::water);
@@ -237,30 +212,15 @@ class GlRenderer final : public Renderer {
   }
 
   void draw_glass(const Projection& view) {
-    set_light(programs_.glass, view);
+    light_.use(programs_.glass, view, targets_);
     use_for_surfaces(programs_.glass, view);
     programs_.glass.set("lead", light_.water ? 1.2f * typical_radius(*light_.frame, SphereKind::water) : 0.0f);
     glass_.draw(targets_, programs_.glass, meshes_, light_.frame->meshes, view.eye);
   }
 
-  // Sets the uniforms of light.glsl.
-  void set_light(const Program& program, const Projection& view) const {
-    const Frame& frame = *light_.frame;
-    const Sun& sun = light_.sun;
-    program.use();
-    set_picture(program, view);
-    set_view(program, view);
-    program.read("sun_map", 0, targets_.sun_map);
-    program.read("water_sun_map", 9, targets_.water_sun_map);
-    program.set("has_water", light_.water ? 1 : 0);
-    program.set("sphere_size", light_.sphere_size);
-    sun.set(program);
-    set_surroundings(program, frame);
-  }
-
   void draw_backdrop(const Projection& pixels) {
     targets_.begin_pixels(targets_.to_backdrop);
-    set_light(programs_.backdrop, pixels);
+    light_.use(programs_.backdrop, pixels, targets_);
     programs_.backdrop.set("across", vec_cast<float>(light_.frame->across));
     programs_.backdrop.set("along", vec_cast<float>(light_.frame->along));
     programs_.backdrop.set("line_step", light_.frame->ground_lines ? ground_step(*light_.frame) : 0.0f);
@@ -275,7 +235,7 @@ class GlRenderer final : public Renderer {
 
   // Shades the samples that show a kind.
   void shade(const Program& program, Stencil kind, const Projection& view) {
-    set_light(program, view);
+    light_.use(program, view, targets_);
     program.read("depths", 1, targets_.depth);
     program.read("colors", 2, targets_.color);
     program.read("normals", 3, targets_.normal);
@@ -291,7 +251,7 @@ class GlRenderer final : public Renderer {
   void shade_water(const Projection& pixels, float water_size) {
     const Program& program = programs_.water;
     targets_.begin_pixels(targets_.to_water);
-    set_light(program, pixels);
+    light_.use(program, pixels, targets_);
     program.read("depths", 1, targets_.depth);
     program.read("colors", 2, targets_.color);
     program.read("normals", 3, targets_.normal);
@@ -334,12 +294,7 @@ class GlRenderer final : public Renderer {
   EglContext context_;  // declared first, so it outlives the OpenGL objects
   RenderSettings settings_;
   RenderFigures figures_;
-  struct {
-    const Frame* frame = nullptr;
-    Sun sun;
-    float sphere_size = 1;  // radius of a typical ball, m
-    bool water = false;
-  } light_;  // of the picture that is drawn
+  Lighting light_;  // of the picture that is drawn
   RenderTargets targets_;
   RenderPrograms programs_;
   SeenSpheres eye_, sun_;

@@ -18,6 +18,7 @@ RenderPrograms::RenderPrograms() {
   mesh = Program(meshes_vert, meshes_frag);
   mesh_sun = Program(meshes_vert, meshes_sun_depth_frag);
   reduce = picture(reduce_frag);
+  outline = picture(outline_frag);
   smooth = picture(smooth_frag);
   water_normal = picture(view + water_normal_frag);
   ambient = picture(view + ambient_frag);

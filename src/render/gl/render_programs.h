@@ -11,8 +11,8 @@ namespace hooke {
 struct RenderPrograms {
   RenderPrograms();
 
-  gl::Program sun, mesh_sun, sphere, mesh, reduce, smooth, water_normal, ambient, blur, backdrop, ball, skin, water,
-      spark, glass, resolve, edge;
+  gl::Program sun, mesh_sun, sphere, mesh, reduce, outline, smooth, water_normal, ambient, blur, backdrop, ball, skin,
+      water, spark, glass, resolve, edge;
 };
 
 // Set uniforms of the program in use that several programs have in common.

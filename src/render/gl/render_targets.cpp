@@ -24,6 +24,7 @@ RenderTargets::RenderTargets(const RenderSettings& settings)
   for (gl::Texture& s : surface) s = gl::make_texture(width, height, GL_RG32F, GL_NEAREST);
   for (gl::Texture& a : ambient) a = gl::make_texture(half(width), half(height), GL_R8, GL_LINEAR);
   water_normal = gl::make_texture(width, height, GL_RGBA16F, GL_NEAREST);
+  outline = gl::make_texture(width, height, GL_R8, GL_LINEAR);
   thickness = gl::make_texture(1, 1, GL_R32F, GL_LINEAR);
   backdrop = gl::make_texture(width, height, GL_RGBA8, GL_NEAREST);
   behind = gl::make_texture(width, height, GL_RGBA8, GL_LINEAR);
@@ -40,6 +41,7 @@ RenderTargets::RenderTargets(const RenderSettings& settings)
   to_spheres = gl::make_framebuffer({&color, &normal, &depth}, &depth_stencil);
   to_surface[0] = gl::make_framebuffer({&surface[0]}, nullptr);
   to_surface[1] = gl::make_framebuffer({&surface[1]}, nullptr);
+  to_outline = gl::make_framebuffer({&outline}, nullptr);
   to_water_normal = gl::make_framebuffer({&water_normal}, nullptr);
   to_ambient = gl::make_framebuffer({&ambient[0]}, nullptr);
   to_blurred = gl::make_framebuffer({&ambient[1]}, nullptr);
@@ -49,6 +51,17 @@ RenderTargets::RenderTargets(const RenderSettings& settings)
   to_solids = gl::make_framebuffer({&solids}, nullptr);
   to_water = gl::make_framebuffer({&water}, nullptr);
   to_result = gl::make_framebuffer({&result}, nullptr);
+}
+
+void RenderTargets::copy(const gl::Framebuffer& from, const gl::Framebuffer& to) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, from.get());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, to.get());
+  glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void RenderTargets::upload_thickness(const WaterThickness& of_water) const {
+  glBindTexture(GL_TEXTURE_2D, thickness.get());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_R32F, of_water.columns, of_water.rows, 0, GL_RED, GL_FLOAT, of_water.meters.data());
 }
 
 Image RenderTargets::read_result() const {

@@ -6,6 +6,7 @@
 
 #include "hooke/render/gl/gl_objects.h"
 #include "hooke/render/renderer.h"
+#include "hooke/render/water_thickness.h"
 
 namespace hooke {
 
@@ -19,12 +20,12 @@ struct RenderTargets {
   // Several samples a pixel.
   gl::Texture color, normal, depth, depth_stencil, shaded;
   // One sample a pixel, except the sun's maps and the water's thickness.
-  gl::Texture sun_map, water_sun_map, water_normal, thickness, backdrop, behind, solids, water, result;
+  gl::Texture sun_map, water_sun_map, water_normal, outline, thickness, backdrop, behind, solids, water, result;
   std::array<gl::Texture, 2> surface;
   std::array<gl::Texture, 2> ambient;  ///< for every second pixel along each side
 
-  gl::Framebuffer to_sun_map, to_water_sun_map, to_spheres, to_water_normal, to_ambient, to_blurred, to_backdrop,
-      to_shaded, to_behind, to_solids, to_water, to_result;
+  gl::Framebuffer to_sun_map, to_water_sun_map, to_spheres, to_water_normal, to_outline, to_ambient, to_blurred,
+      to_backdrop, to_shaded, to_behind, to_solids, to_water, to_result;
   std::array<gl::Framebuffer, 2> to_surface;
 
   // Direct later drawing into `target`.
@@ -33,6 +34,10 @@ struct RenderTargets {
   void begin_ambient(const gl::Framebuffer& target) const { begin(target, half(width), half(height)); }
   void begin_sun_map(const gl::Framebuffer& target) const;
 
+  /// Copies one target of the picture's size into another.
+  void copy(const gl::Framebuffer& from, const gl::Framebuffer& to) const;
+  /// Puts the water's thickness into its texture.
+  void upload_thickness(const WaterThickness& of_water) const;
   /// The picture in `result`.
   Image read_result() const;
 

@@ -14,6 +14,7 @@ extern const char* const meshes_vert;
 extern const char* const meshes_frag;
 extern const char* const meshes_sun_depth_frag;
 extern const char* const reduce_frag;
+extern const char* const outline_frag;
 extern const char* const smooth_frag;
 extern const char* const view_glsl;
 extern const char* const water_normal_frag;

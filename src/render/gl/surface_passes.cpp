@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "hooke/render/gl/surface_passes.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "hooke/base/assert.h"
 #include "hooke/render/gl/sun.h"
 
@@ -12,6 +15,13 @@ namespace {
 void restrict_to(const PixelRectangle& box) {
   constexpr int kAround = 4;  // pixels; blur.frag reads that far around
   glScissor(box.x - kAround, box.y - kAround, box.width + 2 * kAround, box.height + 2 * kAround);
+}
+
+// Distance from the eye to the middle of the action less half its size, but at least a tenth of that, m.
+float nearest_action(const Frame& frame) {
+  const Vec3d to = frame.action.center() - frame.camera.eye;
+  const float distance = static_cast<float>(std::sqrt(dot(to, to))), half = 0.5f * action_size(frame);
+  return std::max(distance - half, 0.1f * half);
 }
 
 }  // namespace
@@ -30,6 +40,26 @@ void SurfacePasses::find_solids(const Frame& frame, const Projection& pixels, co
   glDisable(GL_SCISSOR_TEST);
 }
 
+void SurfacePasses::find_outline(const Projection& pixels, const PixelRectangle& box, float sphere_size) const {
+  glClearColor(0, 0, 0, 0);
+  for (const gl::Framebuffer* target : {&targets_.to_surface[0], &targets_.to_outline}) {
+    targets_.begin_pixels(*target);
+    glClear(GL_COLOR_BUFFER_BIT);
+  }
+  glEnable(GL_SCISSOR_TEST);
+  restrict_to(box);
+  reduce(targets_.to_surface[0]);
+  const gl::Program& program = programs_.outline;
+  targets_.begin_pixels(targets_.to_outline);
+  program.use();
+  program.read("surface", 0, targets_.surface[0]);
+  program.set("reach", 1.6f * sphere_size);
+  program.set("range", 10.0f * sphere_size);
+  program.set("scale", pixels.scale);
+  whole_.draw();
+  glDisable(GL_SCISSOR_TEST);
+}
+
 void SurfacePasses::smooth(const Frame& frame, const Projection& pixels, const PixelRectangle& box,
                            float sphere_size) const {
   HOOKE_ASSERT(sphere_size > 0, sphere_size);
@@ -42,7 +72,7 @@ void SurfacePasses::smooth(const Frame& frame, const Projection& pixels, const P
   glEnable(GL_SCISSOR_TEST);
   restrict_to(box);
   reduce(targets_.to_surface[0]);
-  smooth_depths(pixels, sphere_size);
+  smooth_depths(frame, pixels, sphere_size);
   find_normals(pixels, sphere_size);
   draw_ambient(frame, pixels, targets_.surface[0], box, sphere_size);
   glDisable(GL_SCISSOR_TEST);
@@ -66,16 +96,19 @@ void SurfacePasses::reduce(const gl::Framebuffer& target) const {
   whole_.draw();
 }
 
-void SurfacePasses::smooth_depths(const Projection& pixels, float sphere_size) const {
+void SurfacePasses::smooth_depths(const Frame& frame, const Projection& pixels, float sphere_size) const {
   const gl::Program& program = programs_.smooth;
   program.use();
   program.set("range", 4.5f * sphere_size);
   program.set("rim", 0.6f * sphere_size);
   program.set("scale", pixels.scale);
-  // Across and down; first a wide filter, whose steps between samples narrower ones then even out.
+  // Across and down; first a wide filter, whose steps between samples narrower ones then even out: the last one is of
+  // use only where the steps of the one before are wider than a pixel.
   constexpr float kReaches[] = {4.0f, 4.0f, 1.8f, 1.8f, 0.6f, 0.6f};
   constexpr int kTaps[] = {8, 8, 6, 6, 8, 8};
-  for (int pass = 0; pass < 6; ++pass) {
+  const float near_pixels = pixels.scale * sphere_size / nearest_action(frame);
+  const int passes = kReaches[2] * near_pixels > static_cast<float>(kTaps[2]) ? 6 : 4;
+  for (int pass = 0; pass < passes; ++pass) {
     const auto from = static_cast<std::size_t>(pass % 2);
     targets_.begin_pixels(targets_.to_surface[1 - from]);
     program.read("surface", 0, targets_.surface[from]);

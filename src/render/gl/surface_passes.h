@@ -21,6 +21,8 @@ class SurfacePasses {
         programs_(programs),
         samples_(samples) {}
 
+  /// Finds the outline of skins, from spheres that are to be smoothed; they then are to be drawn again, trimmed.
+  void find_outline(const Projection& pixels, const PixelRectangle& box, float sphere_size) const;
   /// Finds the smooth surface and its normals, and the ambient light there and on other surfaces.
   void smooth(const Frame& frame, const Projection& pixels, const PixelRectangle& box, float sphere_size) const;
   /// Finds the depths of what is not smoothed, and, where asked, its ambient light.
@@ -30,7 +32,7 @@ class SurfacePasses {
  private:
   void clear_ambient() const;
   void reduce(const gl::Framebuffer& target) const;
-  void smooth_depths(const Projection& pixels, float sphere_size) const;
+  void smooth_depths(const Frame& frame, const Projection& pixels, float sphere_size) const;
   void find_normals(const Projection& pixels, float sphere_size) const;
   void draw_ambient(const Frame& frame, const Projection& pixels, const gl::Texture& surface, const PixelRectangle& box,
                     float sphere_size) const;

@@ -84,7 +84,7 @@ float water_sunlight(vec3 point, float turn, int count) {
 
 // Water lets most of the sun's light through.
 float softened_sunlight(vec3 point, float turn, int count) {
-  return sunlight(point, turn, count) * mix(0.55, 1.0, water_sunlight(point, turn, count));
+  return sunlight(point, turn, count) * mix(0.55, 1.0, water_sunlight(point, turn, (count + 1) / 2));
 }
 
 // Distance from a ball's surface at which its sunlight is looked up, so that it does not shadow itself, m: some pixels

@@ -20,5 +20,5 @@ void main() {
   vec3 normal = normalize(view_normal * 2.0 - 1.0) * to_view;
   vec3 at = view_point(gl_FragCoord.xy, smooth_here ? smoothed : own);
   shaded = stored(solid_light(eye + at * to_view, normal, -normalize(at) * to_view, texelFetch(colors, sample_at, 0).rgb,
-                              sphere.w, texture(ambient, gl_FragCoord.xy / picture).x, off_surface() + 0.5 * skin_size));
+                              sphere.w, texture(ambient, gl_FragCoord.xy / picture).x, off_surface() + 2.0 * skin_size));
 }
