@@ -19,9 +19,11 @@ declare -A picture=(
   [fountain]="--time 6"
   [fracture]="--time 0.2"
   [galaxy]="--time 5.2"
+  [glass]="--time 6.3 --size 854x480"
   [hourglass]="--time 7"
   [jelly]="--time 0.8"
   [mixed]="--time 2.4"
+  [pillars]="--time 0.62 --size 960x540"
   [table-6.1]="--color-by height"
   [trampoline]="--time 0.6"
   [water]="--time 5.3"
@@ -45,8 +47,10 @@ for name in "${names[@]}"; do
   run=out/gallery/$name
   # shellcheck disable=SC2086  # options, word by word
   [[ -e $run/report.json ]] || $hooke run "scenes/$name.json" -o "$run" --overwrite ${run_options[$name]:-}
+  size="--size 1280x720"
+  [[ ${picture[$name]:-} == *--size* ]] && size=
   # shellcheck disable=SC2086
-  $hooke render "$run" -o "docs/images/$name.png" --size 1280x720 ${picture[$name]:-}
+  $hooke render "$run" -o "docs/images/$name.png" $size ${picture[$name]:-}
 done
 
 python3 - <<'PAGE'

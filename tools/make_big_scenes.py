@@ -5,7 +5,7 @@
 
 NAME-big.json is what NAME.json shows, in particles that are smaller by a factor f, so that there are f^3 times as many (in
 cloths f^2). Densities, elastic moduli, damping ratios and terminal velocities stay: masses fall by f^3,
-stiffnesses by f, dashpots by f^2, drag by f^3, and the time step by f. Of cloths the mass an area stays: masses fall by
+stiffnesses by f, dashpots by f^2, drag and the strength of cohesion by f^3, and the time step by f. Of cloths the mass an area stays: masses fall by
 f^2, dashpots by f, and stiffnesses stay. What there is one of stays as large as it is.
 """
 import json
@@ -22,9 +22,11 @@ SCENES = {
     "flag": (3, "55,000 particles"),
     "fountain": (2.5, "400,000 particles"),
     "fracture": (2, "320,000 particles"),
+    "glass": (2, "some 240,000 particles"),
     "hourglass": (4, "540,000 grains"),
     "jelly": (3.5, "400,000 particles"),
     "mixed": (3, "550,000 particles"),
+    "pillars": (2, "660,000 particles"),
     "trampoline": (3, "75,000 particles"),
     "water": (2, "4 million particles"),
     "wave-tank": (2.8, "520,000 particles"),
@@ -77,6 +79,7 @@ def make_finer(scene, f):
     woven = {cloth["material"] for cloth in scene.get("cloths", [])}
     of_grains = {"stiffness": 1, "shear": 2, "damping": 2}
     of_cloth = {"shear": 1, "damping": 1}
+    of_cohesion = {"range": 1, "strength": 3}
     # The mean of what a large ball and a small one have would be too much for the small one.
     contacts = scene.setdefault("contacts", [])
     entered = [set(contact["between"]) for contact in contacts]
@@ -86,6 +89,7 @@ def make_finer(scene, f):
                 contacts.append({"between": [large, name]} | mixed(materials[large], material))
     for contact in contacts:
         if not kept.issuperset(set(contact["between"]) - {"wall"}):
+            scale(contact.get("cohesion", {}), of_cohesion, f)
             scale(contact, of_cloth if woven.intersection(contact["between"]) else of_grains, f)
     if not contacts:
         del scene["contacts"]
@@ -96,6 +100,7 @@ def make_finer(scene, f):
         if name in woven:
             scale(material, {"radius": 1, "mass": 2, "drag": 2} | of_cloth, f)
         elif name not in kept:
+            scale(material.get("cohesion", {}), of_cohesion, f)
             scale(material, {"radius": 1, "mass": 3, "drag": 3} | of_grains, f)
     for collider in scene.get("colliders", []):
         if "mesh" in collider["shape"]:  # no finer than for the larger particles

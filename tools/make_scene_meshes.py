@@ -42,6 +42,21 @@ def hourglass():
     return turned([(0, 1.2)] + [(radius(h), h) for h in steps] + [(0, -1.2)], 64)
 
 
+def tumbler():
+    """A drinking glass 0.9 m high on 0, with walls 0.05 m thick and a round rim: from the inside of its floor over the rim
+    to its foot."""
+    thick, rim = 0.05, 0.875
+    def inner(height):
+        return 0.27 + 0.06 * height / 0.9
+    inside = [(0, 0.09), (0.2, 0.09), (0.25, 0.1), (inner(0.14), 0.14)]
+    inside += [(inner(h), h) for h in (0.3, 0.45, 0.6, 0.75, rim)]
+    middle = inner(rim) + thick / 2
+    over = [(middle - thick / 2 * math.cos(a), rim + thick / 2 * math.sin(a)) for a in
+            (math.pi * k / 6 for k in range(1, 6))]
+    outside = [(inner(h) + thick, h) for h in (rim, 0.75, 0.6, 0.45, 0.3, 0.14, 0.03)]
+    return turned(inside + over + outside + [(0.29, 0), (0, 0)], 96)
+
+
 def bumps(x, y, z):
     """Smooth bumps of several sizes, from -1 to 1 about."""
     total = 0
@@ -73,6 +88,7 @@ def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent / "scenes/meshes")
     folder.mkdir(parents=True, exist_ok=True)
     write_obj(folder / "hourglass.obj", "An hourglass", *hourglass())
+    write_obj(folder / "tumbler.obj", "A drinking glass", *tumbler())
     write_obj(folder / "rock.obj", "A boulder", *rock())
 
 
