@@ -63,6 +63,33 @@ Expected<void> change_at_once(Simulation& simulation, const Scene& changed, cons
   return hand.reapply(simulation);
 }
 
+// The spacing of a mesh's distance field may follow from the smallest radius.
+bool same_radii(const Json& a, const Json& b) {
+  if (a.at("materials").size() != b.at("materials").size()) return false;
+  for (const auto& [name, material] : a.at("materials").items()) {
+    if (!b.at("materials").contains(name)) return false;
+    if (material.value("radius", 0.0) != b.at("materials").at(name).value("radius", 0.0)) return false;
+  }
+  return true;
+}
+
+// Puts a small ball, far from everything, in place of each mesh of the list that is as in `before`; returns their
+// indices.
+std::vector<std::size_t> replace_same_meshes(const Json& before, Json& scene, const char* list, const Domain& domain) {
+  std::vector<std::size_t> replaced;
+  if (!before.contains(list) || !scene.contains(list)) return replaced;
+  const Json &old = before.at(list), here = Json(scene.at(list));
+  const Vec3d away = domain.max + 100 * (domain.max - domain.min);
+  for (std::size_t k = 0; k < std::min(old.size(), here.size()); ++k) {
+    const Json shape = here[k].value("shape", Json());
+    if (!shape.is_object() || !shape.contains("mesh") || shape != old[k].value("shape", Json())) continue;
+    const double radius = 0.01 * domain.length(0);
+    scene[list][k]["shape"] = {{"sphere", {{"center", {away.x, away.y, away.z}}, {"radius", radius}}}};
+    replaced.push_back(k);
+  }
+  return replaced;
+}
+
 }  // namespace
 
 Effect effect_of(std::string_view pointer) {
@@ -89,6 +116,20 @@ Expected<LoadedScene> SceneDocument::load(const Json& scene, bool with_particles
   return parse_scene(pretty(scene), source_.name, source_.folder, options);
 }
 
+Expected<LoadedScene> SceneDocument::load_rules(const Json& scene, const Scene& present) const {
+  Json light = scene;
+  std::vector<std::size_t> colliders, sinks;
+  if (same_radii(*scene_, scene)) {
+    colliders = replace_same_meshes(*scene_, light, "colliders", present.domain);
+    sinks = replace_same_meshes(*scene_, light, "sinks", present.domain);
+  }
+  auto loaded = load(light, false);
+  if (!loaded) return loaded;
+  for (const std::size_t k : colliders) loaded->scene.colliders[k].shape = present.colliders[k].shape;
+  for (const std::size_t k : sinks) loaded->scene.sinks[k].shape = present.sinks[k].shape;
+  return loaded;
+}
+
 Expected<void> SceneDocument::rebuild(Simulation& simulation, Scene scene, SimulationState state,
                                       const Hand& hand) const {
   auto backend = source_.make_backend(scene.precision);
@@ -109,7 +150,7 @@ Expected<void> SceneDocument::change(Simulation& simulation, const Json& patch, 
   } catch (const nlohmann::json::exception& thrown) {
     return bad_patch(thrown.what());
   }
-  auto loaded = load(next, false);
+  auto loaded = load_rules(next, simulation.scene());
   if (!loaded) return fail(std::move(loaded).error());
   Scene& changed = loaded->scene;
   if (material_names(changed) != material_names(simulation.scene())) {
@@ -144,7 +185,7 @@ Expected<void> SceneDocument::reset(Simulation& simulation) const {
 }
 
 Expected<void> SceneDocument::load_checkpoint(Simulation& simulation, const std::filesystem::path& file) const {
-  auto loaded = load(*scene_, false);
+  auto loaded = load_rules(*scene_, simulation.scene());
   if (!loaded) return fail(std::move(loaded).error());
   auto checkpoint = read_checkpoint(file);
   if (!checkpoint) return fail(std::move(checkpoint).error());
@@ -157,7 +198,7 @@ Expected<void> SceneDocument::load_checkpoint(Simulation& simulation, const std:
 
 Expected<void> SceneDocument::go_back(Simulation& simulation, SimulationState state, std::shared_ptr<const Json> text,
                                       const Hand& hand) {
-  auto loaded = load(*text, false);
+  auto loaded = load_rules(*text, simulation.scene());
   if (!loaded) return fail(std::move(loaded).error());
   if (auto rebuilt = rebuild(simulation, std::move(loaded->scene), std::move(state), hand); !rebuilt) return rebuilt;
   scene_ = std::move(text);

@@ -60,6 +60,9 @@ class SceneDocument {
 
  private:
   Expected<LoadedScene> load(const Json& scene, bool with_particles) const;
+  /// The rules of a text that differs little from the present one, of which `present` was made: its meshes are taken
+  /// from there, because their distance fields take seconds to make.
+  Expected<LoadedScene> load_rules(const Json& scene, const Scene& present) const;
   Expected<void> rebuild(Simulation& simulation, Scene scene, SimulationState state, const Hand& hand) const;
 
   SceneSource source_;

@@ -92,6 +92,9 @@ void Viewer::follow_scene() {
     if (state_.ball_material.empty() && radius > 0) state_.ball_material = scene_->materials[k].name;
   }
   if (ball_ == 0) ball_ = 0.01 * size_;
+  double mass = 0;
+  for (const std::uint16_t material : session_.first_particles().material) mass += scene_->materials[material].mass;
+  reference_force_ = std::max(0.01 * mass * std::sqrt(dot(scene_->gravity, scene_->gravity)), 1e-12);
   renderer_.set_materials(materials);
 }
 
@@ -156,8 +159,8 @@ std::vector<LiveVertex> Viewer::lines() const {
     const Vec3d force = -figures->now.colliders[k].force;
     const double strength = std::sqrt(dot(force, force));
     if (!(strength > 0)) continue;
-    // As long as a tenth of the scene at the weight of what lies on it; longer ones grow ever slower.
-    const double length = 0.1 * size_ * std::log1p(strength / std::max(1e-3 * figures->now.momentum_scale, 1e-12));
+    // Longer forces' arrows grow ever slower: they are compared with a hundredth of the weight of all particles.
+    const double length = 0.1 * size_ * std::log1p(strength / reference_force_);
     add(frame_->poses[k].pivot, frame_->poses[k].pivot + (std::min(length, 0.4 * size_) / strength) * force,
         {240, 150, 40});
   }
@@ -198,6 +201,17 @@ void Viewer::draw_picture() {
   renderer_.draw(live_view(), window_.width(), window_.height());
 }
 
+// The window rests where a replay has ended.
+void Viewer::follow_replay() {
+  const ReplayReport report = session_.readings().replay;
+  if (replays_ && !report.running) {
+    session_.run(false);
+    show_message(report.diverged ? "the replay has DIVERGED at step " + std::to_string(*report.diverged)
+                                 : "the replay has ended, with the same bits");
+  }
+  replays_ = report.running;
+}
+
 void Viewer::show_message(const std::string& text) {
   message_ = text;
   message_until_ = Clock::now() + kMessageTime;
@@ -226,6 +240,7 @@ Expected<void> Viewer::run() {
     camera_->follow(passed);
     if (const std::string message = session_.next_message(); !message.empty()) show_message(message);
     if (!session_.readings().failure.empty() && session_.runs()) session_.run(false);
+    follow_replay();
 
     follow_scene();
     upload(session_.frame(color_request()));

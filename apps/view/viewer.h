@@ -52,6 +52,7 @@ class Viewer {
   LiveView live_view() const;
   std::vector<LiveVertex> lines() const;
   void show_message(const std::string& text);
+  void follow_replay();
 
   // viewer_input.cpp: keys and the mouse
   void handle(const InputEvent& event);
@@ -105,6 +106,7 @@ class Viewer {
   void draw_legend();
   void draw_plot_window();
   void draw_help();
+  void draw_menu();
 
   // viewer_status.cpp
   Json status_now() const;
@@ -119,6 +121,7 @@ class Viewer {
   std::uint64_t scene_version_ = 0;
   std::vector<float> radii_;  // by material, as they are drawn
   double ball_ = 1;           // radius of a typical particle, m
+  double reference_force_ = 1;  // N, > 0
   ColliderView colliders_;
   Look look_;
   Vec3d up_{0, 1, 0};
@@ -131,7 +134,8 @@ class Viewer {
   std::vector<ShadedMesh> cloth_meshes_;
   std::uint64_t drawn_ = 0;
 
-  bool turning_ = false, panning_ = false, zooming_ = false, holding_ = false, pouring_ = false;
+  bool replays_ = false;
+  bool turning_ = false, panning_ = false, zooming_ = false, holding_ = false, pouring_ = false, menu_wanted_ = false;
   double pressed_x_ = 0, pressed_y_ = 0, mouse_x_ = 0.5, mouse_y_ = 0.5;
   double held_depth_ = 1;    // of what is held, m
   Vec3d held_shift_{0, 0, 0};

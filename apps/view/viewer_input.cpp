@@ -183,6 +183,10 @@ void Viewer::click(const InputEvent& event) {
   }
   pressed_x_ = event.x;
   pressed_y_ = event.y;
+  if (event.code == GLFW_MOUSE_BUTTON_RIGHT) {
+    menu_wanted_ = true;
+    return;
+  }
   if (left && !shift && !control && state_.mode == MouseMode::move && !panning_) return take_hold(event.x, event.y);
   if (left && state_.mode == MouseMode::cut) return cut(event.x, event.y);
   zooming_ = (left && (control || panning_)) || (middle && turning_);

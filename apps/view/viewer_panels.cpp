@@ -76,6 +76,32 @@ void Viewer::draw_gui() {
   if (state_.plots) draw_plot_window();
   draw_message();
   if (state_.help) draw_help();
+  draw_menu();
+}
+
+// What the right mouse button offers.
+void Viewer::draw_menu() {
+  if (menu_wanted_) ImGui::OpenPopup("menu");
+  menu_wanted_ = false;
+  if (!ImGui::BeginPopup("menu")) return;
+  if (ImGui::MenuItem("Start again", "1")) session_.act(Reset{});
+  if (ImGui::MenuItem("Random places", "2")) session_.act(Scatter{++random_});
+  if (ImGui::MenuItem("Drop a ball", "3")) drop_ball();
+  if (ImGui::MenuItem("Shoot a ball", "4")) shoot_ball(pressed_x_, pressed_y_);
+  ImGui::Separator();
+  if (ImGui::MenuItem("View", "v", state_.mode == MouseMode::view)) state_.mode = MouseMode::view;
+  if (ImGui::MenuItem("Move", "m", state_.mode == MouseMode::move)) state_.mode = MouseMode::move;
+  if (ImGui::MenuItem("Knife", "k", state_.mode == MouseMode::cut)) state_.mode = MouseMode::cut;
+  ImGui::Separator();
+  ImGui::MenuItem("Balls", "p", &state_.spheres);
+  ImGui::MenuItem("Drawing", "r", &state_.rendering);
+  ImGui::MenuItem("Panel", "h", &state_.panel);
+  ImGui::MenuItem("Help", "F1", &state_.help);
+  ImGui::Separator();
+  if (ImGui::MenuItem(session_.runs() ? "Pause" : "Run", "space")) session_.run(!session_.runs());
+  if (ImGui::MenuItem("One step", "enter")) session_.step();
+  if (ImGui::MenuItem("Quit", "q")) window_.close();
+  ImGui::EndPopup();
 }
 
 void Viewer::draw_numbers() {

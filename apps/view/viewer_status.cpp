@@ -36,6 +36,8 @@ Json Viewer::status_now() const {
   json["help"] = state_.help;
   json["eye"] = {camera.eye.x, camera.eye.y, camera.eye.z};
   json["target"] = {camera.target.x, camera.target.y, camera.target.z};
+  const Vec3d& gravity = scene_->gravity;
+  json["gravity"] = {gravity.x, gravity.y, gravity.z};
   json["held_collider"] = now.held_collider;
   json["held_particles"] = now.held_particles;
   json["picked"] = picked_ ? Json(*picked_) : Json(nullptr);

@@ -27,7 +27,7 @@ class Usage : public ProgramTest {
 TEST_F(Usage, WithoutArgumentsPrintsHelpAndFails) {
   const Outcome outcome = hooke({});
   EXPECT_EQ(outcome.status, 2);
-  for (const char* command : {"run", "check", "bench", "export", "info", "scenes", "schema"}) {
+  for (const char* command : {"run", "check", "bench", "export", "info", "scenes", "schema", "view"}) {
     EXPECT_THAT(outcome.out, HasSubstr(command));
   }
 }

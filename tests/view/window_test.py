@@ -193,6 +193,22 @@ class Tests:
                 return place
         raise AssertionError(f"no {value} near {near}")
 
+    def test_tune(self):
+        with self.window("scene.json", "--paused") as w:
+            step = w.status()["time_step"]
+            dragged = w.drag((1005, 246), (1045, 246))
+            w.wait(lambda s: s["gravity"][1] != -9.8, "another gravity")
+            w.key("ctrl+z")
+            w.wait(lambda s: s["gravity"] == [0, -9.8, 0], "the gravity of the start")
+            w.key("ctrl+y")
+            w.wait(lambda s: s["gravity"][1] != -9.8, "the other gravity again")
+            w.click((1215, 94))  # the safe step
+            w.wait(lambda s: s["time_step"] != step, "another time step")
+            assert dragged["failure"] == ""
+            w.click((640, 650), button=3)
+            w.key("Escape")
+            w.quit()
+
     # The window -----------------------------------------------------------------------------------------------------
 
     def test_sizes(self):
