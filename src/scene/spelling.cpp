@@ -54,7 +54,7 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
 }
 
 std::string quoted_list(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 20, kLongest = 60;  // names, bytes of each
+  constexpr std::size_t kMost = 24, kLongest = 60;  // names, bytes of each
   std::string list;
   for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) {
     list += (i ? ", \"" : "\"") + printable(names[i], kLongest) + '"';

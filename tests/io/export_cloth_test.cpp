@@ -49,8 +49,8 @@ TEST_F(ExportCloth, AsObj) {
     if (line[0] != '#') lines.push_back(line);
   }
   EXPECT_EQ(lines,
-            (std::vector<std::string>{"o surface", "v 0 0 1", "v 2 0 1", "v 2 2 1", "v 0 2 1", "vn 0 0 1", "vn 0 0 1",
-                                      "vn 0 0 1", "vn 0 0 1", "s 1", "f 1//1 2//2 3//3", "f 1//1 3//3 4//4"}));
+            (std::vector<std::string>{"v 0 0 1", "v 2 0 1", "v 2 2 1", "v 0 2 1", "vn 0 0 1", "vn 0 0 1", "vn 0 0 1",
+                                      "vn 0 0 1", "o surface", "s 1", "f 1//1 2//2 3//3", "f 1//1 3//3 4//4"}));
 }
 
 TEST_F(ExportCloth, AsPly) {

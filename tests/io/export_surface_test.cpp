@@ -162,6 +162,7 @@ TEST_P(ExportSurface, IsByMaterial) {
   scene.materials = {{"water", kRadius, 1, {}, 0, "#0000ff"}, {"oil", kRadius, 1, {}, 0, "#ff8000"}};
   ExportOptions options;
   options.content = ExportContent::surface;
+  options.surface = {1, 1.5, 0.1};
   options.scene = &scene;
   const auto file = folder_ / (std::string("two.") + GetParam());
   const auto files = export_run(run, std::vector<std::size_t>{0}, file, options);

@@ -25,7 +25,7 @@ TEST(Nearest, WordsIt) {
   EXPECT_EQ(did_you_mean("watr", {"water"}), "; did you mean \"water\"?");
   EXPECT_EQ(did_you_mean("gas", {"water"}), "");
   EXPECT_EQ(quoted_list({"a", "b"}), "\"a\", \"b\"");
-  EXPECT_EQ(quoted_list(std::vector<std::string>(22, "a")).substr(93), ", \"a\" and 2 more");
+  EXPECT_EQ(quoted_list(std::vector<std::string>(26, "a")).substr(113), ", \"a\" and 2 more");
 }
 
 }  // namespace
