@@ -48,6 +48,9 @@ float water_radius(float filled) {
   return 0.85f + 0.4f * smoothstep(0.02f, 0.15f, filled) + 0.3f * sheet;
 }
 
+// How much smaller foam is drawn than the water it comes from: froth is fine.
+constexpr float kFroth = 0.35f;
+
 // How far a particle of water is a drop of its own, from 0 to 1.
 float looseness(float filled) { return 1 - smoothstep(0.06f, 0.25f, filled); }
 
@@ -191,7 +194,7 @@ Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, 
         sphere.color = map_color((values[i] - look.scale.low) / (look.scale.high - look.scale.low));
       } else if (material.look == MaterialLook::water) {
         sphere.foam = foam_of(material, mixing[i], look.foam_speed);
-        sphere.radius *= water_radius(mixing[i].filled);
+        sphere.radius *= water_radius(mixing[i].filled) * (1 - kFroth * static_cast<float>(sphere.foam) / 255);
         sphere.roughness = static_cast<std::uint8_t>(std::lround(255 * looseness(mixing[i].filled)));
       }
     }

@@ -18,7 +18,7 @@ std::vector<Finding> default_warnings(const Scene& scene) {
   for (std::size_t i = 0; cloths && i < scene.fields.size(); ++i) {
     const auto* wind = std::get_if<Wind>(&scene.fields[i].law);
     if (wind == nullptr || wind->area_drag > 0) continue;
-    warnings.push_back({join_path(join_path("fields", i), "wind.area_drag"),
+    warnings.push_back({join_path(join_path(join_path("fields", i), "wind"), "area_drag"),
                         "is 0: the wind drags the particles of cloths along but does not press on their triangles; a "
                         "flag needs about 4 kg/(m^2 s)"});
   }

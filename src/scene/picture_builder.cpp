@@ -57,8 +57,8 @@ std::optional<std::size_t> collider_named(const std::string& name, const std::ve
   for (const Collider& c : colliders) names.push_back(c.name);
   const std::string hint = did_you_mean(name, names);
   findings.add("camera.follow.collider",
-               fmt::format("is \"{}\", which is no collider{}{}", printable(name, 60), hint,
-                           names.empty() ? "; the scene has none" : "; the scene has " + quoted_list(names)));
+               fmt::format("is \"{}\", which is no collider{}{} the scene has {}", printable(name, 60), hint,
+                           hint.empty() ? ";" : "", names.empty() ? "none" : quoted_list(names)));
   return {};
 }
 

@@ -73,10 +73,8 @@ TEST(ScenePictures, FollowACollider) {
   const auto loaded = load({collider, R"(camera.follow={"collider": "ball"})"});
   ASSERT_TRUE(loaded) << loaded.error().text();
   EXPECT_EQ(loaded->scene.camera.follow->collider, 0u);
-  EXPECT_EQ(
-      error_of({collider, R"(camera.follow={"collider": "bal"})"}),
-      "scene.json: camera.follow.collider: is \"bal\", which is no collider; did you mean \"ball\"?; the scene has "
-      "\"ball\"");
+  EXPECT_EQ(error_of({collider, R"(camera.follow={"collider": "bal"})"}),
+            "camera.follow.collider: is \"bal\", which is no collider; did you mean \"ball\"? the scene has \"ball\"");
 }
 
 TEST(ScenePictures, AreRefusedWhereTheyMakeNoSense) {

@@ -88,8 +88,10 @@ void main() {
   color = mix(color, mirrored, mirror(0.02, cosine));
   color += highlight(normal, to_eye) * sun * 0.5 * sun_color();
 
-  // Foam is matt, and as uneven as the particles that carry it.
-  vec3 grain = normalize(mix(normal, rough, 0.2));
-  vec3 white = kFoam * matte_light(grain, sun, mix(0.5, 1.0, sky_share));
-  shaded = stored(mix(color, white, 0.9 * foam));
+  // Foam is matt, as uneven as the particles that carry it, and lit from within; of a thin layer of it much is seen
+  // through.
+  vec3 grain = normalize(mix(normal, rough, 0.2) + 0.5 * up);
+  vec3 white = kFoam * matte_light(grain, sun, mix(0.6, 1.0, sky_share));
+  float layer = 1.0 - exp(-through / (2.5 * water_size));
+  shaded = stored(mix(color, white, 0.9 * foam * layer));
 }
