@@ -194,7 +194,7 @@ Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, 
         sphere.color = map_color((values[i] - look.scale.low) / (look.scale.high - look.scale.low));
       } else if (material.look == MaterialLook::water) {
         sphere.foam = foam_of(material, mixing[i], look.foam_speed);
-        sphere.radius *= water_radius(mixing[i].filled) * (1 - kFroth * static_cast<float>(sphere.foam) / 255);
+        sphere.radius *= water_radius(mixing[i].filled) * (1 - kFroth * static_cast<float>(sphere.foam - 1) / 254);
         sphere.roughness = static_cast<std::uint8_t>(std::lround(255 * looseness(mixing[i].filled)));
       }
     }
