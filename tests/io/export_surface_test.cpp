@@ -164,7 +164,6 @@ TEST_P(ExportSurface, IsByMaterial) {
   options.content = ExportContent::surface;
   options.surface = {1, 1.5, 0.1};
   options.scene = &scene;
-  options.surface = {1, 1.5, 0.1};
   const auto file = folder_ / (std::string("two.") + GetParam());
   const auto files = export_run(run, std::vector<std::size_t>{0}, file, options);
   ASSERT_TRUE(files) << files.error().text();
