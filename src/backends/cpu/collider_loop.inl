@@ -52,7 +52,7 @@ struct ColliderLoop {
         touched = true;
         const Vec3<P> w = face.velocity - own.v;
         add_where(here, force, contact_forces(overlap, face.normal, w, pair.law).total());
-        too_fast = too_fast | (here & (absolute(dot(w, face.normal)) > P(pass.rules.speed_limit)));
+        too_fast = too_fast | (here & (magnitude(dot(w, face.normal)) > P(pass.rules.speed_limit)));
       });
     }
     return touched;

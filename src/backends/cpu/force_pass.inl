@@ -181,8 +181,7 @@ struct ContactLoop {
       sums.contacts.add(contact_vectors(overlap, normal, w), met.law);
     }
     // NaN, where centres coincide, is not slow. Pairs that only cohesion joins are checked, too, and those that part.
-    const P approach = dot(w, normal);
-    sums.slow = sums.slow & (approach <= P(pass.rules.speed_limit)) & (approach >= P(-pass.rules.speed_limit));
+    sums.slow = sums.slow & (magnitude(dot(w, normal)) <= P(pass.rules.speed_limit));
   }
 
   // Loads a row's neighbours, after a prefetch of a later row's.

@@ -200,6 +200,14 @@ HOOKE_HD unsigned bits(const Mask<double>& m) { return static_cast<unsigned>((m.
 
 #endif
 
+/// The numbers without their signs.
+HOOKE_HD Pack<float> magnitude(const Pack<float>& a) {
+  return Pack<float>((FloatVector)((Int32Vector)a.v & 0x7fffffff));
+}
+HOOKE_HD Pack<double> magnitude(const Pack<double>& a) {
+  return Pack<double>((DoubleVector)((Int64Vector)a.v & 0x7fffffffffffffff));
+}
+
 /// The lanes whose bits are set; bits beyond the last lane don't count.
 template <class Real>
 HOOKE_HD Mask<Real> lanes_of(unsigned set) {
