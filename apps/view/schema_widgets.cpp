@@ -37,12 +37,6 @@ class Widgets {
     edit.scene[at] = std::move(value);
     edit_ = std::move(edit);
   }
-  void removed(const Json::json_pointer& at) {
-    SceneEdit edit{scene_, at.to_string(), true};
-    edit.scene[at.parent_pointer()].erase(at.back());
-    edit_ = std::move(edit);
-  }
-
   static std::string range_of(const Json& schema) {
     std::string text;
     if (schema.contains("exclusiveMinimum")) text += fmt::format("> {}", schema["exclusiveMinimum"].dump());
@@ -78,25 +72,37 @@ class Widgets {
     return unit.empty() ? key : key + ", " + unit;
   }
 
+  // In the order of the schema, whatever that of the scene is.
   void draw_members(const Json& schema, const Json& object, const Json::json_pointer& at) {
-    for (const auto& [key, value] : object.items()) {
-      const Json* part = schema_of_part(schema, object, key);
-      if (part == nullptr || key == "$schema" || key == "hooke") continue;
-      draw_value(chosen_branch(*part, value), value, key, at / key);
+    if (!schema.contains("properties")) {
+      for (const auto& [key, value] : object.items()) draw_member(schema, object, key, value, at);
+      return;
     }
-    // What the scene leaves out.
-    if (!schema.contains("properties")) return;
     for (const auto& [key, part] : schema["properties"].items()) {
-      if (object.contains(key) || key == "$schema" || !part.contains("type")) continue;
-      const std::string type = part["type"].is_string() ? part["type"].get<std::string>() : "";
-      if (type != "number" || at.empty()) continue;
-      ImGui::PushID(key.c_str());
-      if (ImGui::SmallButton("+")) changed(at / key, part.value("default", part.value("minimum", 0.0)), true);
-      ImGui::SameLine();
-      ImGui::TextDisabled("%s", label_of(key, part).c_str());
-      help(part, at / key);
-      ImGui::PopID();
+      if (object.contains(key)) {
+        draw_member(schema, object, key, object.at(key), at);
+      } else if (!at.empty()) {
+        draw_addition(part, key, at / key);
+      }
     }
+  }
+
+  void draw_member(const Json& schema, const Json& object, const std::string& key, const Json& value,
+                   const Json::json_pointer& at) {
+    const Json* part = schema_of_part(schema, object, key);
+    if (part == nullptr || key == "$schema" || key == "hooke") return;
+    draw_value(chosen_branch(*part, value), value, key, at / key);
+  }
+
+  // A number that the scene leaves out can be added.
+  void draw_addition(const Json& part, const std::string& key, const Json::json_pointer& at) {
+    if (!part.contains("type") || part["type"] != "number") return;
+    ImGui::PushID(key.c_str());
+    if (ImGui::SmallButton("+")) changed(at, part.value("default", part.value("minimum", 0.0)), true);
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s", label_of(key, part).c_str());
+    help(part, at);
+    ImGui::PopID();
   }
 
   void draw_value(const Json& schema, const Json& value, const std::string& key, const Json::json_pointer& at) {

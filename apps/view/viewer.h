@@ -135,7 +135,8 @@ class Viewer {
   std::uint64_t drawn_ = 0;
 
   bool replays_ = false;
-  bool turning_ = false, panning_ = false, zooming_ = false, holding_ = false, pouring_ = false, menu_wanted_ = false;
+  bool turning_ = false, panning_ = false, zooming_ = false, holding_ = false, pouring_ = false, menu_wanted_ = false,
+       close_menu_ = false;
   double pressed_x_ = 0, pressed_y_ = 0, mouse_x_ = 0.5, mouse_y_ = 0.5;
   double held_depth_ = 1;    // of what is held, m
   Vec3d held_shift_{0, 0, 0};

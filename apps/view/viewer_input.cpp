@@ -49,11 +49,13 @@ void Viewer::press(const InputEvent& event) {
   if (event.repeated) return;
   switch (event.code) {
     case GLFW_KEY_ESCAPE:
-      if (state_.help) {
+      if (ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel)) {
+        close_menu_ = true;
+      } else if (state_.help) {
         state_.help = false;
-        break;
+      } else {
+        window_.close();
       }
-      window_.close();
       break;
     case GLFW_KEY_Q:
       window_.close();

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "hooke/base/printable.h"
 #include "hooke/render/color_map.h"
@@ -83,7 +84,9 @@ void Viewer::draw_gui() {
 void Viewer::draw_menu() {
   if (menu_wanted_) ImGui::OpenPopup("menu");
   menu_wanted_ = false;
+  const bool closes = std::exchange(close_menu_, false);
   if (!ImGui::BeginPopup("menu")) return;
+  if (closes) ImGui::CloseCurrentPopup();
   if (ImGui::MenuItem("Start again", "1")) session_.act(Reset{});
   if (ImGui::MenuItem("Random places", "2")) session_.act(Scatter{++random_});
   if (ImGui::MenuItem("Drop a ball", "3")) drop_ball();

@@ -196,7 +196,7 @@ class Tests:
     def test_tune(self):
         with self.window("scene.json", "--paused") as w:
             step = w.status()["time_step"]
-            dragged = w.drag((1005, 246), (1045, 246))
+            dragged = w.drag((1005, 290), (1045, 290))
             w.wait(lambda s: s["gravity"][1] != -9.8, "another gravity")
             w.key("ctrl+z")
             w.wait(lambda s: s["gravity"] == [0, -9.8, 0], "the gravity of the start")
@@ -206,7 +206,7 @@ class Tests:
             w.wait(lambda s: s["time_step"] != step, "another time step")
             assert dragged["failure"] == ""
             w.click((640, 650), button=3)
-            w.key("Escape")
+            w.key("Escape")  # closes the menu alone
             w.quit()
 
     # The window -----------------------------------------------------------------------------------------------------
