@@ -58,8 +58,9 @@ void LiveCulling::find_seen(const gl::Buffer& particles, GLsizei count, const gl
   if (count > room_ || count < room_ / 4) {
     room_ = count + count / 4;
     glBindBuffer(GL_SHADER_STORAGE_BUFFER, seen_.get());
-    glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(room_) * static_cast<GLsizeiptr>(sizeof(LiveParticle)),
-                 nullptr, GL_STREAM_COPY);
+    glBufferData(GL_SHADER_STORAGE_BUFFER,
+                 static_cast<GLsizeiptr>(room_) * static_cast<GLsizeiptr>(sizeof(LiveParticle)), nullptr,
+                 GL_STREAM_COPY);
   }
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, particles.get());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, seen_.get());

@@ -6,14 +6,15 @@
 
 namespace hooke {
 
-/// Finds out on the device which particles of a live picture can be seen, so that only these are drawn: most are inside of
-/// a pile. Needs a current context of OpenGL 4.3, with the block of live_scene.glsl bound. Throws as gl::Program does.
+/// Finds out on the device which particles of a live picture can be seen, so that only these are drawn: most are inside
+/// of a pile. Needs a current context of OpenGL 4.3, with the block of live_scene.glsl bound. Throws as gl::Program
+/// does.
 class LiveCulling {
  public:
   LiveCulling();
 
-  /// Looks at `count` (> 0) particles in `particles`, for a picture of this size, pixels. Particles that are left out can't
-  /// be seen; those that are kept may still be hidden.
+  /// Looks at `count` (> 0) particles in `particles`, for a picture of this size, pixels. Particles that are left out
+  /// can't be seen; those that are kept may still be hidden.
   void find_seen(const gl::Buffer& particles, GLsizei count, const gl::Texture& materials, int width, int height);
   /// Draws a triangle for each particle that was found, an instance each, in the layout of LiveParticle at locations 0
   /// and 1.
