@@ -34,7 +34,10 @@ class ExportLammps : public testing::TestWithParam<Precision> {
                         "units si\natom_style sphere\nboundary " + boundary + "\n" + commands +
                             "\nwrite_dump all custom out.dump id type radius mass x y z vx vy vz "
                             "modify sort id format float %.17g\n");
-    samples::output_of(fmt::format("cd '{}' && lmp -in in.lammps -log none", folder_.path().string()));
+    // Open MPI makes a folder for each of its processes below one of the user's, which two that begin at the same
+    // moment can't both make.
+    samples::output_of(fmt::format("cd '{0}' && OMPI_MCA_orte_tmpdir_base='{0}' lmp -in in.lammps -log none",
+                                   folder_.path().string()));
     std::istringstream in(samples::read_file(folder_ / "out.dump"));
     Lammps lammps;
     std::string line;
