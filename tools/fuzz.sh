@@ -42,11 +42,11 @@ for name in "${names[@]}"; do
   for folder in "tests/fuzz/seeds/$name" "build-fuzz/seeds/$name"; do [[ -d $folder ]] && seeds+=("$folder"); done
   [[ $name == scene ]] && seeds+=(scenes)
   dictionary=()
-  for file in "tests/fuzz/dictionaries/$name.dict" "build-fuzz/$name.dict"; do
-    [[ -f $file ]] && dictionary+=("-dict=$file")
-  done
+  case $name in
+    scene | overrides) dictionary=(-dict=build-fuzz/scene.dict) ;;
+    *) [[ -f tests/fuzz/dictionaries/$name.dict ]] && dictionary=("-dict=tests/fuzz/dictionaries/$name.dict") ;;
+  esac
   echo "== $name"
-  # Errors of the HDF5 library, which is not instrumented, come as signals; its own checks of memory are not ours.
   if ! "$programs/fuzz_$name" "$corpus" "${seeds[@]}" "${dictionary[@]}" -max_total_time="${FUZZ_SECONDS:-60}" \
     -timeout=20 -rss_limit_mb=2048 -malloc_limit_mb=512 -max_len=16384 -print_final_stats=1 \
     -artifact_prefix="build-fuzz/failures/$name-" >"build-fuzz/$name.log" 2>&1; then
