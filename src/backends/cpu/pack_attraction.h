@@ -22,7 +22,8 @@ HOOKE_HD Pack<double> inverse_root(const Pack<double>& a) {
   return inverse_root_next(a, inverse_root_next(a, inverse_root_first(a)));
 }
 
-// An estimate of 1 / sqrt(a), good for 12 bits or more: the processor's, whose bits differ between manufacturers.
+// An estimate of 1 / sqrt(a), good for 12 bits or more: the processor's where it has one, whose bits differ between
+// manufacturers.
 #if defined(__AVX512F__)
 HOOKE_HD Pack<float> guess_inverse_root(const Pack<float>& a) { return Pack<float>(_mm512_rsqrt14_ps(a.v)); }
 HOOKE_HD Pack<double> guess_inverse_root(const Pack<double>& a) { return Pack<double>(_mm512_rsqrt14_pd(a.v)); }
