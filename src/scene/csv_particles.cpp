@@ -15,21 +15,21 @@ namespace hooke {
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Field>, 8> kNames{{{"x", Field::x},
-                                                                    {"y", Field::y},
-                                                                    {"z", Field::z},
-                                                                    {"vx", Field::vx},
-                                                                    {"vy", Field::vy},
-                                                                    {"vz", Field::vz},
-                                                                    {"id", Field::id},
-                                                                    {"material", Field::material}}};
+constexpr std::array<std::pair<std::string_view, Quantity>, 8> kNames{{{"x", Quantity::x},
+                                                                    {"y", Quantity::y},
+                                                                    {"z", Quantity::z},
+                                                                    {"vx", Quantity::vx},
+                                                                    {"vy", Quantity::vy},
+                                                                    {"vz", Quantity::vz},
+                                                                    {"id", Quantity::id},
+                                                                    {"material", Quantity::material}}};
 
 std::vector<Column> columns_of(const CsvFields& header) {
   std::vector<Column> columns;
   for (const std::string_view title : header.at) {
     const auto* known =
         std::find_if(kNames.begin(), kNames.end(), [title](const auto& entry) { return entry.first == title; });
-    columns.push_back({known == kNames.end() ? Field::unknown : known->second, std::string(title)});
+    columns.push_back({known == kNames.end() ? Quantity::unknown : known->second, std::string(title)});
   }
   return columns;
 }

@@ -22,9 +22,9 @@ namespace {
 constexpr std::uint64_t kSmallestRow = 10;  // "1 1 0 0 0\n", bytes
 
 // The file gives a sphere's diameter and density; they stand for its radius and mass.
-const Column kId{Field::id, "id"}, kType{Field::material, "type"}, kX{Field::x, "x"}, kY{Field::y, "y"},
-    kZ{Field::z, "z"}, kDiameter{Field::radius, "diameter"}, kDensity{Field::mass, "density"},
-    kOther{Field::passed_over, ""};
+const Column kId{Quantity::id, "id"}, kType{Quantity::material, "type"}, kX{Quantity::x, "x"}, kY{Quantity::y, "y"},
+    kZ{Quantity::z, "z"}, kDiameter{Quantity::radius, "diameter"}, kDensity{Quantity::mass, "density"},
+    kOther{Quantity::passed_over, ""};
 
 struct Style {
   std::string name;
@@ -193,9 +193,9 @@ class DataReader {
     Row row = rows_.blank();
     if (!rows_.read(values, row, in_.line_number())) return;
     if (style_ == "sphere") {
-      const double diameter = row[Field::radius];
-      row[Field::radius] = diameter / 2;
-      row[Field::mass] *= std::numbers::pi / 6 * diameter * diameter * diameter;
+      const double diameter = row[Quantity::radius];
+      row[Quantity::radius] = diameter / 2;
+      row[Quantity::mass] *= std::numbers::pi / 6 * diameter * diameter * diameter;
     }
     rows_.add(row, in_.line_number());
   }
@@ -207,11 +207,11 @@ class DataReader {
       return rows_.complain(line, fmt::format("has {} fields; a velocity is id vx vy vz", words_.size()));
     }
     Row row = rows_.blank();
-    bool good = rows_.read(Field::id, "id", words_[0], row, line);
-    good = rows_.read(Field::vx, "vx", words_[1], row, line) && good;
-    good = rows_.read(Field::vy, "vy", words_[2], row, line) && good;
-    good = rows_.read(Field::vz, "vz", words_[3], row, line) && good;
-    if (good) rows_.set_velocity(row.id, {row[Field::vx], row[Field::vy], row[Field::vz]}, line);
+    bool good = rows_.read(Quantity::id, "id", words_[0], row, line);
+    good = rows_.read(Quantity::vx, "vx", words_[1], row, line) && good;
+    good = rows_.read(Quantity::vy, "vy", words_[2], row, line) && good;
+    good = rows_.read(Quantity::vz, "vz", words_[3], row, line) && good;
+    if (good) rows_.set_velocity(row.id, {row[Quantity::vx], row[Quantity::vy], row[Quantity::vz]}, line);
   }
 
   static constexpr std::size_t kImageFlags = 3;  // columns that may follow: how often an atom went around

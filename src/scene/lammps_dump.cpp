@@ -31,32 +31,32 @@ struct Head {
 
 struct Title {
   std::string_view name;
-  Field field;
+  Quantity quantity;
   bool scaled = false;
 };
-// Where a file has several columns for a field, the first in this list is used.
+// Where a file has several columns for a quantity, the first in this list is used.
 constexpr Title kTitles[] = {
-    {"x", Field::x},
-    {"y", Field::y},
-    {"z", Field::z},
-    {"xu", Field::x},
-    {"yu", Field::y},
-    {"zu", Field::z},
-    {"xs", Field::x, true},
-    {"ys", Field::y, true},
-    {"zs", Field::z, true},
-    {"xsu", Field::x, true},
-    {"ysu", Field::y, true},
-    {"zsu", Field::z, true},
-    {"vx", Field::vx},
-    {"vy", Field::vy},
-    {"vz", Field::vz},
-    {"id", Field::id},
-    {"element", Field::material},
-    {"type", Field::material},
-    {"radius", Field::radius},
-    {"diameter", Field::radius},
-    {"mass", Field::mass},
+    {"x", Quantity::x},
+    {"y", Quantity::y},
+    {"z", Quantity::z},
+    {"xu", Quantity::x},
+    {"yu", Quantity::y},
+    {"zu", Quantity::z},
+    {"xs", Quantity::x, true},
+    {"ys", Quantity::y, true},
+    {"zs", Quantity::z, true},
+    {"xsu", Quantity::x, true},
+    {"ysu", Quantity::y, true},
+    {"zsu", Quantity::z, true},
+    {"vx", Quantity::vx},
+    {"vy", Quantity::vy},
+    {"vz", Quantity::vz},
+    {"id", Quantity::id},
+    {"element", Quantity::material},
+    {"type", Quantity::material},
+    {"radius", Quantity::radius},
+    {"diameter", Quantity::radius},
+    {"mass", Quantity::mass},
 };
 const Title* known_title(std::string_view name) {
   const auto* found =
@@ -150,22 +150,22 @@ std::optional<Head> read_head(FileScanner& in) {
   }
 }
 
-// Uses the best title of each field and skips the others.
+// Uses the best title of each quantity and skips the others.
 std::vector<Column> columns_of(const std::vector<std::string>& titles) {
-  std::array<const Title*, static_cast<std::size_t>(Field::passed_over)> best{};
+  std::array<const Title*, static_cast<std::size_t>(Quantity::passed_over)> best{};
   for (const std::string& title : titles) {
     const Title* known = known_title(title);
     if (known == nullptr) continue;
-    const Title*& of_field = best[static_cast<std::size_t>(known->field)];
-    if (of_field == nullptr || known < of_field) of_field = known;
+    const Title*& of_quantity = best[static_cast<std::size_t>(known->quantity)];
+    if (of_quantity == nullptr || known < of_field) of_field = known;
   }
   std::vector<Column> columns;
   for (const std::string& title : titles) {
     const Title* known = known_title(title);
-    const Field field = known == nullptr                                        ? Field::unknown
-                        : known == best[static_cast<std::size_t>(known->field)] ? known->field
-                                                                                : Field::passed_over;
-    columns.push_back({field, title});
+    const Quantity quantity = known == nullptr                                        ? Quantity::unknown
+                        : known == best[static_cast<std::size_t>(known->quantity)] ? known->quantity
+                                                                                : Quantity::passed_over;
+    columns.push_back({quantity, title});
   }
   return columns;
 }
@@ -179,8 +179,8 @@ struct Conversion {
   Conversion(const std::vector<Column>& columns, const Head& head, std::uint64_t line) {
     for (const Column& column : columns) {
       const Title* title = known_title(column.title);
-      if (title == nullptr || column.field == Field::passed_over) continue;
-      if (title->scaled) scaled[static_cast<std::size_t>(title->field)] = true;
+      if (title == nullptr || column.quantity == Quantity::passed_over) continue;
+      if (title->scaled) scaled[static_cast<std::size_t>(title->quantity)] = true;
       if (title->name == "diameter") diameter = true;
       if (!title->scaled || (head.box && !head.tilted)) continue;
       throw FileFault(line, fmt::format("has scaled positions (\"{}\"), {}", column.title,
@@ -192,15 +192,15 @@ struct Conversion {
   bool apply(const Head& head, ParticleRows& rows, Row& row, std::uint64_t line) const {
     bool good = true;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto field = static_cast<Field>(axis);
+      const auto quantity = static_cast<Quantity>(axis);
       const auto& [low, high] = head.bounds[axis];
       if (scaled[axis]) {
-        good = rows.read(field, kTitles[axis].name, low + row[field] * (high - low), row, line) && good;
+        good = rows.read(quantity, kTitles[axis].name, low + row[quantity] * (high - low), row, line) && good;
       }
       const bool periodic = head.box && head.box->periodic[axis] && !head.tilted;
-      if (periodic && low < high) row[field] = wrap_coordinate(row[field], low, high);
+      if (periodic && low < high) row[quantity] = wrap_coordinate(row[quantity], low, high);
     }
-    if (diameter) row[Field::radius] /= 2;
+    if (diameter) row[Quantity::radius] /= 2;
     return good;
   }
 };

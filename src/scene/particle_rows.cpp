@@ -75,25 +75,25 @@ void ParticleRows::give_up(const FileFault& fault) {
 bool ParticleRows::set_columns(std::vector<Column> columns, std::uint64_t place) {
   columns_ = std::move(columns);
   std::vector<std::string> titles;
-  std::array<std::size_t, static_cast<std::size_t>(Field::passed_over)> count{};
+  std::array<std::size_t, static_cast<std::size_t>(Quantity::passed_over)> count{};
   bool usable = true;
   for (const Column& column : columns_) {
     titles.push_back(printable(column.title, 40));
-    if (column.field == Field::unknown && (ignored_.empty() || ignored_.back() != titles.back())) {
+    if (column.quantity == Quantity::unknown && (ignored_.empty() || ignored_.back() != titles.back())) {
       ignored_.push_back(titles.back());
     }
-    if (column.field >= Field::passed_over) continue;
-    if (++count[static_cast<std::size_t>(column.field)] != 2) continue;
+    if (column.quantity >= Quantity::passed_over) continue;
+    if (++count[static_cast<std::size_t>(column.quantity)] != 2) continue;
     complain(place, fmt::format("has two columns \"{}\"", titles.back()));
     usable = false;
   }
-  const auto has = [&count](Field field) { return count[static_cast<std::size_t>(field)] > 0; };
-  usable = has_axes({has(Field::x), has(Field::y), has(Field::z)}, titles, place) && usable;
-  if (usable && !has(Field::material) && !rules_.material) {
+  const auto has = [&count](Quantity quantity) { return count[static_cast<std::size_t>(quantity)] > 0; };
+  usable = has_axes({has(Quantity::x), has(Quantity::y), has(Quantity::z)}, titles, place) && usable;
+  if (usable && !has(Quantity::material) && !rules_.material) {
     complain(place, "has no column \"material\", and the scene's entry names no material either");
     usable = false;
   }
-  has_id_ = has(Field::id);
+  has_id_ = has(Quantity::id);
   return usable;
 }
 
@@ -121,29 +121,29 @@ bool ParticleRows::expect(std::uint64_t count, std::uint64_t most) {
   return true;
 }
 
-bool ParticleRows::read(Field field, std::string_view title, std::string_view text, Row& row, std::uint64_t place) {
-  if (field < Field::id) {
-    if (read_number(text, row[field])) return true;
+bool ParticleRows::read(Quantity quantity, std::string_view title, std::string_view text, Row& row, std::uint64_t place) {
+  if (quantity < Quantity::id) {
+    if (read_number(text, row[quantity])) return true;
     complain(place, fmt::format("{} is \"{}\"; must be a finite number", printable(title, 40), printable(text, 40)));
     return false;
   }
-  if (field == Field::id) {
+  if (quantity == Quantity::id) {
     if (read_count(text, row.id) && row.id < kIdLimit) return true;
     complain(place,
              fmt::format("id is \"{}\"; must be a whole number from 0 to {}", printable(text, 40), kIdLimit - 1));
     return false;
   }
-  return field != Field::material || read_material(text, row.material, place);
+  return quantity != Quantity::material || read_material(text, row.material, place);
 }
 
-bool ParticleRows::read(Field field, std::string_view title, double value, Row& row, std::uint64_t place) {
-  if (field < Field::id) {
-    row[field] = value;
+bool ParticleRows::read(Quantity quantity, std::string_view title, double value, Row& row, std::uint64_t place) {
+  if (quantity < Quantity::id) {
+    row[quantity] = value;
     if (std::isfinite(value)) return true;
     complain(place, fmt::format("{} is {}; must be a finite number", printable(title, 40), value));
     return false;
   }
-  if (field >= Field::passed_over) return true;
+  if (quantity >= Quantity::passed_over) return true;
   // Above 2^53 a double can't represent every whole number.
   constexpr double kMost = 9007199254740992;
   if (!(value >= 0 && value <= kMost && value == std::floor(value))) {
@@ -152,7 +152,7 @@ bool ParticleRows::read(Field field, std::string_view title, double value, Row& 
     return false;
   }
   const auto whole = static_cast<std::uint64_t>(value);
-  if (field == Field::material) return read_material(fmt::format_int(whole).c_str(), row.material, place);
+  if (quantity == Quantity::material) return read_material(fmt::format_int(whole).c_str(), row.material, place);
   row.id = whole;
   return true;
 }
@@ -164,8 +164,8 @@ bool ParticleRows::read(std::span<const std::string_view> texts, Row& row, std::
   }
   bool good = true;
   for (std::size_t i = 0; i < texts.size(); ++i) {
-    const Field field = columns_[i].field;
-    if (field < Field::passed_over) good = read(field, columns_[i].title, texts[i], row, place) && good;
+    const Quantity quantity = columns_[i].quantity;
+    if (quantity < Quantity::passed_over) good = read(quantity, columns_[i].title, texts[i], row, place) && good;
   }
   return good;
 }

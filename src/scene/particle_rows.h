@@ -19,7 +19,7 @@
 namespace hooke {
 
 /// What a column of a particle file holds. SI units.
-enum class Field : std::uint8_t {
+enum class Quantity : std::uint8_t {
   x,
   y,
   z,
@@ -33,10 +33,10 @@ enum class Field : std::uint8_t {
   passed_over,  ///< known but not used
   unknown,
 };
-inline constexpr std::size_t kNumbers = 8;  ///< number of numeric fields: all those before Field::id
+inline constexpr std::size_t kNumbers = 8;  ///< number of quantities that are numbers: those before Quantity::id
 
 struct Column {
-  Field field;
+  Quantity quantity;
   std::string title;  ///< the file's name for it
 };
 
@@ -54,10 +54,10 @@ struct Row {
   std::uint64_t id;
   std::uint16_t material;
 
-  /// The value of a numeric field.
-  double& operator[](Field field) {
-    HOOKE_ASSERT(field < Field::id, field);
-    return number[static_cast<std::size_t>(field)];
+  /// The value of a number.
+  double& operator[](Quantity quantity) {
+    HOOKE_ASSERT(quantity < Quantity::id, quantity);
+    return number[static_cast<std::size_t>(quantity)];
   }
 };
 
@@ -91,8 +91,8 @@ class ParticleRows {
   /// A row with no values read yet.
   Row blank() const { return blank_; }
   /// Reads one value into `row`. False, with a finding, where the value is not valid.
-  bool read(Field field, std::string_view title, std::string_view text, Row& row, std::uint64_t place);
-  bool read(Field field, std::string_view title, double value, Row& row, std::uint64_t place);
+  bool read(Quantity quantity, std::string_view title, std::string_view text, Row& row, std::uint64_t place);
+  bool read(Quantity quantity, std::string_view title, double value, Row& row, std::uint64_t place);
   /// Reads a row of one text per column. False, with findings, where a value is not valid.
   bool read(std::span<const std::string_view> texts, Row& row, std::uint64_t place);
   /// Adds a row whose columns have all been read.

@@ -19,47 +19,47 @@ namespace {
 
 struct PropertyName {
   std::string_view name;
-  Field field;
+  Quantity quantity;
 };
 constexpr PropertyName kNames[] = {
-    {"x", Field::x},
-    {"y", Field::y},
-    {"z", Field::z},
-    {"vx", Field::vx},
-    {"vy", Field::vy},
-    {"vz", Field::vz},
-    {"velocity", Field::vx},  // a list of three
-    {"velocity_x", Field::vx},
-    {"velocity_y", Field::vy},
-    {"velocity_z", Field::vz},
-    {"radius", Field::radius},
-    {"pscale", Field::radius},
-    {"mass", Field::mass},
-    {"id", Field::id},
-    {"material", Field::material},
-    {"red", Field::passed_over},
-    {"green", Field::passed_over},
-    {"blue", Field::passed_over},
-    {"alpha", Field::passed_over},
+    {"x", Quantity::x},
+    {"y", Quantity::y},
+    {"z", Quantity::z},
+    {"vx", Quantity::vx},
+    {"vy", Quantity::vy},
+    {"vz", Quantity::vz},
+    {"velocity", Quantity::vx},  // a list of three
+    {"velocity_x", Quantity::vx},
+    {"velocity_y", Quantity::vy},
+    {"velocity_z", Quantity::vz},
+    {"radius", Quantity::radius},
+    {"pscale", Quantity::radius},
+    {"mass", Quantity::mass},
+    {"id", Quantity::id},
+    {"material", Quantity::material},
+    {"red", Quantity::passed_over},
+    {"green", Quantity::passed_over},
+    {"blue", Quantity::passed_over},
+    {"alpha", Quantity::passed_over},
 };
 
 struct Property {
   PlyProperty ply;
-  Field field = Field::unknown;
+  Quantity quantity = Quantity::unknown;
   bool id_high = false;
 };
 
 Property meaning_of(PlyProperty ply) {
-  Property property{std::move(ply), Field::unknown, false};
+  Property property{std::move(ply), Quantity::unknown, false};
   const auto* known = std::find_if(std::begin(kNames), std::end(kNames),
                                    [&property](const PropertyName& n) { return n.name == property.ply.name; });
   // The velocity is the only list that is used.
   if (known != std::end(kNames) && property.ply.count.has_value() == (property.ply.name == "velocity")) {
-    property.field = known->field;
+    property.quantity = known->quantity;
   }
   if (property.ply.name == "id_high" && !property.ply.count) {
     property.id_high = true;
-    property.field = Field::passed_over;
+    property.quantity = Quantity::passed_over;
   }
   return property;
 }
@@ -108,9 +108,9 @@ bool read_vertex(const Properties& vertex, Values& values, ParticleRows& rows, R
       const auto written = values.next(*p.ply.count);
       if (!written) return missing();
       const auto read = whole(*written);
-      if (!read || (p.field == Field::vx && *read != 3)) {
+      if (!read || (p.quantity == Quantity::vx && *read != 3)) {
         rows.complain(place, fmt::format("has a list {} of length {}; must be {}", printable(name, 40), *written,
-                                         p.field == Field::vx ? "3" : "a whole number"));
+                                         p.quantity == Quantity::vx ? "3" : "a whole number"));
         if (!read) throw FileFault(place, "can't be read on from there");
         good = false;
       }
@@ -121,11 +121,11 @@ bool read_vertex(const Properties& vertex, Values& values, ParticleRows& rows, R
       if (!value) return missing();
       if (p.id_high) {
         Row upper = rows.blank();
-        good = rows.read(Field::id, name, *value, upper, place) && good;
+        good = rows.read(Quantity::id, name, *value, upper, place) && good;
         id_high = upper.id;
-      } else if (p.field < Field::passed_over && i < 3) {
-        const auto field = static_cast<Field>(static_cast<std::uint64_t>(p.field) + i);
-        good = rows.read(field, name, *value, row, place) && good;
+      } else if (p.quantity < Quantity::passed_over && i < 3) {
+        const auto quantity = static_cast<Quantity>(static_cast<std::uint64_t>(p.quantity) + i);
+        good = rows.read(quantity, name, *value, row, place) && good;
       }
     }
   }
@@ -146,8 +146,8 @@ std::vector<Column> columns_of(const Properties& vertex) {
   std::vector<Column> columns;
   for (const Property& p : vertex) {
     const std::string& name = p.ply.name;
-    columns.push_back({p.field, name});
-    if (p.ply.count && p.field == Field::vx) columns.insert(columns.end(), {{Field::vy, name}, {Field::vz, name}});
+    columns.push_back({p.quantity, name});
+    if (p.ply.count && p.quantity == Quantity::vx) columns.insert(columns.end(), {{Quantity::vy, name}, {Quantity::vz, name}});
   }
   return columns;
 }

@@ -22,20 +22,20 @@ constexpr std::uint64_t kMostColumns = 4096;
 struct Property {
   std::string_view name;
   std::size_t width;
-  Field first;
+  Quantity first;
 };
 constexpr Property kProperties[] = {
-    {"pos", 3, Field::x},
-    {"velo", 3, Field::vx},
-    {"vel", 3, Field::vx},
-    {"velocity", 3, Field::vx},
-    {"velocities", 3, Field::vx},
-    {"id", 1, Field::id},
-    {"species", 1, Field::material},
-    {"type", 1, Field::material},
-    {"material", 1, Field::material},
-    {"radius", 1, Field::radius},
-    {"mass", 1, Field::mass},
+    {"pos", 3, Quantity::x},
+    {"velo", 3, Quantity::vx},
+    {"vel", 3, Quantity::vx},
+    {"velocity", 3, Quantity::vx},
+    {"velocities", 3, Quantity::vx},
+    {"id", 1, Quantity::id},
+    {"species", 1, Quantity::material},
+    {"type", 1, Quantity::material},
+    {"material", 1, Quantity::material},
+    {"radius", 1, Quantity::radius},
+    {"mass", 1, Quantity::mass},
 };
 
 // The value of a key in "key=value key="with blanks" ...", or empty.
@@ -87,17 +87,17 @@ std::vector<Column> columns_of(std::string_view properties, std::uint64_t line) 
     const auto* known = std::find_if(std::begin(kProperties), std::end(kProperties),
                                      [&](const Property& p) { return p.name == name && p.width == width; });
     for (std::size_t i = 0; i < width; ++i) {
-      const Field field = known == std::end(kProperties)
-                              ? Field::unknown
-                              : static_cast<Field>(static_cast<std::size_t>(known->first) + i);
-      columns.push_back({field, std::string(name)});
+      const Quantity quantity = known == std::end(kProperties)
+                              ? Quantity::unknown
+                              : static_cast<Quantity>(static_cast<std::size_t>(known->first) + i);
+      columns.push_back({quantity, std::string(name)});
     }
   }
   // A species is a name, which is clearer than the number of a type.
   const auto has_species = std::any_of(columns.begin(), columns.end(),
-                                       [](const Column& c) { return c.field == Field::material && c.title != "type"; });
+                                       [](const Column& c) { return c.quantity == Quantity::material && c.title != "type"; });
   for (Column& c : columns) {
-    if (has_species && c.title == "type") c.field = Field::passed_over;
+    if (has_species && c.title == "type") c.quantity = Quantity::passed_over;
   }
   return columns;
 }
@@ -124,9 +124,9 @@ std::optional<FileBox> box_of(std::string_view comment, std::uint64_t line) {
 
 // Species, position, and any further columns of the first row.
 std::vector<Column> plain_columns(std::size_t width) {
-  std::vector<Column> columns{{Field::material, "species"}, {Field::x, "x"}, {Field::y, "y"}, {Field::z, "z"}};
+  std::vector<Column> columns{{Quantity::material, "species"}, {Quantity::x, "x"}, {Quantity::y, "y"}, {Quantity::z, "z"}};
   for (std::size_t i = columns.size(); i < std::min<std::size_t>(width, kMostColumns); ++i) {
-    columns.push_back({Field::unknown, fmt::format("{}", i + 1)});
+    columns.push_back({Quantity::unknown, fmt::format("{}", i + 1)});
   }
   return columns;
 }

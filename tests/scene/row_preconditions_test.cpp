@@ -26,8 +26,8 @@ TEST(ScenePreconditions, RowsAreOfTheScenesMaterials) {
   Row row = rows.blank();
   row.material = 4;
   EXPECT_ASSERTS(rows.add(row, 12), "row.material = 4, rules_.materials.size() = 1, place = 12");
-  EXPECT_ASSERTS((void)row[Field::id], "field = 8");
-  EXPECT_TRUE(rows.set_columns({{Field::x, "x"}, {Field::y, "y"}, {Field::z, "z"}, {Field::material, "m"}}, 1));
+  EXPECT_ASSERTS((void)row[Quantity::id], "field = 8");
+  EXPECT_TRUE(rows.set_columns({{Quantity::x, "x"}, {Quantity::y, "y"}, {Quantity::z, "z"}, {Quantity::material, "m"}}, 1));
   EXPECT_ASSERTS(rows.set_labels({}), "columns_.size() = 4");
   rules.material = 1;
   EXPECT_ASSERTS((void)read_particle_file("some.csv", "some.csv", rules, findings, warnings),
