@@ -45,7 +45,7 @@ double largest_difference(const CellLoop<Real>& loop, const Simulation& simulati
 }
 
 template <class Real>
-int measure(const LoadedScene& loaded, int steps, int threads) {
+int measure(const scene::LoadedScene& loaded, int steps, int threads) {
   const Scene& scene = loaded.scene;
   auto backend = make_cpu_backend({.precision = scene.precision, .threads = threads, .isa = ""});
   if (!backend) return complain(backend.error().text());
@@ -84,7 +84,7 @@ int run(int argc, char** argv) {
   if (argc != 4) return complain("SCENE, STEPS and THREADS are wanted");
   const int steps = std::atoi(argv[2]), threads = std::atoi(argv[3]);
   if (steps < 1 || threads < 1) return complain("STEPS and THREADS are at least 1");
-  const auto loaded = load_scene(argv[1], {});
+  const auto loaded = scene::load_scene(argv[1], {});
   if (!loaded) return complain(loaded.error().text());
   const Scene& scene = loaded->scene;
   if (scene.materials.size() != 1 || scene.materials[0].drag > 0 || !has_only_walls(scene.domain) ||

@@ -32,10 +32,10 @@ struct Surroundings {
 
 // The boulder of the gallery's avalanche; distances are known up to `reach` (m) outside and three times that inside.
 Expected<Shape> boulder(double reach) {
-  auto mesh = read_mesh(HOOKE_SOURCE_DIR "/scenes/meshes/rock.obj");
+  auto mesh = scene::read_mesh(HOOKE_SOURCE_DIR "/scenes/meshes/rock.obj");
   if (!mesh) return fail(mesh.error());
   for (Vec3d& x : mesh->vertices) x = kMiddle + kSize * x;
-  auto field = make_distance_field(*mesh, {kBallRadius / 3, reach, count_open_edges(*mesh) == 0});
+  auto field = volumes::make_distance_field(*mesh, {kBallRadius / 3, reach, scene::count_open_edges(*mesh) == 0});
   if (!field) return fail(field.error());
   MeshShape shape;
   shape.field = std::make_shared<const DistanceField>(std::move(*field));

@@ -53,19 +53,20 @@ Pool make_pool(MaterialLook look) {
   return pool;
 }
 
-Frame make_picture(MaterialLook look) {
+render::Frame make_picture(MaterialLook look) {
   const Pool pool = make_pool(look);
-  return make_frame(pool.scene, pool.particles, 0, make_look(pool.scene, pool.particles, ColorBy::material),
-                    static_cast<double>(kWidth) / kHeight);
+  return render::make_frame(pool.scene, pool.particles, 0,
+                            render::make_look(pool.scene, pool.particles, render::ColorBy::material),
+                            static_cast<double>(kWidth) / kHeight);
 }
 
 // The share of the picture's pixels that are blue; only the pool is blue.
-double blue_share(const Image& image) {
+double blue_share(const render::Image& image) {
   std::size_t blue = 0;
-  for (std::size_t i = 0; i < image.pixels.size(); i += Image::kChannels) {
+  for (std::size_t i = 0; i < image.pixels.size(); i += render::Image::kChannels) {
     blue += image.pixels[i + 2] > image.pixels[i] + 25 ? 1 : 0;
   }
-  return static_cast<double>(blue) * Image::kChannels / static_cast<double>(image.pixels.size());
+  return static_cast<double>(blue) * render::Image::kChannels / static_cast<double>(image.pixels.size());
 }
 
 // Peak memory of this process, MB.
@@ -77,8 +78,8 @@ double peak_memory() {
 
 // Whole pictures, from the reference frame to the pixels; argument: as balls or as water.
 void draw_picture(benchmark::State& state) {
-  const Frame frame = make_picture(state.range(0) != 0 ? MaterialLook::water : MaterialLook::ball);
-  auto renderer = make_gl_renderer({kWidth, kHeight, 2});
+  const render::Frame frame = make_picture(state.range(0) != 0 ? MaterialLook::water : MaterialLook::ball);
+  auto renderer = render::make_gl_renderer({kWidth, kHeight, 2});
   if (!renderer) return state.SkipWithError(renderer.error().text().c_str());
   auto image = (*renderer)->render(frame);  // shaders are compiled at their first use
   for (auto iteration : state) {
@@ -102,18 +103,18 @@ BENCHMARK(draw_picture)
 // Making a reference frame of a run's particles.
 void prepare_frame(benchmark::State& state) {
   const Pool pool = make_pool(MaterialLook::water);
-  const Look look = make_look(pool.scene, pool.particles, ColorBy::material);
-  Frame frame;
-  for (auto iteration : state) frame = make_frame(pool.scene, pool.particles, 0, look, 1.5);
+  const render::Look look = render::make_look(pool.scene, pool.particles, render::ColorBy::material);
+  render::Frame frame;
+  for (auto iteration : state) frame = render::make_frame(pool.scene, pool.particles, 0, look, 1.5);
   if (frame.spheres.size() != kCount || frame.spheres[0].foam == 0) return state.SkipWithError("not the pool's frame");
 }
 BENCHMARK(prepare_frame)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
 void find_visible_spheres(benchmark::State& state) {
-  const Frame frame = make_picture(MaterialLook::ball);
-  const Projection view = project(frame.camera, 2 * kWidth, 2 * kHeight);
+  const render::Frame frame = make_picture(MaterialLook::ball);
+  const render::Projection view = render::project(frame.camera, 2 * kWidth, 2 * kHeight);
   std::vector<std::uint32_t> visible;
-  for (auto iteration : state) visible = visible_spheres(frame.spheres, view);
+  for (auto iteration : state) visible = render::visible_spheres(frame.spheres, view);
   // The picture shows two sides and the top of the pool, and some balls below through the gaps.
   if (visible.size() < 160 * 80 || visible.size() > kCount / 5) return state.SkipWithError("not a pool's surface");
   state.counters["visible"] = static_cast<double>(visible.size());

@@ -52,8 +52,8 @@ void check_domain(const Scene& scene, const Measurements& now, std::vector<Findi
 }
 
 // Faults that make the results of a run worthless: a speed is only worth printing for correct steps.
-std::vector<Finding> find_faults(const Simulation& simulation, const RunReport& report, std::uint64_t particles_before,
-                                 std::uint64_t removed_before) {
+std::vector<Finding> find_faults(const Simulation& simulation, const io::RunReport& report,
+                                 std::uint64_t particles_before, std::uint64_t removed_before) {
   std::vector<Finding> faults;
   const Measurements& now = report.measurements;
   const Scene& scene = simulation.scene();
@@ -128,7 +128,7 @@ std::optional<double> share_of_walls(Simulation& simulation, const DeviceArgumen
 }
 
 // Prints how the time of a step divides into stages.
-void print_stages(const RunReport& report) {
+void print_stages(const io::RunReport& report) {
   const auto row = [&](const char* name, double seconds) {
     fmt::print("  {:<22}{:.3f} ms, {:.1f} %\n", name, 1e3 * seconds / static_cast<double>(report.steps),
                100 * seconds / report.seconds);
@@ -144,7 +144,7 @@ void print_stages(const RunReport& report) {
   row("rest", report.rest());
 }
 
-void print_table(const RunReport& report) {
+void print_table(const io::RunReport& report) {
   const auto row = [](const char* name, const std::string& value) { fmt::print("{:<24}{}\n", name, value); };
   row("scene", report.scene);
   row("particles", with_commas(report.particles));
@@ -179,7 +179,7 @@ Expected<void> advance(Simulation& simulation, std::int64_t steps, bool show) {
 }  // namespace
 
 ExitStatus bench_command(const BenchArguments& arguments) {
-  const std::uint64_t program_bytes = peak_resident_bytes();
+  const std::uint64_t program_bytes = io::peak_resident_bytes();
   auto opened = open_simulation(arguments.scene, arguments.device, arguments.resume);
   if (!opened) return report_error(opened.error());
   for (const Finding& warning : opened->warnings) report_warning(warning);
@@ -203,7 +203,7 @@ ExitStatus bench_command(const BenchArguments& arguments) {
 
   const auto measurements = simulation.measure();
   if (!measurements) return report_error(measurements.error(), true);
-  RunReport report = make_report(simulation, *measurements);
+  io::RunReport report = io::make_report(simulation, *measurements);
   report.steps = arguments.steps;
   report.program_bytes = program_bytes;
   report.seconds = seconds;
@@ -214,7 +214,7 @@ ExitStatus bench_command(const BenchArguments& arguments) {
   }
   if (const auto share = share_of_walls(simulation, arguments.device)) report.walls = *share * report.stages.force;
   if (arguments.json) {
-    fmt::print("{}", to_json(report));
+    fmt::print("{}", io::to_json(report));
   } else {
     print_table(report);
   }

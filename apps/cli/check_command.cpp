@@ -58,9 +58,10 @@ void print_precision(const Scene& scene) {
 // What a run needs at the most, with the `program` itself, bytes: its meshes' fields are made before there are many
 // particles. Where particles overlap deeply, their list takes more than is counted for a particle: no less than this
 // command has taken, which has made the list.
-void print_memory(double particles, const FieldMemory& fields, double program, double neighbours) {
-  const double running = particles * kBytesPerParticle + fields.kept;
-  const double counted = program + std::max(running, fields.most), taken = static_cast<double>(peak_resident_bytes());
+void print_memory(double particles, const scene::FieldMemory& fields, double program, double neighbours) {
+  const double running = particles * scene::kBytesPerParticle + fields.kept;
+  const double counted = program + std::max(running, fields.most),
+               taken = static_cast<double>(io::peak_resident_bytes());
   fmt::print("  memory     about {:.1f} MB", std::max(counted, taken) * 1e-6);
   if (fields.most > 0) {
     fmt::print(", {:.1f} MB of it for the distances from meshes", std::max(fields.kept, fields.most) * 1e-6);
@@ -83,7 +84,7 @@ double expected_births(const Scene& scene) {
 }  // namespace
 
 ExitStatus check_command(const CheckArguments& arguments) {
-  const auto program_bytes = static_cast<double>(peak_resident_bytes());
+  const auto program_bytes = static_cast<double>(io::peak_resident_bytes());
   const auto opened = open_simulation(arguments.scene, DeviceArguments{}, {});
   if (!opened) return report_error(opened.error());
   const Simulation& simulation = opened->simulation;

@@ -22,7 +22,7 @@ struct PictureArguments {
   double frames_per_second = 30;
   double speed = 1;  ///< simulated seconds a second of film
   int samples = 2;  ///< squared: the samples per pixel
-  ColorBy color_by = ColorBy::material;
+  render::ColorBy color_by = render::ColorBy::material;
   std::optional<std::array<double, 2>> range;  ///< of the colour map
   bool legend = true;
   bool alpha = false;  ///< whether nothing is drawn behind everything
@@ -73,8 +73,8 @@ struct ExportArguments {
   std::optional<std::int64_t> step;
   std::optional<double> time;
   bool all = false;
-  ExportContent content = ExportContent::particles;
-  SurfaceOptions surface;
+  io::ExportContent content = io::ExportContent::particles;
+  volumes::SurfaceOptions surface;
 };
 
 // One function per command; each prints and returns the exit status.

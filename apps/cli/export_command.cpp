@@ -18,7 +18,7 @@ namespace hooke::cli {
 namespace {
 
 // The snapshots that the options select; without options, the last one.
-Expected<std::vector<std::size_t>> pick(const RunReader& run, const ExportArguments& arguments) {
+Expected<std::vector<std::size_t>> pick(const io::RunReader& run, const ExportArguments& arguments) {
   if (run.size() == 0) return fail(Error::Kind::bad_input, arguments.run.string(), "holds no snapshot yet");
   if (arguments.all) {
     std::vector<std::size_t> indices(run.size());
@@ -37,7 +37,7 @@ Expected<std::vector<std::size_t>> pick(const RunReader& run, const ExportArgume
 // The scene kept in the run folder; none where `run` is a file or the folder's scene is missing.
 Expected<std::optional<Scene>> scene_of(const std::filesystem::path& run) {
   std::error_code ignored;
-  if (!std::filesystem::exists(run / kSceneFile, ignored)) return std::nullopt;
+  if (!std::filesystem::exists(run / io::kSceneFile, ignored)) return std::nullopt;
   auto loaded = load_kept_scene(run);
   if (!loaded) return fail(std::move(loaded.error()));
   return std::move(loaded->scene);
@@ -47,17 +47,17 @@ Expected<std::optional<Scene>> scene_of(const std::filesystem::path& run) {
 
 ExitStatus export_command(const ExportArguments& arguments) {
   if (auto writable = check_output_file(arguments.output, "--output"); !writable) return report_error(writable.error());
-  const auto run = RunReader::open(arguments.run);
+  const auto run = io::RunReader::open(arguments.run);
   if (!run) return report_error(run.error());
   const auto indices = pick(*run, arguments);
   if (!indices) return report_error(indices.error());
   const auto scene = scene_of(arguments.run);
   if (!scene) return report_error(scene.error());
-  ExportOptions options;
+  io::ExportOptions options;
   options.content = arguments.content;
   if (const std::optional<Scene>& kept = *scene) options.scene = &*kept;
   options.surface = arguments.surface;
-  const auto files = export_run(*run, *indices, arguments.output, options);
+  const auto files = io::export_run(*run, *indices, arguments.output, options);
   if (!files) return report_error(files.error(), true);
   fmt::print("{} snapshot{} in {}\n", indices->size(), indices->size() == 1 ? "" : "s", files->front().string());
   return kDone;

@@ -54,16 +54,16 @@ struct FilmThread::Impl {
     started.set_value({});
 
     // The first frame opens the file, so that a run that fails to start leaves an older film alone.
-    std::optional<FilmWriter> film;
+    std::optional<render::FilmWriter> film;
     double seconds = 0;
     while (std::optional<Shot> shot = take()) {
       if (!film) {
-        auto opened = FilmWriter::create(file, {picture.width, picture.height, picture.frames_per_second});
+        auto opened = render::FilmWriter::create(file, {picture.width, picture.height, picture.frames_per_second});
         if (!opened) return give_up(std::move(opened).error());
         film = std::move(*opened);
       }
       const ParticleSet& particles = shot->state->particles;
-      auto image = shot->late > 0 ? studio->picture(drawn_back(scene, particles, shot->late), shot->time)
+      auto image = shot->late > 0 ? studio->picture(render::drawn_back(scene, particles, shot->late), shot->time)
                                   : studio->picture(particles, shot->time);
       seconds += studio->figures().total_seconds;
       auto added = image ? film->add(*image) : Expected<void>(fail(std::move(image).error()));

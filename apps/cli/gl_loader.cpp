@@ -11,7 +11,7 @@
 
 namespace hooke::cli {
 
-Expected<std::unique_ptr<Renderer>> load_gl_renderer(const RenderSettings& settings) {
+Expected<std::unique_ptr<render::Renderer>> load_gl_renderer(const render::RenderSettings& settings) {
   std::error_code ignored;
   const std::filesystem::path home = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
   const std::filesystem::path beside = home / "hooke-gl.so";
@@ -22,7 +22,7 @@ Expected<std::unique_ptr<Renderer>> load_gl_renderer(const RenderSettings& setti
   if (library == nullptr) return fail(Error::Kind::bad_input, "OpenGL", std::string("pictures need it: ") + dlerror());
   const auto make = reinterpret_cast<decltype(&hooke_make_gl_renderer)>(dlsym(library, "hooke_make_gl_renderer"));
   if (make == nullptr) return fail(Error::Kind::bad_input, module.string(), "is of another version of hooke");
-  Expected<std::unique_ptr<Renderer>> renderer;
+  Expected<std::unique_ptr<render::Renderer>> renderer;
   make(settings, renderer);
   return renderer;
 }

@@ -8,6 +8,7 @@
 #include "hooke/render/gl/gl_renderer.h"
 
 extern "C" __attribute__((visibility("default"))) void hooke_make_gl_renderer(
-    const hooke::RenderSettings& settings, hooke::Expected<std::unique_ptr<hooke::Renderer>>& renderer) {
-  renderer = hooke::make_gl_renderer(settings);
+    const hooke::render::RenderSettings& settings,
+    hooke::Expected<std::unique_ptr<hooke::render::Renderer>>& renderer) {
+  renderer = hooke::render::make_gl_renderer(settings);
 }

@@ -12,18 +12,18 @@
 namespace hooke::cli {
 
 ExitStatus info_command(const std::filesystem::path& file) {
-  const auto found = describe_file(file);
+  const auto found = io::describe_file(file);
   if (!found) return report_error(found.error());
-  const FileDescription& it = *found;
+  const io::FileDescription& it = *found;
 
   fmt::print("{}: {} of \"{}\"\n", printable(file.string()), to_string(it.kind), printable(it.info.scene));
   fmt::print("  size        {:.1f} MB\n", static_cast<double>(it.bytes) * 1e-6);
   fmt::print("  time step   {} s, {}, {} precision\n", it.info.time_step, to_string(it.info.integrator),
              to_string(it.info.precision));
-  for (const MaterialInfo& material : it.info.materials) {
+  for (const io::MaterialInfo& material : it.info.materials) {
     fmt::print("  material    {}: radius {} m, mass {} kg\n", printable(material.name), material.radius, material.mass);
   }
-  if (it.kind == FileDescription::Kind::checkpoint) {
+  if (it.kind == io::FileDescription::Kind::checkpoint) {
     fmt::print("  state       step {}, t = {} s, {} particles\n", it.steps.front(), it.times.front(),
                with_commas(it.particle_counts.front()));
     return kDone;

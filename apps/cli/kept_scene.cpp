@@ -10,20 +10,21 @@
 
 namespace hooke::cli {
 
-Expected<LoadedScene> load_kept_scene(const std::filesystem::path& folder, const std::vector<std::string>& overrides) {
-  LoadOptions options;
+Expected<scene::LoadedScene> load_kept_scene(const std::filesystem::path& folder,
+                                             const std::vector<std::string>& overrides) {
+  scene::LoadOptions options;
   options.overrides = overrides;
   options.allow_outside = true;  // the particle files at such paths are not read again
   options.with_particles = false;
-  auto loaded = load_scene(folder / kSceneFile, options);
+  auto loaded = scene::load_scene(folder / io::kSceneFile, options);
   if (!loaded) return loaded;
-  auto structure = read_structure_of_run(folder);
+  auto structure = io::read_structure_of_run(folder);
   if (!structure) return fail(std::move(structure).error());
   loaded->scene.structure = std::move(*structure);
   std::error_code ignored;
-  if (std::filesystem::exists(folder / kCheckpointFile, ignored)) return loaded;
+  if (std::filesystem::exists(folder / io::kCheckpointFile, ignored)) return loaded;
   options.with_particles = true;
-  if (auto whole = load_scene(folder / kSceneFile, options))
+  if (auto whole = scene::load_scene(folder / io::kSceneFile, options))
     loaded->scene.structure = std::move(whole->scene.structure);
   return loaded;
 }

@@ -13,7 +13,7 @@ namespace hooke::cli {
 
 /// The scene kept in a run's folder, with the changes of --set, without its particles. Its structure is that of the
 /// run's checkpoint; before the first checkpoint it is made from the scene, if the scene's files can still be read.
-Expected<LoadedScene> load_kept_scene(const std::filesystem::path& folder,
-                                      const std::vector<std::string>& overrides = {});
+Expected<scene::LoadedScene> load_kept_scene(const std::filesystem::path& folder,
+                                             const std::vector<std::string>& overrides = {});
 
 }  // namespace hooke::cli

@@ -68,8 +68,8 @@ void add_picture_options(CLI::App& command, PictureArguments& picture) {
                   "simulated seconds that a second of film shows: 0.25 is slow motion (default: 1)")
       ->option_text("X")
       ->check(CLI::Range(1e-6, 1e6) & CLI::Validator(not_nan, ""));
-  std::map<std::string, ColorBy> names;
-  for (const ColorByName& name : kColorByNames) names[name.name] = name.by;
+  std::map<std::string, render::ColorBy> names;
+  for (const render::ColorByName& name : render::kColorByNames) names[name.name] = name.by;
   command
       .add_option("--color-by", picture.color_by,
                   "material (default), speed, height, pressure, contacts or id; all but material with a legend")
@@ -118,7 +118,8 @@ void add_run(CLI::App& app, CommandLine& line) {
       ->option_text("T")
       ->check(CLI::PositiveNumber);
   command
-      .add_option("--film", run.film, fmt::format("draw a film while it runs, into this file ({})", film_extensions()))
+      .add_option("--film", run.film,
+                  fmt::format("draw a film while it runs, into this file ({})", render::film_extensions()))
       ->option_text("FILE");
   add_picture_options(command, run.picture);
   command.add_option("--report", run.report, "write the report to this file too")->option_text("FILE");
@@ -166,8 +167,9 @@ void add_render(CLI::App& app, CommandLine& line) {
   RenderArguments& render = line.render;
   command.add_option("RUN", render.run, "run folder")->required();
   command
-      .add_option("-o,--output", render.output,
-                  fmt::format("picture (.png), numbered pictures (frame_%04d.png) or film ({})", film_extensions()))
+      .add_option(
+          "-o,--output", render.output,
+          fmt::format("picture (.png), numbered pictures (frame_%04d.png) or film ({})", render::film_extensions()))
       ->option_text("FILE")
       ->required();
   command.add_option("--time", render.time, "of a picture, s, between two snapshots too (default: the last snapshot)")
@@ -188,15 +190,16 @@ void add_render(CLI::App& app, CommandLine& line) {
   command.callback([&line] { line.command = [&line] { return render_command(line.render); }; });
 }
 
-constexpr ExportContent kContents[] = {ExportContent::particles, ExportContent::surface, ExportContent::volume,
-                                       ExportContent::contacts,  ExportContent::cloths,  ExportContent::springs};
+constexpr io::ExportContent kContents[] = {io::ExportContent::particles, io::ExportContent::surface,
+                                           io::ExportContent::volume,    io::ExportContent::contacts,
+                                           io::ExportContent::cloths,    io::ExportContent::springs};
 
 // The formats that `export` can write, by content.
 std::string format_list() {
   std::string list = "Formats:\n";
-  for (const ExportContent content : kContents) {
+  for (const io::ExportContent content : kContents) {
     std::string lines;
-    for (const ExportFormatInfo& format : export_formats()) {
+    for (const io::ExportFormatInfo& format : io::export_formats()) {
       if (format.content == content) lines += fmt::format("    {:<12}{}\n", format.extension, format.description);
     }
     if (!lines.empty()) list += fmt::format("  --as {}\n{}", to_string(content), lines);
@@ -218,8 +221,8 @@ void add_export(CLI::App& app, CommandLine& line) {
                           ->option_text("T")
                           ->excludes(step);
   command.add_flag("--all", exports.all, "all snapshots")->excludes(step)->excludes(time);
-  std::map<std::string, ExportContent> contents;
-  for (const ExportContent content : kContents) contents[to_string(content)] = content;
+  std::map<std::string, io::ExportContent> contents;
+  for (const io::ExportContent content : kContents) contents[to_string(content)] = content;
   command
       .add_option("--as", exports.content,
                   "what to write: particles (default), surface, volume, contacts, cloths or springs")
@@ -228,7 +231,7 @@ void add_export(CLI::App& app, CommandLine& line) {
   const auto add_surface_option = [&command](const char* name, double& value, const char* description) {
     return command.add_option(name, value, fmt::format("{} (default: {})", description, value))->option_text("R");
   };
-  SurfaceOptions& surface = exports.surface;
+  volumes::SurfaceOptions& surface = exports.surface;
   add_surface_option("--surface-radius", surface.radius, "of the sphere that a particle stands for, in its own radii");
   add_surface_option("--surface-smoothing", surface.smoothing,
                      "how far beyond it a particle blends with others, in its own radii");

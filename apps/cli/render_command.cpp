@@ -30,7 +30,7 @@ namespace {
 /// The particles of a run at any time between its first snapshot and its last.
 class Playback {
  public:
-  Playback(const RunReader& run, const Scene& scene) : run_(run), scene_(scene) {}
+  Playback(const io::RunReader& run, const Scene& scene) : run_(run), scene_(scene) {}
 
   /// `time` in [first, last], preferably ascending from call to call: keeps the two snapshots around it.
   Expected<ParticleSet> at(double time) {
@@ -41,7 +41,7 @@ class Playback {
     if (auto read = load(before_, before); !read) return fail(std::move(read).error());
     if (time == times[before]) return before_->particles;
     if (auto read = load(after_, after); !read) return fail(std::move(read).error());
-    return interpolate(scene_, {before_->time, before_->particles}, {after_->time, after_->particles}, time);
+    return render::interpolate(scene_, {before_->time, before_->particles}, {after_->time, after_->particles}, time);
   }
 
  private:
@@ -57,7 +57,7 @@ class Playback {
     return {};
   }
 
-  const RunReader& run_;
+  const io::RunReader& run_;
   const Scene& scene_;
   std::optional<Snapshot> before_, after_;
 };
@@ -74,13 +74,13 @@ std::optional<std::string> numbered_name(const std::filesystem::path& pattern, s
   return match.prefix().str() + fmt::format("{:0{}}", number, digits) + match.suffix().str();
 }
 
-Expected<void> write_picture(const Image& image, bool alpha, const std::filesystem::path& file) {
-  const auto bytes = encode_png(image, alpha);
+Expected<void> write_picture(const render::Image& image, bool alpha, const std::filesystem::path& file) {
+  const auto bytes = render::encode_png(image, alpha);
   if (!bytes) return fail(bytes.error());
-  return write_text_file(file, *bytes);
+  return io::write_text_file(file, *bytes);
 }
 
-Expected<void> check_time(const char* option, std::optional<double> time, const RunReader& run) {
+Expected<void> check_time(const char* option, std::optional<double> time, const io::RunReader& run) {
   if (!time) return {};
   const double first = run.times().front(), last = run.times().back();
   const double rounding = 1e-9 * std::max(1.0, std::abs(last));
@@ -98,14 +98,14 @@ Expected<void> check_options(const RenderArguments& arguments, bool still) {
   if (arguments.from && arguments.to && !(*arguments.from <= *arguments.to)) {
     return wrong("--to", "must not be before --from");
   }
-  if (arguments.picture.alpha && is_film(arguments.output)) {
+  if (arguments.picture.alpha && render::is_film(arguments.output)) {
     return wrong("--alpha", "is of pictures (.png), which may be numbered; films have no alpha");
   }
   return {};
 }
 
 // The times of a film's frames, s.
-std::vector<double> frame_times(const RenderArguments& arguments, const RunReader& run) {
+std::vector<double> frame_times(const RenderArguments& arguments, const io::RunReader& run) {
   const double first = std::max(arguments.from.value_or(run.times().front()), run.times().front());
   const double last = std::min(arguments.to.value_or(run.times().back()), run.times().back());
   std::vector<double> times;
@@ -125,7 +125,7 @@ std::vector<double> frame_times(const RenderArguments& arguments, const RunReade
 }
 
 // Frames what the run does, where the scene leaves that to the camera.
-Expected<void> frame_action(const RunReader& run, const Scene& scene, Studio& studio) {
+Expected<void> frame_action(const io::RunReader& run, const Scene& scene, Studio& studio) {
   constexpr std::size_t kMoments = 5;
   if (scene.camera.eye && scene.camera.target) return {};
   std::vector<ParticleSet> moments;
@@ -142,7 +142,7 @@ Expected<void> frame_action(const RunReader& run, const Scene& scene, Studio& st
   return {};
 }
 
-Expected<void> render_still(const RenderArguments& arguments, const RunReader& run, Playback& playback,
+Expected<void> render_still(const RenderArguments& arguments, const io::RunReader& run, Playback& playback,
                             Studio& studio) {
   const double last = run.times().back();
   const double time = std::clamp(arguments.time.value_or(last), run.times().front(), last);
@@ -157,7 +157,7 @@ Expected<void> render_still(const RenderArguments& arguments, const RunReader& r
 
 // Gives one image per frame to `take`; returns their number and whether a signal came first.
 template <class Take>
-Expected<std::pair<std::int64_t, bool>> render_frames(const RenderArguments& arguments, const RunReader& run,
+Expected<std::pair<std::int64_t, bool>> render_frames(const RenderArguments& arguments, const io::RunReader& run,
                                                       Playback& playback, Studio& studio, const Take& take) {
   const std::vector<double> times = frame_times(arguments, run);
   const auto count = static_cast<std::int64_t>(times.size());
@@ -176,13 +176,13 @@ Expected<std::pair<std::int64_t, bool>> render_frames(const RenderArguments& arg
   return std::pair{frame, frame == count};
 }
 
-Expected<ExitStatus> render_film(const RenderArguments& arguments, const RunReader& run, Playback& playback,
+Expected<ExitStatus> render_film(const RenderArguments& arguments, const io::RunReader& run, Playback& playback,
                                  Studio& studio) {
   const PictureArguments& picture = arguments.picture;
-  auto film = FilmWriter::create(arguments.output, {picture.width, picture.height, picture.frames_per_second});
+  auto film = render::FilmWriter::create(arguments.output, {picture.width, picture.height, picture.frames_per_second});
   if (!film) return fail(std::move(film).error());
   const auto done = render_frames(arguments, run, playback, studio,
-                                  [&](const Image& image, std::int64_t) { return film->add(image); });
+                                  [&](const render::Image& image, std::int64_t) { return film->add(image); });
   if (!done) return fail(done.error());
   if (auto finished = film->finish(); !finished) return fail(std::move(finished).error());
   fmt::print("{} frames, {:.2f} s, in {}{}\n", done->first,
@@ -191,13 +191,14 @@ Expected<ExitStatus> render_film(const RenderArguments& arguments, const RunRead
   return done->second ? kDone : kInterrupted;
 }
 
-Expected<ExitStatus> render_sequence(const RenderArguments& arguments, const RunReader& run, Playback& playback,
+Expected<ExitStatus> render_sequence(const RenderArguments& arguments, const io::RunReader& run, Playback& playback,
                                      Studio& studio) {
   const std::filesystem::path folder = arguments.output.parent_path();
-  const auto done = render_frames(arguments, run, playback, studio, [&](const Image& image, std::int64_t frame) {
-    return write_picture(image, arguments.picture.alpha,
-                         folder / *numbered_name(arguments.output, static_cast<std::size_t>(frame)));
-  });
+  const auto done =
+      render_frames(arguments, run, playback, studio, [&](const render::Image& image, std::int64_t frame) {
+        return write_picture(image, arguments.picture.alpha,
+                             folder / *numbered_name(arguments.output, static_cast<std::size_t>(frame)));
+      });
   if (!done) return fail(done.error());
   fmt::print("{} pictures, the first of them {}{}\n", done->first,
              (folder / *numbered_name(arguments.output, 0)).string(), done->second ? "" : ", interrupted");
@@ -206,19 +207,19 @@ Expected<ExitStatus> render_sequence(const RenderArguments& arguments, const Run
 
 Expected<ExitStatus> render(const RenderArguments& arguments) {
   const bool still = is_picture(arguments.output) && !numbered_name(arguments.output, 0);
-  if (!is_picture(arguments.output) && !is_film(arguments.output)) {
+  if (!is_picture(arguments.output) && !render::is_film(arguments.output)) {
     return fail(Error::Kind::bad_input, arguments.output.string(),
-                "has no extension of a picture or a film; known are .png, " + film_extensions());
+                "has no extension of a picture or a film; known are .png, " + render::film_extensions());
   }
   if (auto good = check_options(arguments, still); !good) return fail(std::move(good).error());
   if (auto writable = check_output_file(arguments.output, "--output"); !writable) return fail(writable.error());
-  if (is_film(arguments.output)) {
+  if (render::is_film(arguments.output)) {
     const PictureArguments& p = arguments.picture;
-    if (auto possible = check_film(arguments.output, {p.width, p.height, p.frames_per_second}); !possible) {
+    if (auto possible = render::check_film(arguments.output, {p.width, p.height, p.frames_per_second}); !possible) {
       return fail(possible.error());
     }
   }
-  const auto run = RunReader::open(arguments.run);
+  const auto run = io::RunReader::open(arguments.run);
   if (!run) return fail(run.error());
   if (run->size() == 0) return fail(Error::Kind::bad_input, arguments.run.string(), "holds no snapshot yet");
   for (const auto& [option, time] :
@@ -229,7 +230,7 @@ Expected<ExitStatus> render(const RenderArguments& arguments) {
       std::filesystem::is_directory(arguments.run) ? arguments.run : arguments.run.parent_path();
   const auto loaded = load_kept_scene(folder, arguments.overrides);
   if (!loaded) return fail(loaded.error());
-  const auto is_same = [](const Material& a, const MaterialInfo& b) { return a.name == b.name; };
+  const auto is_same = [](const Material& a, const io::MaterialInfo& b) { return a.name == b.name; };
   if (!std::equal(loaded->scene.materials.begin(), loaded->scene.materials.end(), run->info().materials.begin(),
                   run->info().materials.end(), is_same)) {
     return fail(Error::Kind::bad_input, arguments.run.string(), "has particles of other materials than its scene");
@@ -242,7 +243,7 @@ Expected<ExitStatus> render(const RenderArguments& arguments) {
   if (auto framed = frame_action(*run, loaded->scene, *studio); !framed) return fail(std::move(framed).error());
 
   Playback playback(*run, loaded->scene);
-  if (is_film(arguments.output)) return render_film(arguments, *run, playback, *studio);
+  if (render::is_film(arguments.output)) return render_film(arguments, *run, playback, *studio);
   if (!still) return render_sequence(arguments, *run, playback, *studio);
   if (auto done = render_still(arguments, *run, playback, *studio); !done) return fail(done.error());
   return kDone;

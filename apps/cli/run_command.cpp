@@ -37,7 +37,7 @@ class Run {
  public:
   /// `in_place`: the folder holds the output of this run up to the step from which it continues.
   /// `film`: the film's thread, or null without a film.
-  Run(Simulation& simulation, RunWriter& writer, FilmThread* film, const OutputCadence& checkpoints, bool in_place,
+  Run(Simulation& simulation, io::RunWriter& writer, FilmThread* film, const OutputCadence& checkpoints, bool in_place,
       bool quiet)
       : simulation_(simulation),
         writer_(writer),
@@ -101,7 +101,8 @@ class Run {
     if (must || output_due(step)) {
       const auto measurements = simulation_.measure();
       if (!measurements) return fail(measurements.error());
-      if (auto written = writer_.write_series(make_series_row(simulation_, *measurements)); !written) return written;
+      if (auto written = writer_.write_series(io::make_series_row(simulation_, *measurements)); !written)
+        return written;
       if (auto written = writer_.write_snapshot(simulation_.snapshot()); !written) return written;
     }
     const bool have_checkpoint = step == checkpoint_step_ || (step == first_ && !new_folder_);
@@ -116,7 +117,7 @@ class Run {
   static constexpr double kBatchSeconds = 0.1;
 
   Simulation& simulation_;
-  RunWriter& writer_;
+  io::RunWriter& writer_;
   FilmThread* film_;
   OutputCadence checkpoints_;
   bool new_folder_;
@@ -158,20 +159,20 @@ bool resumes_in_place(const RunArguments& arguments) {
 Expected<void> check_folder(const RunArguments& arguments) {
   const std::filesystem::path folder = output_folder(arguments);
   if (!arguments.overwrite && !resumes_in_place(arguments)) {
-    const auto taken = holds_run(folder);
+    const auto taken = io::holds_run(folder);
     if (!taken) return fail(taken.error());
     if (*taken) {
       return fail(Error::Kind::bad_input, folder.string(),
                   "holds a run already; --overwrite replaces it, -o DIR names another folder");
     }
   }
-  return check_not_written(folder);
+  return io::check_not_written(folder);
 }
 
 // Copies the meshes that the scene names into the run folder, beside its scene, so that the folder can be drawn
 // anywhere. Meshes named by an absolute path or with ".." are not copied.
-Expected<void> keep_files(const std::vector<SceneFile>& files, const std::filesystem::path& folder) {
-  for (const SceneFile& file : files) {
+Expected<void> keep_files(const std::vector<scene::SceneFile>& files, const std::filesystem::path& folder) {
+  for (const scene::SceneFile& file : files) {
     const std::filesystem::path name(file.name), kept = folder / name;
     const bool inside = name.is_relative() && std::find(name.begin(), name.end(), "..") == name.end();
     std::error_code fault;
@@ -183,14 +184,15 @@ Expected<void> keep_files(const std::vector<SceneFile>& files, const std::filesy
   return {};
 }
 
-Expected<RunWriter> open_writer(const RunArguments& arguments, const OpenedSimulation& opened) {
+Expected<io::RunWriter> open_writer(const RunArguments& arguments, const OpenedSimulation& opened) {
   const Simulation& simulation = opened.simulation;
-  const RunInfo info = describe_run(simulation);
+  const io::RunInfo info = io::describe_run(simulation);
   if (resumes_in_place(arguments)) {
-    return RunWriter::resume(output_folder(arguments), info, opened.resolved, simulation.step_count(),
-                             simulation.scene().output);
+    return io::RunWriter::resume(output_folder(arguments), info, opened.resolved, simulation.step_count(),
+                                 simulation.scene().output);
   }
-  auto writer = RunWriter::create(output_folder(arguments), info, opened.resolved, {.overwrite = arguments.overwrite});
+  auto writer =
+      io::RunWriter::create(output_folder(arguments), info, opened.resolved, {.overwrite = arguments.overwrite});
   if (!writer) return writer;
   if (auto kept = keep_files(opened.files, output_folder(arguments)); !kept) return fail(std::move(kept).error());
   return writer;
@@ -212,16 +214,16 @@ void log_start(const OpenedSimulation& opened) {
   if (const std::string coarse = coarse_positions(simulation); !coarse.empty()) spdlog::warn(coarse);
 }
 
-Expected<RunReport> write_reports(const Run& run, const Simulation& simulation, RunWriter& writer,
-                                  const RunArguments& arguments) {
+Expected<io::RunReport> write_reports(const Run& run, const Simulation& simulation, io::RunWriter& writer,
+                                      const RunArguments& arguments) {
   const auto measurements = simulation.measure();
   if (!measurements) return fail(measurements.error());
-  RunReport report = make_report(simulation, *measurements);
+  io::RunReport report = io::make_report(simulation, *measurements);
   report.steps = run.steps_taken();
   report.seconds = run.stepping_seconds();
   if (auto written = writer.write_report(report); !written) return fail(std::move(written).error());
   if (!arguments.report.empty()) {
-    if (auto written = write_text_file(arguments.report, to_json(report)); !written) {
+    if (auto written = io::write_text_file(arguments.report, io::to_json(report)); !written) {
       return fail(std::move(written).error());
     }
   }
@@ -229,7 +231,7 @@ Expected<RunReport> write_reports(const Run& run, const Simulation& simulation, 
   return report;
 }
 
-void print_summary(const RunReport& report, const RunWriter& writer) {
+void print_summary(const io::RunReport& report, const io::RunWriter& writer) {
   const Measurements& m = report.measurements;
   fmt::print("{} particles, {} steps in {} ({:.1f} steps/s, {:.2f} M particle-steps/s), t = {:.6g} s\n",
              with_commas(report.particles), report.steps, clock_time(report.seconds), report.steps_per_second(),
@@ -254,10 +256,10 @@ bool finish_film(FilmThread& film, const RunArguments& arguments) {
 }
 
 // A failed run keeps its last good state; reports which.
-ExitStatus report_failure(const Error& error, RunWriter& writer) {
+ExitStatus report_failure(const Error& error, io::RunWriter& writer) {
   const ExitStatus status = report_error(error, true);
   (void)writer.flush();  // fails where `error` says so; either way the file is now final
-  if (const auto checkpoint = describe_file(writer.checkpoint_path())) {
+  if (const auto checkpoint = io::describe_file(writer.checkpoint_path())) {
     spdlog::error("the last good checkpoint is of step {}: {}", checkpoint->steps.front(),
                   writer.checkpoint_path().string());
   }
@@ -275,7 +277,7 @@ ExitStatus run_command(const RunArguments& arguments) {
   }
   if (!arguments.film.empty()) {
     const PictureArguments& p = arguments.picture;
-    if (auto possible = check_film(arguments.film, {p.width, p.height, p.frames_per_second}); !possible) {
+    if (auto possible = render::check_film(arguments.film, {p.width, p.height, p.frames_per_second}); !possible) {
       return report_error(possible.error());
     }
     if (auto writable = check_output_file(arguments.film, "--film"); !writable) return report_error(writable.error());

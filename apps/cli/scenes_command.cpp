@@ -25,10 +25,10 @@ std::filesystem::path scenes_folder() {
 
 ExitStatus scenes_command() {
   const std::filesystem::path folder = scenes_folder();
-  const auto scenes = list_scenes(folder);
+  const auto scenes = scene::list_scenes(folder);
   if (!scenes) return report_error(scenes.error());
   fmt::print("In {}:\n", folder.string());
-  for (const GalleryScene& scene : *scenes) {
+  for (const scene::GalleryScene& scene : *scenes) {
     const std::string& about = scene.description.empty() ? scene.title : scene.description;
     fmt::print("  {:<16} {}\n", scene.file.filename().string(), about);
   }
@@ -36,7 +36,7 @@ ExitStatus scenes_command() {
 }
 
 ExitStatus schema_command() {
-  fmt::print("{}", scene_schema());
+  fmt::print("{}", scene::scene_schema());
   return kDone;
 }
 

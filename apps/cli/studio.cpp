@@ -20,18 +20,18 @@ Expected<Studio> Studio::open(const PictureArguments& arguments) {
 
 void Studio::set_scene(const Scene& scene, const ParticleSet& first) {
   scene_ = &scene;
-  look_ = make_look(scene, first, arguments_.color_by, arguments_.range);
+  look_ = render::make_look(scene, first, arguments_.color_by, arguments_.range);
 }
 
 void Studio::frame_action(std::span<const ParticleSet> moments) {
   HOOKE_ASSERT(scene_ != nullptr);
-  look_.action = seen_action_box(*scene_, moments);
+  look_.action = render::seen_action_box(*scene_, moments);
 }
 
-Expected<Image> Studio::picture(const ParticleSet& particles, double time) {
+Expected<render::Image> Studio::picture(const ParticleSet& particles, double time) {
   HOOKE_ASSERT(scene_ != nullptr);
   const double aspect = static_cast<double>(arguments_.width) / arguments_.height;
-  Frame frame = make_frame(*scene_, particles, time, look_, aspect);
+  render::Frame frame = render::make_frame(*scene_, particles, time, look_, aspect);
   if (arguments_.alpha) {
     frame.transparent = true;
     frame.ground.reset();
@@ -40,8 +40,8 @@ Expected<Image> Studio::picture(const ParticleSet& particles, double time) {
   if (!image) return image;
   figures_ = renderer_->figures();
   const bool legend = arguments_.legend && !arguments_.alpha;  // nothing to write it on
-  if (frame.scale && legend) draw_legend(*image, *frame.scale);
-  if (legend) draw_caption(*image, fmt::format("{:.2f} s", time));
+  if (frame.scale && legend) render::draw_legend(*image, *frame.scale);
+  if (legend) render::draw_caption(*image, fmt::format("{:.2f} s", time));
   return image;
 }
 

@@ -29,21 +29,21 @@ class Studio {
   void frame_action(std::span<const ParticleSet> moments);
 
   /// The picture at `time` (s), with its legend. To be called after set_scene().
-  Expected<Image> picture(const ParticleSet& particles, double time);
+  Expected<render::Image> picture(const ParticleSet& particles, double time);
 
-  const RenderFigures& figures() const { return figures_; }
+  const render::RenderFigures& figures() const { return figures_; }
   std::string device() const { return renderer_->device(); }
 
  private:
-  Studio(const PictureArguments& arguments, std::unique_ptr<Renderer> renderer)
+  Studio(const PictureArguments& arguments, std::unique_ptr<render::Renderer> renderer)
       : arguments_(arguments),
         renderer_(std::move(renderer)) {}
 
   PictureArguments arguments_;
-  std::unique_ptr<Renderer> renderer_;
+  std::unique_ptr<render::Renderer> renderer_;
   const Scene* scene_ = nullptr;
-  Look look_;
-  RenderFigures figures_;
+  render::Look look_;
+  render::RenderFigures figures_;
 };
 
 }  // namespace hooke::cli

@@ -31,11 +31,11 @@ Expected<std::unique_ptr<Backend>> make_backend(const DeviceArguments& arguments
 
 Expected<OpenedSimulation> open_simulation(const SceneArguments& scene, const DeviceArguments& device,
                                            const std::filesystem::path& resume) {
-  LoadOptions options;
+  scene::LoadOptions options;
   options.overrides = scene.overrides;
   options.allow_outside = scene.allow_outside;
   options.with_particles = resume.empty();
-  auto loaded = load_scene(scene.file, options);
+  auto loaded = scene::load_scene(scene.file, options);
   if (!loaded) return fail(std::move(loaded).error());
   auto backend = make_backend(device, loaded->scene.precision);
   if (!backend) return fail(std::move(backend).error());
@@ -44,10 +44,10 @@ Expected<OpenedSimulation> open_simulation(const SceneArguments& scene, const De
     if (resume.empty()) {
       return Simulation::create(std::move(loaded->scene), std::move(loaded->particles), std::move(*backend));
     }
-    auto checkpoint = read_checkpoint(resume);
+    auto checkpoint = io::read_checkpoint(resume);
     if (!checkpoint) return fail(std::move(checkpoint).error());
-    const RunInfo info = describe_run(loaded->scene, (*backend)->info().precision);
-    if (auto findings = check_resumable(checkpoint->info, info); !findings.empty()) {
+    const io::RunInfo info = io::describe_run(loaded->scene, (*backend)->info().precision);
+    if (auto findings = io::check_resumable(checkpoint->info, info); !findings.empty()) {
       return fail(Error{Error::Kind::bad_input, std::move(findings)});
     }
     return Simulation::resume(std::move(loaded->scene), std::move(checkpoint->state), std::move(*backend));

@@ -20,9 +20,9 @@ namespace hooke::cli {
 struct OpenedSimulation {
   Simulation simulation;
   std::string resolved;           ///< the scene as it was understood, JSON
-  std::vector<SceneFile> files;   ///< the other files that it needs
+  std::vector<scene::SceneFile> files;   ///< the other files that it needs
   std::vector<Finding> warnings;  ///< of the loader
-  FieldMemory fields;
+  scene::FieldMemory fields;
 };
 
 /// The back end that --device and --threads ask for; HOOKE_ISA in the environment picks the instruction set.

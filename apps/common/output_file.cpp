@@ -16,7 +16,7 @@ Expected<void> check_output_file(const std::filesystem::path& file, const std::s
   std::error_code ignored;
   const auto complain = [&](const std::string& what) { return fail(Error::Kind::bad_input, option, what); };
   if (std::filesystem::is_directory(file, ignored)) return complain(fmt::format("{} is a folder", file.string()));
-  const auto target = output_target(file);
+  const auto target = io::output_target(file);
   if (!target) return fail(target.error());
   if (target->is_stream) {
     if (access(target->file.c_str(), W_OK) == 0) return {};

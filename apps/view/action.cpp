@@ -17,15 +17,15 @@ constexpr std::array<const char*, std::variant_size_v<Action>> kNames = {
     "add-ball", "hold-collider", "hold-particles",  "lead",        "let-go", "cut-springs",
     "scatter",  "reset",         "load-checkpoint", "change-scene"};
 
-Json vector_json(const Vec3d& v) { return Json::array({v.x, v.y, v.z}); }
+scene::Json vector_json(const Vec3d& v) { return scene::Json::array({v.x, v.y, v.z}); }
 
-Vec3d vector_at(const Json& json, const char* key) {
+Vec3d vector_at(const scene::Json& json, const char* key) {
   const auto values = json.at(key).get<std::array<double, 3>>();
   return {values[0], values[1], values[2]};
 }
 
 struct Writer {
-  Json& out;
+  scene::Json& out;
   void operator()(const AddBall& a) const {
     out["material"] = a.material;
     out["center"] = vector_json(a.center);
@@ -46,7 +46,7 @@ struct Writer {
   void operator()(const ChangeScene& a) const { out["patch"] = a.patch; }
 };
 
-Action read(const Json& json, const std::string& name) {
+Action read(const scene::Json& json, const std::string& name) {
   if (name == "add-ball") {
     return AddBall{json.at("material").get<std::string>(), vector_at(json, "center"), json.at("radius").get<double>(),
                    vector_at(json, "velocity")};
@@ -66,14 +66,14 @@ Action read(const Json& json, const std::string& name) {
 
 const char* name_of(const Action& action) { return kNames[action.index()]; }
 
-Json to_json(const Action& action) {
-  Json json = Json::object();
+scene::Json to_json(const Action& action) {
+  scene::Json json = scene::Json::object();
   json["do"] = name_of(action);
   std::visit(Writer{json}, action);
   return json;
 }
 
-Expected<Action> action_from_json(const Json& json) {
+Expected<Action> action_from_json(const scene::Json& json) {
   try {
     const auto name = json.at("do").get<std::string>();
     for (const char* known : kNames) {

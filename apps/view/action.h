@@ -61,7 +61,7 @@ struct LoadCheckpoint {
 
 /// Changes the scene: a JSON Patch (RFC 6902) of its resolved text.
 struct ChangeScene {
-  Json patch = Json::array();
+  scene::Json patch = scene::Json::array();
 };
 
 using Action = std::variant<AddBall, HoldCollider, HoldParticles, Lead, LetGo, CutSprings, Scatter, Reset,
@@ -70,8 +70,8 @@ using Action = std::variant<AddBall, HoldCollider, HoldParticles, Lead, LetGo, C
 /// The name of an action in records: "add-ball".
 const char* name_of(const Action& action);
 
-Json to_json(const Action& action);
+scene::Json to_json(const Action& action);
 /// bad_input, with what is wrong, where `json` is no action.
-Expected<Action> action_from_json(const Json& json);
+Expected<Action> action_from_json(const scene::Json& json);
 
 }  // namespace hooke::view

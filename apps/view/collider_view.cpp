@@ -17,17 +17,18 @@ void ColliderView::set_scene(const Scene& scene) {
   for (const Collider& collider : scene.colliders) {
     resting.colliders.assign(1, collider);
     resting.colliders[0].motion = NoMotion{};
-    for (ShadedMesh& mesh : collider_meshes(resting, 0, pivot_of(collider))) meshes_.push_back(std::move(mesh));
+    for (render::ShadedMesh& mesh : render::collider_meshes(resting, 0, pivot_of(collider)))
+      meshes_.push_back(std::move(mesh));
   }
 }
 
-std::vector<ShadedMesh> ColliderView::posed(std::span<const ColliderPose> poses, const Vec3d& origin) const {
+std::vector<render::ShadedMesh> ColliderView::posed(std::span<const ColliderPose> poses, const Vec3d& origin) const {
   HOOKE_ASSERT(poses.size() == meshes_.size(), poses.size(), meshes_.size());
-  std::vector<ShadedMesh> posed = meshes_;
+  std::vector<render::ShadedMesh> posed = meshes_;
   for (std::size_t k = 0; k < posed.size(); ++k) {
     const Vec3f shift = vec_cast<float>(poses[k].pivot - origin), x = vec_cast<float>(poses[k].turn[0]),
                 y = vec_cast<float>(poses[k].turn[1]), z = vec_cast<float>(poses[k].turn[2]);
-    std::vector<ShadedMesh::Corner>& corners = posed[k].corners;
+    std::vector<render::ShadedMesh::Corner>& corners = posed[k].corners;
     parallel_ranges(corners.size(), 4096, [&](std::size_t first, std::size_t last) {
       const auto turned = [&](const Vec3f& a) { return a.x * x + a.y * y + a.z * z; };
       for (std::size_t i = first; i < last; ++i) {

@@ -15,10 +15,10 @@ class ColliderView {
  public:
   void set_scene(const Scene& scene);
   /// `poses`: one a collider. Relative to `origin`, m.
-  std::vector<ShadedMesh> posed(std::span<const ColliderPose> poses, const Vec3d& origin) const;
+  std::vector<render::ShadedMesh> posed(std::span<const ColliderPose> poses, const Vec3d& origin) const;
 
  private:
-  std::vector<ShadedMesh> meshes_;  // relative to the pivots, as written
+  std::vector<render::ShadedMesh> meshes_;  // relative to the pivots, as written
 };
 
 }  // namespace hooke::view

@@ -83,7 +83,8 @@ ExitStatus show(const Arguments& arguments, std::optional<Record> record) {
   if (!session) return cli::report_error(session.error());
   for (const Finding& warning : (*session)->warnings()) cli::report_warning(warning);
   const std::string title = "Hooke: " + arguments.scene.file.filename().string();
-  auto window = Window::open(title, arguments.width, arguments.height, LiveRenderer::kMajor, LiveRenderer::kMinor);
+  auto window = Window::open(title, arguments.width, arguments.height, render::LiveRenderer::kMajor,
+                             render::LiveRenderer::kMinor);
   if (!window) return cli::report_error(window.error());
   auto viewer = Viewer::open(**window, **session, {arguments.status});
   if (!viewer) return cli::report_error(viewer.error());

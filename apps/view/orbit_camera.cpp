@@ -17,7 +17,7 @@ double norm(const Vec3d& v) { return std::sqrt(dot(v, v)); }
 
 }  // namespace
 
-OrbitCamera::OrbitCamera(const Camera& camera, const LevelAxes& level, const Vec3d& up, double size)
+OrbitCamera::OrbitCamera(const render::Camera& camera, const render::LevelAxes& level, const Vec3d& up, double size)
     : level_(level),
       up_(up),
       field_of_view_(camera.field_of_view),
@@ -35,7 +35,7 @@ Vec3d OrbitCamera::from_target(const Pose& pose) const {
   return pose.distance * (std::cos(pose.pitch) * level + std::sin(pose.pitch) * up_);
 }
 
-Camera OrbitCamera::camera_of(const Pose& pose) const {
+render::Camera OrbitCamera::camera_of(const Pose& pose) const {
   return {pose.target + from_target(pose), pose.target, up_, field_of_view_};
 }
 
@@ -51,7 +51,7 @@ void OrbitCamera::look(double right, double up) {
 }
 
 void OrbitCamera::pan(double right, double up) {
-  const CameraAxes own = axes(camera_of(wanted_));
+  const render::CameraAxes own = render::axes(camera_of(wanted_));
   const double height = 2 * wanted_.distance * std::tan(field_of_view_ * std::numbers::pi / 360);
   wanted_.target += height * (right * own.right + up * own.up);
 }
@@ -61,7 +61,7 @@ void OrbitCamera::zoom(double factor) {
 }
 
 void OrbitCamera::fly(double right, double up, double ahead) {
-  const CameraAxes own = axes(camera_of(wanted_));
+  const render::CameraAxes own = render::axes(camera_of(wanted_));
   wanted_.target += wanted_.distance * (right * own.right + up * up_ - ahead * own.back);
 }
 

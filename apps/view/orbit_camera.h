@@ -11,7 +11,7 @@ namespace hooke::view {
 class OrbitCamera {
  public:
   /// Starts as `camera`. `up`: against gravity; unit vector. `size`: of what there is to see, m, > 0.
-  OrbitCamera(const Camera& camera, const LevelAxes& level, const Vec3d& up, double size);
+  OrbitCamera(const render::Camera& camera, const render::LevelAxes& level, const Vec3d& up, double size);
 
   /// By radians: to the right and up around the target.
   void turn(double right, double up);
@@ -31,7 +31,7 @@ class OrbitCamera {
   void arrive() { shown_ = wanted_; }
 
   /// As it is shown, in metres.
-  Camera camera() const { return camera_of(shown_); }
+  render::Camera camera() const { return camera_of(shown_); }
   double distance() const { return shown_.distance; }
 
  private:
@@ -41,9 +41,9 @@ class OrbitCamera {
     double distance = 1;        // m
   };
   Vec3d from_target(const Pose& pose) const;
-  Camera camera_of(const Pose& pose) const;
+  render::Camera camera_of(const Pose& pose) const;
 
-  LevelAxes level_;
+  render::LevelAxes level_;
   Vec3d up_;
   double field_of_view_, size_;
   Pose start_, wanted_, shown_;

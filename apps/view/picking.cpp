@@ -26,20 +26,20 @@ std::optional<double> meet(const Ray& ray, const Vec3d& a, const Vec3d& b, const
 
 }  // namespace
 
-Ray ray_through(const Camera& camera, double x, double y, double aspect) {
-  const CameraAxes own = axes(camera);
+Ray ray_through(const render::Camera& camera, double x, double y, double aspect) {
+  const render::CameraAxes own = render::axes(camera);
   const double tangent = std::tan(camera.field_of_view * std::numbers::pi / 360);
   const Vec3d direction = (2 * x - 1) * tangent * aspect * own.right + (1 - 2 * y) * tangent * own.up - own.back;
   return {camera.eye, (1 / norm(direction)) * direction};
 }
 
 std::optional<Hit> pick_particle(const ViewFrame& frame, std::span<const float> radii, const Ray& ray,
-                                 const std::optional<ClipPlane>& clip) {
+                                 const std::optional<render::ClipPlane>& clip) {
   std::optional<Hit> first;
   for (std::size_t i = 0; i < frame.particles.size(); ++i) {
-    const LiveParticle& p = frame.particles[i];
+    const render::LiveParticle& p = frame.particles[i];
     const std::uint32_t material = p.tag >> 16;
-    if (p.tag == kHiddenParticle || material >= radii.size()) continue;
+    if (p.tag == render::kHiddenParticle || material >= radii.size()) continue;
     if (clip && dot(clip->normal, Vec3f{p.x, p.y, p.z}) > clip->offset) continue;
     const Vec3d off = Vec3d{p.x, p.y, p.z} - ray.from;
     const double along = dot(off, ray.direction), radius = radii[material];
@@ -51,10 +51,10 @@ std::optional<Hit> pick_particle(const ViewFrame& frame, std::span<const float> 
   return first;
 }
 
-std::optional<Hit> pick_mesh(std::span<const ShadedMesh> meshes, const Ray& ray) {
+std::optional<Hit> pick_mesh(std::span<const render::ShadedMesh> meshes, const Ray& ray) {
   std::optional<Hit> first;
   for (std::size_t k = 0; k < meshes.size(); ++k) {
-    const std::vector<ShadedMesh::Corner>& corners = meshes[k].corners;
+    const std::vector<render::ShadedMesh::Corner>& corners = meshes[k].corners;
     for (std::size_t c = 0; c + 2 < corners.size(); c += 3) {
       const auto at = meet(ray, vec_cast<double>(corners[c].position), vec_cast<double>(corners[c + 1].position),
                            vec_cast<double>(corners[c + 2].position));
@@ -68,7 +68,7 @@ std::vector<std::uint64_t> particles_near(const ViewFrame& frame, const Vec3d& c
                                           std::size_t most) {
   std::vector<std::pair<double, std::uint64_t>> near;
   for (std::size_t i = 0; i < frame.particles.size(); ++i) {
-    const LiveParticle& p = frame.particles[i];
+    const render::LiveParticle& p = frame.particles[i];
     const Vec3d off = Vec3d{p.x, p.y, p.z} - center;
     if (dot(off, off) <= radius * radius) near.emplace_back(dot(off, off), frame.ids[i]);
   }

@@ -23,7 +23,7 @@ struct Ray {
 };
 
 /// The ray through a place of the picture: x from 0 (left) to 1, y from 0 (top) to 1. `aspect`: width over height, > 0.
-Ray ray_through(const Camera& camera, double x, double y, double aspect);
+Ray ray_through(const render::Camera& camera, double x, double y, double aspect);
 
 /// What a ray meets first.
 struct Hit {
@@ -34,9 +34,9 @@ struct Hit {
 /// The first particle of a frame that the ray, which is relative to the frame's origin, meets: one pass over all of
 /// them. `radii`: by material, m. Particles that `clip` cuts away are passed over.
 std::optional<Hit> pick_particle(const ViewFrame& frame, std::span<const float> radii, const Ray& ray,
-                                 const std::optional<ClipPlane>& clip);
+                                 const std::optional<render::ClipPlane>& clip);
 /// The first triangle of the meshes that the ray meets; its index is that of the mesh.
-std::optional<Hit> pick_mesh(std::span<const ShadedMesh> meshes, const Ray& ray);
+std::optional<Hit> pick_mesh(std::span<const render::ShadedMesh> meshes, const Ray& ray);
 
 /// Ids of the particles of a frame within `radius` (m) of `center` (relative to its origin), no more than `most`, the
 /// nearest first found in order of id.

@@ -37,7 +37,7 @@ void take_back(std::vector<RecordEntry>& entries, std::int64_t steps, std::size_
   }
 }
 
-RecordHead read_head(const Json& json, const std::filesystem::path& folder) {
+RecordHead read_head(const scene::Json& json, const std::filesystem::path& folder) {
   if (json.at("hooke_record").get<int>() != kVersion) throw std::runtime_error("is of another version");
   RecordHead head;
   head.scene = (folder / json.at("scene").get<std::string>()).lexically_normal();
@@ -47,7 +47,7 @@ RecordHead read_head(const Json& json, const std::filesystem::path& folder) {
   return head;
 }
 
-void read_line(const Json& json, std::vector<RecordEntry>& entries) {
+void read_line(const scene::Json& json, std::vector<RecordEntry>& entries) {
   const auto steps = json.at("steps").get<std::int64_t>();
   if (steps < 0 || (!entries.empty() && !json.contains("back") && steps < entries.back().steps)) {
     throw std::runtime_error("its steps must not descend");
@@ -72,7 +72,7 @@ Expected<RecordWriter> RecordWriter::create(const std::filesystem::path& file, c
   std::error_code ignored;
   const std::filesystem::path scene = std::filesystem::absolute(head.scene, ignored);
   const std::filesystem::path from_here = std::filesystem::relative(scene, folder_of(file), ignored);
-  Json json = {{"hooke_record", kVersion}};
+  scene::Json json = {{"hooke_record", kVersion}};
   json["scene"] = (from_here.empty() ? scene : from_here).string();
   json["set"] = head.overrides;
   json["allow_outside"] = head.allow_outside;
@@ -82,10 +82,10 @@ Expected<RecordWriter> RecordWriter::create(const std::filesystem::path& file, c
   return writer;
 }
 
-void RecordWriter::write(const Json& line) { file_ << line.dump() << '\n' << std::flush; }
+void RecordWriter::write(const scene::Json& line) { file_ << line.dump() << '\n' << std::flush; }
 
 void RecordWriter::add(std::int64_t steps, const Action& action) {
-  Json line = {{"steps", steps}};
+  scene::Json line = {{"steps", steps}};
   line.update(to_json(action));
   write(line);
 }
@@ -104,7 +104,7 @@ Expected<Record> read_record(const std::filesystem::path& file) {
       return fail(Error::Kind::bad_input, fmt::format("{}:{}", file.string(), number), what);
     };
     try {
-      const Json json = Json::parse(text);
+      const scene::Json json = scene::Json::parse(text);
       if (number == 1) {
         record.head = read_head(json, folder_of(file));
       } else {

@@ -49,7 +49,7 @@ class RecordWriter {
 
  private:
   explicit RecordWriter(std::ofstream file) : file_(std::move(file)) {}
-  void write(const Json& line);
+  void write(const scene::Json& line);
   std::ofstream file_;
 };
 

@@ -15,7 +15,7 @@ Expected<ReplayEnd> replay(const Record& record, const cli::SceneArguments& scen
   Simulation& simulation = opened->simulation;
   Timeline::Settings settings;
   settings.source = scene_source(scene, device);
-  settings.scene = Json::parse(opened->resolved);
+  settings.scene = scene::Json::parse(opened->resolved);
   settings.replay = record.entries;
   settings.memory = 0;
   Timeline timeline(std::move(settings), simulation);

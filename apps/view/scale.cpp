@@ -8,23 +8,23 @@
 namespace hooke::view {
 
 std::tuple<double, double> default_range(const Scene& scene, const ParticleSet& first, Coloring by) {
-  const auto like_films = [&](ColorBy what) {
-    const ColorScale scale = default_scale(scene, first, what);
+  const auto like_films = [&](render::ColorBy what) {
+    const render::ColorScale scale = render::default_scale(scene, first, what);
     return std::tuple{scale.low, scale.high};
   };
   switch (by) {
     case Coloring::material:
-      return like_films(ColorBy::material);
+      return like_films(render::ColorBy::material);
     case Coloring::speed:
-      return like_films(ColorBy::speed);
+      return like_films(render::ColorBy::speed);
     case Coloring::height:
-      return like_films(ColorBy::height);
+      return like_films(render::ColorBy::height);
     case Coloring::pressure:
-      return like_films(ColorBy::pressure);
+      return like_films(render::ColorBy::pressure);
     case Coloring::contacts:
-      return like_films(ColorBy::contacts);
+      return like_films(render::ColorBy::contacts);
     case Coloring::id:
-      return like_films(ColorBy::id);
+      return like_films(render::ColorBy::id);
     case Coloring::age:
       break;
   }

@@ -26,9 +26,9 @@ bool is_of_item(std::string_view pointer, std::string_view list, std::string_vie
   return slash != std::string_view::npos && is_at_or_below(pointer.substr(slash + 1), key);
 }
 
-std::set<std::string> changed_pointers(const Json& patch) {
+std::set<std::string> changed_pointers(const scene::Json& patch) {
   std::set<std::string> pointers;
-  for (const Json& operation : patch) pointers.insert(operation.at("path").get<std::string>());
+  for (const scene::Json& operation : patch) pointers.insert(operation.at("path").get<std::string>());
   return pointers;
 }
 
@@ -45,7 +45,7 @@ Expected<void> change_at_once(Simulation& simulation, const Scene& changed, cons
                               const Hand& hand) {
   const Scene before = simulation.scene();
   for (const Material& material : changed.materials) {
-    const std::string entry = (Json::json_pointer("/materials") / material.name).to_string();
+    const std::string entry = (scene::Json::json_pointer("/materials") / material.name).to_string();
     const auto own = [&](const std::string& pointer) { return is_at_or_below(pointer, entry); };
     if (std::none_of(pointers.begin(), pointers.end(), own)) continue;
     if (auto set = simulation.set_material(material); !set) {
@@ -64,7 +64,7 @@ Expected<void> change_at_once(Simulation& simulation, const Scene& changed, cons
 }
 
 // The spacing of a mesh's distance field may follow from the smallest radius.
-bool same_radii(const Json& a, const Json& b) {
+bool same_radii(const scene::Json& a, const scene::Json& b) {
   if (a.at("materials").size() != b.at("materials").size()) return false;
   for (const auto& [name, material] : a.at("materials").items()) {
     if (!b.at("materials").contains(name)) return false;
@@ -75,14 +75,15 @@ bool same_radii(const Json& a, const Json& b) {
 
 // Puts a small ball, far from everything, in place of each mesh of the list that is as in `before`; returns their
 // indices.
-std::vector<std::size_t> replace_same_meshes(const Json& before, Json& scene, const char* list, const Domain& domain) {
+std::vector<std::size_t> replace_same_meshes(const scene::Json& before, scene::Json& scene, const char* list,
+                                             const Domain& domain) {
   std::vector<std::size_t> replaced;
   if (!before.contains(list) || !scene.contains(list)) return replaced;
-  const Json &old = before.at(list), here = Json(scene.at(list));
+  const scene::Json &old = before.at(list), here = scene::Json(scene.at(list));
   const Vec3d away = domain.max + 100 * (domain.max - domain.min);
   for (std::size_t k = 0; k < std::min(old.size(), here.size()); ++k) {
-    const Json shape = here[k].value("shape", Json());
-    if (!shape.is_object() || !shape.contains("mesh") || shape != old[k].value("shape", Json())) continue;
+    const scene::Json shape = here[k].value("shape", scene::Json());
+    if (!shape.is_object() || !shape.contains("mesh") || shape != old[k].value("shape", scene::Json())) continue;
     const double radius = 0.01 * domain.length(0);
     scene[list][k]["shape"] = {{"sphere", {{"center", {away.x, away.y, away.z}}, {"radius", radius}}}};
     replaced.push_back(k);
@@ -109,15 +110,15 @@ SceneSource scene_source(const cli::SceneArguments& scene, const cli::DeviceArgu
           [device](Precision precision) { return cli::make_backend(device, precision); }};
 }
 
-Expected<LoadedScene> SceneDocument::load(const Json& scene, bool with_particles) const {
-  LoadOptions options;
+Expected<scene::LoadedScene> SceneDocument::load(const scene::Json& scene, bool with_particles) const {
+  scene::LoadOptions options;
   options.allow_outside = source_.allow_outside;
   options.with_particles = with_particles;
-  return parse_scene(pretty(scene), source_.name, source_.folder, options);
+  return scene::parse_scene(scene::pretty(scene), source_.name, source_.folder, options);
 }
 
-Expected<LoadedScene> SceneDocument::load_rules(const Json& scene, const Scene& present) const {
-  Json light = scene;
+Expected<scene::LoadedScene> SceneDocument::load_rules(const scene::Json& scene, const Scene& present) const {
+  scene::Json light = scene;
   std::vector<std::size_t> colliders, sinks;
   if (same_radii(*scene_, scene)) {
     colliders = replace_same_meshes(*scene_, light, "colliders", present.domain);
@@ -141,8 +142,8 @@ Expected<void> SceneDocument::rebuild(Simulation& simulation, Scene scene, Simul
   return {};
 }
 
-Expected<void> SceneDocument::change(Simulation& simulation, const Json& patch, const Hand& hand) {
-  Json next;
+Expected<void> SceneDocument::change(Simulation& simulation, const scene::Json& patch, const Hand& hand) {
+  scene::Json next;
   std::set<std::string> pointers;
   try {
     next = scene_->patch(patch);
@@ -169,7 +170,7 @@ Expected<void> SceneDocument::change(Simulation& simulation, const Json& patch, 
   } else if (needs(Effect::at_once)) {
     done = change_at_once(simulation, changed, pointers, hand);
   }
-  if (done) scene_ = std::make_shared<const Json>(std::move(next));
+  if (done) scene_ = std::make_shared<const scene::Json>(std::move(next));
   return done;
 }
 
@@ -187,17 +188,17 @@ Expected<void> SceneDocument::reset(Simulation& simulation) const {
 Expected<void> SceneDocument::load_checkpoint(Simulation& simulation, const std::filesystem::path& file) const {
   auto loaded = load_rules(*scene_, simulation.scene());
   if (!loaded) return fail(std::move(loaded).error());
-  auto checkpoint = read_checkpoint(file);
+  auto checkpoint = io::read_checkpoint(file);
   if (!checkpoint) return fail(std::move(checkpoint).error());
-  const RunInfo info = describe_run(loaded->scene, simulation.backend_info().precision);
-  if (auto findings = check_resumable(checkpoint->info, info); !findings.empty()) {
+  const io::RunInfo info = io::describe_run(loaded->scene, simulation.backend_info().precision);
+  if (auto findings = io::check_resumable(checkpoint->info, info); !findings.empty()) {
     return fail(Error{Error::Kind::bad_input, std::move(findings)});
   }
   return rebuild(simulation, std::move(loaded->scene), std::move(checkpoint->state), Hand{});
 }
 
-Expected<void> SceneDocument::go_back(Simulation& simulation, SimulationState state, std::shared_ptr<const Json> text,
-                                      const Hand& hand) {
+Expected<void> SceneDocument::go_back(Simulation& simulation, SimulationState state,
+                                      std::shared_ptr<const scene::Json> text, const Hand& hand) {
   auto loaded = load_rules(*text, simulation.scene());
   if (!loaded) return fail(std::move(loaded).error());
   if (auto rebuilt = rebuild(simulation, std::move(loaded->scene), std::move(state), hand); !rebuilt) return rebuilt;
@@ -205,19 +206,19 @@ Expected<void> SceneDocument::go_back(Simulation& simulation, SimulationState st
   return {};
 }
 
-Json with_led_colliders(const Json& scene, const std::vector<Hand::Led>& led) {
-  Json saved = scene;
+scene::Json with_led_colliders(const scene::Json& scene, const std::vector<Hand::Led>& led) {
+  scene::Json saved = scene;
   if (!saved.contains("colliders")) return saved;
-  for (Json& collider : saved["colliders"]) {
+  for (scene::Json& collider : saved["colliders"]) {
     for (const Hand::Led& one : led) {
       if (collider.value("name", "") != one.name) continue;
       const Vec3d &x = one.motion.position, &turn = one.motion.rotation;
       const double angle = std::sqrt(dot(turn, turn));
-      Json keyframe = {{"time", 0}, {"position", {x.x, x.y, x.z}}};
+      scene::Json keyframe = {{"time", 0}, {"position", {x.x, x.y, x.z}}};
       if (angle > 0) {
         keyframe["rotation"] = {turn.x / angle, turn.y / angle, turn.z / angle, angle * 180 / std::numbers::pi};
       }
-      Json motion = {{"keyframes", Json::array({keyframe})}};
+      scene::Json motion = {{"keyframes", scene::Json::array({keyframe})}};
       if (const auto& pivot = one.motion.pivot) motion["pivot"] = {pivot->x, pivot->y, pivot->z};
       collider["motion"] = std::move(motion);
     }

@@ -42,34 +42,34 @@ SceneSource scene_source(const cli::SceneArguments& scene, const cli::DeviceArgu
 class SceneDocument {
  public:
   /// `scene` is the resolved text as a value.
-  SceneDocument(SceneSource source, Json scene)
+  SceneDocument(SceneSource source, scene::Json scene)
       : source_(std::move(source)),
-        scene_(std::make_shared<const Json>(std::move(scene))) {}
+        scene_(std::make_shared<const scene::Json>(std::move(scene))) {}
 
-  const std::shared_ptr<const Json>& json() const { return scene_; }
+  const std::shared_ptr<const scene::Json>& json() const { return scene_; }
 
   /// Applies a patch to the text and what follows from it to the simulation. Where it fails, nothing has changed.
-  Expected<void> change(Simulation& simulation, const Json& patch, const Hand& hand);
+  Expected<void> change(Simulation& simulation, const scene::Json& patch, const Hand& hand);
   /// The simulation starts again, from the text as it is.
   Expected<void> reset(Simulation& simulation) const;
   /// The simulation goes on from a checkpoint of this scene.
   Expected<void> load_checkpoint(Simulation& simulation, const std::filesystem::path& file) const;
   /// The simulation goes on from `state`, of the scene `text`.
-  Expected<void> go_back(Simulation& simulation, SimulationState state, std::shared_ptr<const Json> text,
+  Expected<void> go_back(Simulation& simulation, SimulationState state, std::shared_ptr<const scene::Json> text,
                          const Hand& hand);
 
  private:
-  Expected<LoadedScene> load(const Json& scene, bool with_particles) const;
+  Expected<scene::LoadedScene> load(const scene::Json& scene, bool with_particles) const;
   /// The rules of a text that differs little from the present one, of which `present` was made: its meshes are taken
   /// from there, because their distance fields take seconds to make.
-  Expected<LoadedScene> load_rules(const Json& scene, const Scene& present) const;
+  Expected<scene::LoadedScene> load_rules(const scene::Json& scene, const Scene& present) const;
   Expected<void> rebuild(Simulation& simulation, Scene scene, SimulationState state, const Hand& hand) const;
 
   SceneSource source_;
-  std::shared_ptr<const Json> scene_;
+  std::shared_ptr<const scene::Json> scene_;
 };
 
 /// The scene with its colliders where a hand has led them: what is saved.
-Json with_led_colliders(const Json& scene, const std::vector<Hand::Led>& led);
+scene::Json with_led_colliders(const scene::Json& scene, const std::vector<Hand::Led>& led);
 
 }  // namespace hooke::view

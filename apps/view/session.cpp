@@ -41,7 +41,7 @@ Expected<std::unique_ptr<Session>> Session::open(const SessionOptions& options) 
 
   Timeline::Settings settings;
   settings.source = scene_source(options.scene, options.device);
-  settings.scene = Json::parse(opened->resolved);
+  settings.scene = scene::Json::parse(opened->resolved);
   settings.replay = options.replay;
   if (!options.record.empty()) {
     auto recorder = RecordWriter::create(options.record, {options.scene.file, options.scene.overrides,
@@ -233,7 +233,7 @@ void Session::act(Action action, bool quiet) {
       changes_text);
 }
 
-std::shared_ptr<const Json> Session::wanted() {
+std::shared_ptr<const scene::Json> Session::wanted() {
   const std::lock_guard lock(mutex_);
   if (text_changes_ == 0) wanted_ = text_;
   return wanted_;
@@ -244,21 +244,21 @@ bool Session::is_text_settled() const {
   return text_changes_ == 0;
 }
 
-void Session::change_scene(const Json& wanted_text, bool continues) {
-  const std::shared_ptr<const Json> before = wanted();
-  const Json patch = Json::diff(*before, wanted_text);
+void Session::change_scene(const scene::Json& wanted_text, bool continues) {
+  const std::shared_ptr<const scene::Json> before = wanted();
+  const scene::Json patch = scene::Json::diff(*before, wanted_text);
   if (patch.empty()) return;
   if (!continues || undo_.empty()) undo_.push_back(before);
   if (undo_.size() > kMostUndo) undo_.erase(undo_.begin());
   redo_.clear();
-  wanted_ = std::make_shared<const Json>(wanted_text);
+  wanted_ = std::make_shared<const scene::Json>(wanted_text);
   act(ChangeScene{patch});
 }
 
 void Session::undo() {
   if (undo_.empty()) return;
-  const std::shared_ptr<const Json> before = wanted();
-  const Json patch = Json::diff(*before, *undo_.back());
+  const std::shared_ptr<const scene::Json> before = wanted();
+  const scene::Json patch = scene::Json::diff(*before, *undo_.back());
   redo_.push_back(before);
   wanted_ = undo_.back();
   undo_.pop_back();
@@ -267,8 +267,8 @@ void Session::undo() {
 
 void Session::redo() {
   if (redo_.empty()) return;
-  const std::shared_ptr<const Json> before = wanted();
-  const Json patch = Json::diff(*before, *redo_.back());
+  const std::shared_ptr<const scene::Json> before = wanted();
+  const scene::Json patch = scene::Json::diff(*before, *redo_.back());
   undo_.push_back(before);
   wanted_ = redo_.back();
   redo_.pop_back();
@@ -277,7 +277,7 @@ void Session::redo() {
 
 void Session::save_checkpoint(const std::filesystem::path& file) {
   post([this, file](Simulation& s) -> Expected<void> {
-    auto written = write_checkpoint(file, s.state(), describe_run(s.scene(), s.backend_info().precision));
+    auto written = io::write_checkpoint(file, s.state(), io::describe_run(s.scene(), s.backend_info().precision));
     if (written) say("saved " + file.string());
     return written;
   });
@@ -326,7 +326,7 @@ std::shared_ptr<const Scene> Session::scene() const {
   const std::lock_guard lock(mutex_);
   return scene_;
 }
-Json Session::text_to_save() {
+scene::Json Session::text_to_save() {
   const std::lock_guard lock(mutex_);
   return with_led_colliders(*text_, led_);
 }

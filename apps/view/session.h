@@ -84,10 +84,10 @@ class Session {
   /// Queues an action; what it complains about comes with next_message(), unless `quiet`.
   void act(Action action, bool quiet = false);
   /// The text of the scene with all changes that were asked for.
-  std::shared_ptr<const Json> wanted();
+  std::shared_ptr<const scene::Json> wanted();
   /// Changes the scene so that its text becomes `wanted_text`; may be undone. `continues`: undone with the change
   /// before.
-  void change_scene(const Json& wanted_text, bool continues = false);
+  void change_scene(const scene::Json& wanted_text, bool continues = false);
   /// Whether all changes that were asked for have taken effect.
   bool is_text_settled() const;
   void undo();
@@ -100,7 +100,7 @@ class Session {
   /// The latest frame; null before the first. Asks for the next one, if the last has come.
   std::shared_ptr<const ViewFrame> frame(const ColorRequest& color);
   /// The scene's text as it is now, with its colliders where a hand has led them.
-  Json text_to_save();
+  scene::Json text_to_save();
   /// A recent state; when the engine is idle, the present one.
   std::shared_ptr<const Snapshot> snapshot() { return thread_->latest(); }
   Readings readings() const;
@@ -145,15 +145,15 @@ class Session {
   Vec3d origin_{0, 0, 0};
   bool runs_ = false;
   std::atomic<double> speed_{1};
-  std::shared_ptr<const Json> wanted_;  // the text with all wanted changes
-  std::vector<std::shared_ptr<const Json>> undo_, redo_;
+  std::shared_ptr<const scene::Json> wanted_;  // the text with all wanted changes
+  std::vector<std::shared_ptr<const scene::Json>> undo_, redo_;
   std::unique_ptr<Timeline> timeline_;  // the engine's
 
   mutable std::mutex mutex_;  // guards all down to the thread
   Readings readings_;
   std::shared_ptr<const Figures> figures_;
   std::shared_ptr<const Scene> scene_;
-  std::shared_ptr<const Json> text_;
+  std::shared_ptr<const scene::Json> text_;
   std::uint64_t scene_version_ = 0;
   int text_changes_ = 0;  // that wait
   std::vector<Hand::Led> led_;

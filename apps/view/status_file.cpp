@@ -8,7 +8,7 @@
 
 namespace hooke::view {
 
-void StatusFile::write(const Json& line) const {
+void StatusFile::write(const scene::Json& line) const {
   if (file_.empty()) return;
   std::filesystem::path beside = file_;
   beside += ".part";

@@ -15,7 +15,7 @@ class StatusFile {
   /// Empty: nothing is written.
   explicit StatusFile(std::filesystem::path file) : file_(std::move(file)) {}
   /// A reader finds the old or the new line. A file that can't be written is passed over.
-  void write(const Json& line) const;
+  void write(const scene::Json& line) const;
   bool is_wanted() const { return !file_.empty(); }
 
  private:

@@ -35,19 +35,19 @@ std::filesystem::path next_file(const std::string& name, const std::string& exte
   }
 }
 
-Expected<void> write_scene(const std::filesystem::path& file, const Json& scene) {
-  return write_text(file, pretty(scene) + "\n");
+Expected<void> write_scene(const std::filesystem::path& file, const scene::Json& scene) {
+  return write_text(file, scene::pretty(scene) + "\n");
 }
 
-Expected<void> write_still(const std::filesystem::path& file, const Image& image, const Json& scene) {
-  const auto png = encode_png(image);
+Expected<void> write_still(const std::filesystem::path& file, const render::Image& image, const scene::Json& scene) {
+  const auto png = render::encode_png(image);
   if (!png) return fail(png.error());
   if (auto written = write_text(file, *png); !written) return written;
   return write_scene(beside(file), scene);
 }
 
-Expected<Image> draw_film_look(const FilmLook& look, const ParticleSet& first) {
-  auto renderer = make_gl_renderer({look.width, look.height, 2});
+Expected<render::Image> draw_film_look(const FilmLook& look, const ParticleSet& first) {
+  auto renderer = render::make_gl_renderer({look.width, look.height, 2});
   if (!renderer) return fail(std::move(renderer).error());
   Scene scene = *look.scene;
   scene.camera.eye = look.camera.eye;
@@ -55,15 +55,15 @@ Expected<Image> draw_film_look(const FilmLook& look, const ParticleSet& first) {
   scene.camera.field_of_view = look.camera.field_of_view;
   scene.camera.orbit = 0;
   const double aspect = static_cast<double>(look.width) / look.height;
-  const Frame frame = make_frame(scene, look.snapshot->particles, look.snapshot->time,
-                                 make_look(scene, first, ColorBy::material), aspect);
+  const render::Frame frame = render::make_frame(scene, look.snapshot->particles, look.snapshot->time,
+                                                 render::make_look(scene, first, render::ColorBy::material), aspect);
   return (*renderer)->render(frame);
 }
 
 Expected<WindowFilm> WindowFilm::begin(const std::filesystem::path& file, int width, int height, double time,
-                                       double speed, const Json& scene) {
+                                       double speed, const scene::Json& scene) {
   const int even_width = std::max(width & ~1, 2), even_height = std::max(height & ~1, 2);
-  auto writer = FilmWriter::create(file, {even_width, even_height, kFramesPerSecond});
+  auto writer = render::FilmWriter::create(file, {even_width, even_height, kFramesPerSecond});
   if (!writer) return fail(std::move(writer).error());
   if (auto written = write_scene(beside(file), scene); !written) return fail(written.error());
   return WindowFilm(std::move(*writer), even_width, even_height, time, speed);
@@ -73,12 +73,12 @@ std::int64_t WindowFilm::steps_to_next(double time, double dt) const {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil((next_ - time) / dt - 1e-9)));
 }
 
-Expected<void> WindowFilm::add(const Image& image) {
+Expected<void> WindowFilm::add(const render::Image& image) {
   next_ += interval_;
   if (image.width < width_ || image.height < height_) return {};
-  Image cropped(width_, height_);
+  render::Image cropped(width_, height_);
   for (int y = 0; y < height_; ++y) {
-    std::copy_n(image.at(0, y), Image::kChannels * static_cast<std::size_t>(width_), cropped.at(0, y));
+    std::copy_n(image.at(0, y), render::Image::kChannels * static_cast<std::size_t>(width_), cropped.at(0, y));
   }
   return writer_.add(cropped);
 }

@@ -32,7 +32,7 @@ class Timeline {
  public:
   struct Settings {
     SceneSource source;
-    Json scene;                            ///< resolved
+    scene::Json scene;                            ///< resolved
     std::optional<RecordWriter> recorder;  ///< none: not recorded
     std::vector<RecordEntry> replay;       ///< empty: none
     std::size_t memory = std::size_t{512} << 20;  ///< that recent states may take, bytes
@@ -57,7 +57,7 @@ class Timeline {
   std::int64_t steps() const { return steps_; }
   /// How many steps the recent states reach back.
   std::int64_t reach() const { return recent_.empty() ? 0 : steps_ - recent_.front().steps; }
-  const std::shared_ptr<const Json>& scene() const { return document_.json(); }
+  const std::shared_ptr<const scene::Json>& scene() const { return document_.json(); }
   const Hand& hand() const { return hand_; }
   const ReplayReport& replay() const { return replay_report_; }
   bool is_recorded() const { return recorder_ && recorder_->is_good(); }
@@ -76,7 +76,7 @@ class Timeline {
     std::shared_ptr<std::vector<Birth>> births;
     std::size_t birth_count = 0;  // of these, so far
     SimulationState state;
-    std::shared_ptr<const Json> scene;
+    std::shared_ptr<const scene::Json> scene;
     Hand hand;
   };
   struct Done {

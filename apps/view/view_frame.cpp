@@ -112,7 +112,7 @@ Expected<void> fill_frame(const Simulation& simulation, const Timeline& timeline
       float share = (value - static_cast<float>(low)) * scale;
       if (by_material) share = share > 0 ? std::min(share * share, 1.0f) : 0;
       const Vec3f& x = frame.positions[i];
-      frame.particles[i] = {x.x, x.y, x.z, live_tag(frame.materials[i], share)};
+      frame.particles[i] = {x.x, x.y, x.z, render::live_tag(frame.materials[i], share)};
     }
     const std::lock_guard lock(mutex);
     frame.lowest = std::min(frame.lowest, static_cast<double>(least));

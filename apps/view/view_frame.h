@@ -55,7 +55,7 @@ struct ViewFrame {
   std::int64_t step_count = 0;  ///< of the simulation
   double time = 0;              ///< s
   Vec3d origin{0, 0, 0};        ///< of the positions, m
-  std::vector<LiveParticle> particles;  ///< by ascending id
+  std::vector<render::LiveParticle> particles;  ///< by ascending id
   std::vector<std::uint64_t> ids;
   std::vector<ColliderPose> poses;
   std::shared_ptr<const Snapshot> snapshot;  ///< where the scene has cloths; else null

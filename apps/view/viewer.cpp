@@ -23,7 +23,7 @@ constexpr auto kMessageTime = 6s;
 double seconds(std::chrono::steady_clock::duration time) { return std::chrono::duration<double>(time).count(); }
 
 // One particle of each material, to ask what pictures make of it.
-Frame specimen(const Scene& scene, const Look& look) {
+render::Frame specimen(const Scene& scene, const render::Look& look) {
   Scene plain = scene;
   plain.colliders.clear();
   plain.structure = nullptr;
@@ -34,33 +34,34 @@ Frame specimen(const Scene& scene, const Look& look) {
     one_each.position.push_back(look.action.center());
     one_each.velocity.push_back({0, 0, 0});
   }
-  Look by_material = look;
-  by_material.scale = ColorScale{};
-  return make_frame(plain, one_each, 0, by_material, 1);
+  render::Look by_material = look;
+  by_material.scale = render::ColorScale{};
+  return render::make_frame(plain, one_each, 0, by_material, 1);
 }
 
 }  // namespace
 
-Viewer::Viewer(Window& window, Session& session, const ViewerOptions& options, LiveRenderer renderer)
+Viewer::Viewer(Window& window, Session& session, const ViewerOptions& options, render::LiveRenderer renderer)
     : window_(window),
       session_(session),
       options_(options),
       renderer_(std::move(renderer)) {}
 
 Expected<std::unique_ptr<Viewer>> Viewer::open(Window& window, Session& session, const ViewerOptions& options) {
-  auto renderer = LiveRenderer::create();
+  auto renderer = render::LiveRenderer::create();
   if (!renderer) return fail(std::move(renderer).error());
   std::unique_ptr<Viewer> viewer(new Viewer(window, session, options, std::move(*renderer)));
   Viewer& v = *viewer;
   const std::shared_ptr<const Scene> scene = session.scene();
   const ParticleSet& first = session.first_particles();
-  v.look_ = make_look(*scene, first, ColorBy::material);
-  v.up_ = up_of(*scene);
+  v.look_ = render::make_look(*scene, first, render::ColorBy::material);
+  v.up_ = render::up_of(*scene);
   const Vec3d size = v.look_.action.extent();
   v.size_ = std::sqrt(dot(size, size));
-  v.floor_ = dot(v.look_.action.center(), v.up_) - 0.5 * extent_along(v.look_.action, v.up_);
+  v.floor_ = dot(v.look_.action.center(), v.up_) - 0.5 * render::extent_along(v.look_.action, v.up_);
   const double aspect = static_cast<double>(std::max(window.width(), 1)) / std::max(window.height(), 1);
-  v.camera_.emplace(camera_at(*scene, v.look_.action, aspect, 0), level_axes(v.look_.action, v.up_), v.up_, v.size_);
+  v.camera_.emplace(render::camera_at(*scene, v.look_.action, aspect, 0), render::level_axes(v.look_.action, v.up_),
+                    v.up_, v.size_);
   for (std::size_t k = 0; k < kColorings.size(); ++k) {
     std::tie(v.state_.low[k], v.state_.high[k]) = default_range(*scene, first, static_cast<Coloring>(k));
   }
@@ -79,12 +80,12 @@ void Viewer::follow_scene() {
   scene_ = session_.scene();
   colliders_.set_scene(*scene_);
   poses_.clear();
-  std::vector<LiveMaterial> materials(std::max<std::size_t>(scene_->materials.size(), 1));
+  std::vector<render::LiveMaterial> materials(std::max<std::size_t>(scene_->materials.size(), 1));
   radii_.assign(scene_->materials.size(), 0);
-  const Frame shown = specimen(*scene_, look_);
+  const render::Frame shown = specimen(*scene_, look_);
   ball_ = 0;
   for (std::size_t k = 0; k < scene_->materials.size(); ++k) {
-    const Sphere& sphere = shown.spheres[k];
+    const render::Sphere& sphere = shown.spheres[k];
     materials[k] = {sphere.color, sphere.radius, scene_->materials[k].look == MaterialLook::water};
     radii_[k] = sphere.radius;
     const double radius = scene_->materials[k].radius;
@@ -103,22 +104,22 @@ ColorRequest Viewer::color_request() const {
   return {state_.coloring, state_.low[by], state_.high[by], look_.foam_speed, up_, floor_, nullptr};
 }
 
-std::optional<ClipPlane> Viewer::clip_plane() const {
+std::optional<render::ClipPlane> Viewer::clip_plane() const {
   if (!state_.clip) return {};
   const Domain& domain = scene_->domain;
   Vec3f normal{0, 0, 0};
   component(normal, state_.clip_axis) = state_.clip_flipped ? -1.0f : 1.0f;
   const Vec3d place = domain.min + static_cast<double>(state_.clip_place) * (domain.max - domain.min);
-  return ClipPlane{normal, dot(normal, vec_cast<float>(place - session_.origin()))};
+  return render::ClipPlane{normal, dot(normal, vec_cast<float>(place - session_.origin()))};
 }
 
-LiveView Viewer::live_view() const {
-  LiveView view;
+render::LiveView Viewer::live_view() const {
+  render::LiveView view;
   view.camera = camera_->camera();
   view.camera.eye -= session_.origin();
   view.camera.target -= session_.origin();
   view.up = up_;
-  view.to_sun = direction_to_sun(look_.action, up_);
+  view.to_sun = render::direction_to_sun(look_.action, up_);
   view.middle = look_.action.center() - session_.origin();
   view.size = size_;
   view.ball = ball_;
@@ -134,11 +135,11 @@ LiveView Viewer::live_view() const {
 }
 
 // The tank, and the force on the collider that is held.
-std::vector<LiveVertex> Viewer::lines() const {
-  std::vector<LiveVertex> ends;
-  const Color grey = state_.dark ? Color{120, 132, 148} : Color{96, 104, 116};
+std::vector<render::LiveVertex> Viewer::lines() const {
+  std::vector<render::LiveVertex> ends;
+  const render::Color grey = state_.dark ? render::Color{120, 132, 148} : render::Color{96, 104, 116};
   const Domain& domain = scene_->domain;
-  const auto add = [&](const Vec3d& from, const Vec3d& to, Color color) {
+  const auto add = [&](const Vec3d& from, const Vec3d& to, render::Color color) {
     for (const Vec3d& x : {from, to}) ends.push_back({vec_cast<float>(x - session_.origin()), color});
   };
   for (int axis = 0; state_.tank && axis < 3; ++axis) {
@@ -182,15 +183,15 @@ void Viewer::upload(const std::shared_ptr<const ViewFrame>& frame) {
     return;
   }
   // Particles that a cloth's surface shows are not drawn as balls.
-  std::vector<LiveParticle> particles = frame->particles;
+  std::vector<render::LiveParticle> particles = frame->particles;
   std::vector<char> covered(particles.size(), 0);
-  const Frame looks = specimen(*scene_, look_);
+  const render::Frame looks = specimen(*scene_, look_);
   const auto color_of = [&](std::size_t i) { return looks.spheres[frame->snapshot->particles.material[i]].color; };
-  cloth_meshes_ = cloth_meshes(*scene_, frame->snapshot->particles, session_.origin(), color_of, covered);
+  cloth_meshes_ = render::cloth_meshes(*scene_, frame->snapshot->particles, session_.origin(), color_of, covered);
   for (std::size_t i = 0; i < particles.size(); ++i) {
-    if (covered[i] != 0) particles[i].tag = kHiddenParticle;
+    if (covered[i] != 0) particles[i].tag = render::kHiddenParticle;
   }
-  std::vector<ShadedMesh> meshes = cloth_meshes_;
+  std::vector<render::ShadedMesh> meshes = cloth_meshes_;
   meshes.insert(meshes.end(), collider_meshes_.begin(), collider_meshes_.end());
   renderer_.set_particles(particles);
   renderer_.set_meshes(meshes);

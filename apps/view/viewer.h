@@ -41,16 +41,16 @@ class Viewer {
  private:
   using Clock = std::chrono::steady_clock;
 
-  Viewer(Window& window, Session& session, const ViewerOptions& options, LiveRenderer renderer);
+  Viewer(Window& window, Session& session, const ViewerOptions& options, render::LiveRenderer renderer);
 
   // viewer.cpp: the loop and the picture
   void follow_scene();
   void upload(const std::shared_ptr<const ViewFrame>& frame);
   void draw_picture();
   ColorRequest color_request() const;
-  std::optional<ClipPlane> clip_plane() const;
-  LiveView live_view() const;
-  std::vector<LiveVertex> lines() const;
+  std::optional<render::ClipPlane> clip_plane() const;
+  render::LiveView live_view() const;
+  std::vector<render::LiveVertex> lines() const;
   void show_message(const std::string& text);
   void follow_replay();
 
@@ -109,12 +109,12 @@ class Viewer {
   void draw_menu();
 
   // viewer_status.cpp
-  Json status_now() const;
+  scene::Json status_now() const;
 
   Window& window_;
   Session& session_;
   ViewerOptions options_;
-  LiveRenderer renderer_;
+  render::LiveRenderer renderer_;
   ViewState state_;
 
   std::shared_ptr<const Scene> scene_;
@@ -123,15 +123,15 @@ class Viewer {
   double ball_ = 1;           // radius of a typical particle, m
   double reference_force_ = 1;  // N, > 0
   ColliderView colliders_;
-  Look look_;
+  render::Look look_;
   Vec3d up_{0, 1, 0};
   double floor_ = 0, size_ = 1;  // m
   std::optional<OrbitCamera> camera_;
 
   std::shared_ptr<const ViewFrame> frame_;
   std::vector<ColliderPose> poses_;          // of the meshes
-  std::vector<ShadedMesh> collider_meshes_;  // posed
-  std::vector<ShadedMesh> cloth_meshes_;
+  std::vector<render::ShadedMesh> collider_meshes_;  // posed
+  std::vector<render::ShadedMesh> cloth_meshes_;
   std::uint64_t drawn_ = 0;
 
   bool replays_ = false;
@@ -149,7 +149,7 @@ class Viewer {
 
   StabilityReading stability_;
   std::uint64_t stability_version_ = 0;  // of the scene
-  std::shared_ptr<const Json> draft_;    // the text while a slider is dragged
+  std::shared_ptr<const scene::Json> draft_;    // the text while a slider is dragged
   bool draft_continues_ = false;         // its first value has been tried
   History history_;
   std::array<char, 512> checkpoint_name_{};
@@ -157,7 +157,7 @@ class Viewer {
   std::optional<std::filesystem::path> still_wanted_;
   std::optional<WindowFilm> film_;
   bool film_runs_ = false;
-  std::future<Expected<Image>> film_still_;
+  std::future<Expected<render::Image>> film_still_;
 };
 
 }  // namespace hooke::view

@@ -64,7 +64,7 @@ std::string duration_text(double seconds) {
                            : fmt::format("{:.0f} us", 1e6 * seconds);
 }
 
-ImU32 color_of(Color c, int opacity = 255) { return IM_COL32(c.red, c.green, c.blue, opacity); }
+ImU32 color_of(render::Color c, int opacity = 255) { return IM_COL32(c.red, c.green, c.blue, opacity); }
 
 void line(const std::string& text) { ImGui::TextUnformatted(text.c_str()); }
 
@@ -176,8 +176,8 @@ void Viewer::draw_legend() {
   constexpr int kPieces = 48;
   for (int i = 0; i < kPieces; ++i) {
     const float left = corner.x + width * static_cast<float>(i) / kPieces;
-    const ImU32 from = color_of(map_color(static_cast<double>(i) / kPieces)),
-                to = color_of(map_color(static_cast<double>(i + 1) / kPieces));
+    const ImU32 from = color_of(render::map_color(static_cast<double>(i) / kPieces)),
+                to = color_of(render::map_color(static_cast<double>(i + 1) / kPieces));
     ImGui::GetWindowDrawList()->AddRectFilledMultiColor(
         {left, corner.y}, {left + width / kPieces + 1, corner.y + height}, from, to, to, from);
   }

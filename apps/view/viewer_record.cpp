@@ -18,7 +18,7 @@ void Viewer::save_still() { still_wanted_ = next_file(output_name(), ".png"); }
 void Viewer::capture() {
   if (!still_wanted_ && !film_) return;
   if (!still_wanted_ && film_ && !(frame_ && film_->is_due(frame_->time - 1e-9 * scene_->time_step))) return;
-  const Image image = LiveRenderer::read_window(window_.width(), window_.height());
+  const render::Image image = render::LiveRenderer::read_window(window_.width(), window_.height());
   if (still_wanted_) {
     const auto written = write_still(*still_wanted_, image, session_.text_to_save());
     show_message(written ? "saved " + still_wanted_->string() + ", and its scene" : written.error().text());
@@ -81,7 +81,7 @@ void Viewer::save_film_still() {
 void Viewer::finish_film_still() {
   using namespace std::chrono_literals;
   if (!film_still_.valid() || film_still_.wait_for(0s) != std::future_status::ready) return;
-  const Expected<Image> image = film_still_.get();
+  const Expected<render::Image> image = film_still_.get();
   if (!image) return show_message(image.error().text());
   const std::filesystem::path file = next_file(output_name(), ".png");
   const auto written = write_still(file, *image, session_.text_to_save());

@@ -94,7 +94,7 @@ void Viewer::draw_stability() {
   if (std::isfinite(stability_.safe_step)) {
     ImGui::SameLine();
     if (ImGui::SmallButton(fmt::format("safe: {:.2g} s", stability_.safe_step).c_str())) {
-      Json next = *session_.wanted();
+      scene::Json next = *session_.wanted();
       next["time"]["step"] = stability_.safe_step;
       session_.change_scene(next);
     }
@@ -136,9 +136,9 @@ void Viewer::draw_tune() {
   ImGui::BeginChild("values");
   ImGui::PushItemWidth(0.5f * ImGui::GetWindowWidth());
   // While a slider is dragged, its values are tried as fast as the engine takes them.
-  const std::shared_ptr<const Json> scene = draft_ ? draft_ : session_.wanted();
+  const std::shared_ptr<const scene::Json> scene = draft_ ? draft_ : session_.wanted();
   if (auto edit = draw_scene_widgets(*scene)) {
-    draft_ = std::make_shared<const Json>(std::move(edit->scene));
+    draft_ = std::make_shared<const scene::Json>(std::move(edit->scene));
     const bool at_once = effect_of(edit->pointer) != Effect::rebuild;
     if (edit->finished || (at_once && session_.is_text_settled())) {
       session_.change_scene(*draft_, draft_continues_);

@@ -7,11 +7,11 @@
 
 namespace hooke::view {
 
-Json Viewer::status_now() const {
+scene::Json Viewer::status_now() const {
   const Readings now = session_.readings();
-  const Camera camera = camera_->camera();
+  const render::Camera camera = camera_->camera();
   constexpr const char* kModes[] = {"view", "move", "cut"};
-  Json json;
+  scene::Json json;
   json["frame"] = drawn_;
   json["frame_seconds"] = frame_seconds_;
   json["steps"] = now.steps;
@@ -20,7 +20,7 @@ Json Viewer::status_now() const {
   json["time_step"] = now.time_step;
   json["steps_per_second"] = now.steps_per_second;
   json["runs"] = session_.runs();
-  json["speed"] = std::isinf(session_.speed()) ? Json("fastest") : Json(session_.speed());
+  json["speed"] = std::isinf(session_.speed()) ? scene::Json("fastest") : scene::Json(session_.speed());
   json["particles"] = now.particles;
   json["mode"] = kModes[static_cast<int>(state_.mode)];
   json["flies"] = state_.flies;
@@ -40,14 +40,14 @@ Json Viewer::status_now() const {
   json["gravity"] = {gravity.x, gravity.y, gravity.z};
   json["held_collider"] = now.held_collider;
   json["held_particles"] = now.held_particles;
-  json["picked"] = picked_ ? Json(*picked_) : Json(nullptr);
+  json["picked"] = picked_ ? scene::Json(*picked_) : scene::Json(nullptr);
   json["can_undo"] = session_.can_undo();
   json["reach"] = now.reach;
   json["message"] = message_;
   json["failure"] = now.failure;
   json["replay_running"] = now.replay.running;
-  json["diverged"] = now.replay.diverged ? Json(*now.replay.diverged) : Json(nullptr);
-  json["device"] = LiveRenderer::device();
+  json["diverged"] = now.replay.diverged ? scene::Json(*now.replay.diverged) : scene::Json(nullptr);
+  json["device"] = render::LiveRenderer::device();
   json["width"] = window_.width();
   json["height"] = window_.height();
   return json;

@@ -79,8 +79,8 @@ void Viewer::take_hold(double x, double y) {
 
 // By shares of the picture's height, and of the depth.
 void Viewer::lead(double right, double up, double ahead) {
-  const Camera camera = camera_->camera();
-  const CameraAxes own = axes(camera);
+  const render::Camera camera = camera_->camera();
+  const render::CameraAxes own = render::axes(camera);
   const double height = 2 * held_depth_ * std::tan(camera.field_of_view * std::numbers::pi / 360);
   held_shift_ += height * (right * own.right + up * own.up) - (ahead * 2 * held_depth_) * own.back;
   session_.act(Lead{held_shift_});
@@ -158,7 +158,7 @@ void Viewer::shoot_ball(double x, double y) {
     leave = std::min(leave, out);
   }
   if (!(enter < leave)) return show_message("the ball would miss the scene");
-  const double fall = default_scale(*scene_, session_.first_particles(), ColorBy::speed).high;
+  const double fall = render::default_scale(*scene_, session_.first_particles(), render::ColorBy::speed).high;
   const double speed =
       std::min(static_cast<double>(state_.shot_speed) * fall, kFastestShot * ball_ / scene_->time_step);
   session_.act(AddBall{material->name, session_.origin() + ray.from + (enter + 1e-6 * size_) * ray.direction, radius,

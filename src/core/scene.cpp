@@ -136,6 +136,12 @@ void check_contacts(const Scene& scene, Checker& check) {
 
 }  // namespace
 
+const char* to_string(Integrator integrator) {
+  return integrator == Integrator::symplectic_euler ? "symplectic-euler" : "velocity-verlet";
+}
+
+const char* to_string(Precision precision) { return precision == Precision::single_precision ? "single" : "double"; }
+
 bool OutputCadence::is_due(std::int64_t step, double dt) const {
   HOOKE_ASSERT(step >= 0 && dt > 0, step, dt);
   HOOKE_ASSERT(seconds >= 0 && steps >= 0, seconds, steps);

@@ -31,6 +31,10 @@ enum class Integrator {
 /// The number type that a back end computes in. The reference back end is double whatever is asked.
 enum class Precision { single_precision, double_precision };
 
+/// "symplectic-euler" and "velocity-verlet", "single" and "double", as in scene files.
+const char* to_string(Integrator integrator);
+const char* to_string(Precision precision);
+
 /// What the two faces across one axis do.
 enum class Boundary {
   spring,    ///< walls that push back by the contact law

@@ -19,7 +19,7 @@
 #include "hooke/io/run_info_json.h"
 #include "hooke/io/structure_tables.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -291,4 +291,4 @@ std::vector<Finding> check_resumable(const RunInfo& checkpoint, const RunInfo& s
   return findings;
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -9,7 +9,7 @@
 #include "hooke/core/simulation.h"
 #include "hooke/io/snapshot.h"
 
-namespace hooke {
+namespace hooke::io {
 
 /// A state from which a run continues with the same bits, and the run that it belongs to.
 struct Checkpoint {
@@ -36,4 +36,4 @@ Expected<bool> is_checkpoint(const std::filesystem::path& file);
 /// integrator, precision, names and order of the materials. Empty where it can; coefficients may differ.
 std::vector<Finding> check_resumable(const RunInfo& checkpoint, const RunInfo& scene);
 
-}  // namespace hooke
+}  // namespace hooke::io

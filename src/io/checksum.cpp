@@ -6,7 +6,7 @@
 
 #include "hooke/base/hash.h"
 
-namespace hooke {
+namespace hooke::io {
 namespace {
 
 template <class Real>
@@ -40,4 +40,4 @@ std::uint64_t checksum(std::string_view text) {
   return sum;
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

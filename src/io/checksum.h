@@ -8,7 +8,7 @@
 #include "hooke/core/scene.h"
 #include "hooke/core/snapshot.h"
 
-namespace hooke {
+namespace hooke::io {
 
 // Checksums of what a file is to give back, for data whose way through the HDF5 library crosses tables that bear no
 // checksums of their own.
@@ -19,4 +19,4 @@ std::uint64_t checksum(const Snapshot& snapshot, Precision precision);
 /// Of a text.
 std::uint64_t checksum(std::string_view text);
 
-}  // namespace hooke
+}  // namespace hooke::io

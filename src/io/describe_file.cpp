@@ -10,7 +10,7 @@
 #include "hooke/io/output_file.h"
 #include "hooke/io/run_folder.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -85,4 +85,4 @@ const char* to_string(FileDescription::Kind kind) {
   return "checkpoint";
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -10,7 +10,7 @@
 #include "hooke/base/expected.h"
 #include "hooke/io/snapshot.h"
 
-namespace hooke {
+namespace hooke::io {
 
 /// What a file or folder written by Hooke holds.
 struct FileDescription {
@@ -31,4 +31,4 @@ Expected<FileDescription> describe_file(const std::filesystem::path& file);
 /// "run folder", "snapshots", "checkpoint".
 const char* to_string(FileDescription::Kind kind);
 
-}  // namespace hooke
+}  // namespace hooke::io

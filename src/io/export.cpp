@@ -12,7 +12,7 @@
 #include "hooke/io/export_format.h"
 #include "hooke/io/failure.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -145,4 +145,4 @@ Expected<std::vector<std::filesystem::path>> export_run(const RunReader& run, st
   });
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -13,7 +13,7 @@
 #include "hooke/io/run_folder.h"
 #include "hooke/volumes/surface_options.h"
 
-namespace hooke {
+namespace hooke::io {
 
 /// Which content of a snapshot is exported.
 enum class ExportContent { particles, contacts, surface, volume, cloths, springs };
@@ -27,7 +27,7 @@ struct ExportOptions {
   /// coefficients. Cloths need its structure. Other formats take the domain, the upward direction or colours from it;
   /// without it they omit them or use defaults.
   const Scene* scene = nullptr;
-  SurfaceOptions surface;
+  volumes::SurfaceOptions surface;
 };
 
 /// An extension that export_run knows for some content, with its dot, and a description.
@@ -45,4 +45,4 @@ Expected<std::vector<std::filesystem::path>> export_run(const RunReader& run, st
                                                         const std::filesystem::path& file,
                                                         const ExportOptions& options = {});
 
-}  // namespace hooke
+}  // namespace hooke::io

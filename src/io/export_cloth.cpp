@@ -11,7 +11,7 @@
 #include "hooke/io/failure.h"
 #include "hooke/io/mesh_file.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -82,4 +82,4 @@ std::vector<fs::path> export_cloths(const ExportJob& job,
 std::vector<fs::path> export_cloth_obj(const ExportJob& job) { return export_cloths(job, write_obj<ClothMesh>); }
 std::vector<fs::path> export_cloth_ply(const ExportJob& job) { return export_cloths(job, write_ply<ClothMesh>); }
 
-}  // namespace hooke
+}  // namespace hooke::io

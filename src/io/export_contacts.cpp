@@ -14,7 +14,7 @@
 #include "hooke/io/polydata_file.h"
 #include "hooke/io/write_rows.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -150,4 +150,4 @@ std::vector<fs::path> export_contacts_vtp(const ExportJob& job) {
       job, [&](std::size_t index, const fs::path& file) { write(take(job.run.read(index)), scene, broken, file); });
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -5,7 +5,7 @@
 #include "hooke/io/material_words.h"
 #include "hooke/io/write_rows.h"
 
-namespace hooke {
+namespace hooke::io {
 
 std::vector<std::filesystem::path> export_csv(const ExportJob& job) {
   const RunReader& run = job.run;
@@ -37,4 +37,4 @@ std::vector<std::filesystem::path> export_csv(const ExportJob& job) {
   return {job.file};
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

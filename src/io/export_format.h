@@ -12,7 +12,7 @@
 #include "hooke/io/export.h"
 #include "hooke/io/run_folder.h"
 
-namespace hooke {
+namespace hooke::io {
 
 /// A checked call of export_run: at least one index, ascending, each < run.size().
 struct ExportJob {
@@ -67,4 +67,4 @@ ExportFunction export_vdb_volume;
 ExportFunction export_vtp;
 ExportFunction export_xyz;
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -11,7 +11,7 @@
 #include "hooke/io/material_words.h"
 #include "hooke/io/write_rows.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -83,4 +83,4 @@ std::vector<std::filesystem::path> export_lammps_data(const ExportJob& job) {
   });
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

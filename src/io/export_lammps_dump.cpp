@@ -10,7 +10,7 @@
 #include "hooke/io/material_words.h"
 #include "hooke/io/write_rows.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -76,4 +76,4 @@ std::vector<std::filesystem::path> export_lammps_dump(const ExportJob& job) {
   return {job.file};
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -9,7 +9,7 @@
 #include "hooke/io/material_words.h"
 #include "hooke/io/write_rows.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -80,4 +80,4 @@ std::vector<std::filesystem::path> export_ply(const ExportJob& job) {
   });
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -9,7 +9,7 @@
 #include "hooke/io/failure.h"
 #include "hooke/io/write_rows.h"
 
-namespace hooke {
+namespace hooke::io {
 
 std::vector<std::filesystem::path> export_springs_csv(const ExportJob& job) {
   const std::filesystem::path folder = job.run.file().parent_path();
@@ -34,4 +34,4 @@ std::vector<std::filesystem::path> export_springs_csv(const ExportJob& job) {
   return {job.file};
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

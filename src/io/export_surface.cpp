@@ -9,7 +9,7 @@
 #include "hooke/io/mesh_file.h"
 #include "hooke/volumes/surface_mesh.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestWord = 500;  // bytes: common readers take lines of 1024
 
-struct MaterialMeshes : SurfaceMesh {
+struct MaterialMeshes : volumes::SurfaceMesh {
   std::vector<std::array<std::uint8_t, 3>> color;  // of each vertex; empty without a scene
   std::vector<MeshPart> parts;                     // one a material
 };
@@ -34,7 +34,7 @@ ParticleSet particles_of(const ParticleSet& all, std::uint16_t material) {
   return chosen;
 }
 
-void append(SurfaceMesh& whole, const SurfaceMesh& part) {
+void append(volumes::SurfaceMesh& whole, const volumes::SurfaceMesh& part) {
   const auto first = static_cast<std::uint32_t>(whole.position.size());
   whole.position.insert(whole.position.end(), part.position.begin(), part.position.end());
   whole.normal.insert(whole.normal.end(), part.normal.begin(), part.normal.end());
@@ -52,7 +52,8 @@ MaterialMeshes make_meshes(const ExportJob& job, const ParticleSet& particles, c
   for (std::size_t m = 0; m < materials.size(); ++m) {
     const ParticleSet own = particles_of(particles, static_cast<std::uint16_t>(m));
     if (own.empty()) continue;
-    const SurfaceMesh mesh = take(make_surface_mesh(own, radii(materials), job.options.surface), file);
+    const volumes::SurfaceMesh mesh =
+        take(volumes::make_surface_mesh(own, radii(materials), job.options.surface), file);
     meshes.parts.push_back({words[m], meshes.face.size()});
     append(meshes, mesh);
     if (job.options.scene == nullptr) continue;
@@ -80,4 +81,4 @@ std::vector<fs::path> export_surface_ply(const ExportJob& job) {
   return export_meshes(job, [](OutputFile& out, const Snapshot& s, const MaterialMeshes& m) { write_ply(out, s, m); });
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

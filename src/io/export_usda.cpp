@@ -19,7 +19,7 @@
 #include "hooke/io/material_words.h"
 #include "hooke/io/write_rows.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -291,4 +291,4 @@ std::vector<std::filesystem::path> export_usda(const ExportJob& job) {
   return {job.file};
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -7,7 +7,7 @@
 #include "hooke/io/output_file.h"
 #include "hooke/volumes/vdb_file.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -24,7 +24,7 @@ std::vector<fs::path> export_grids(const ExportJob& job, const MakeBytes& make_b
   return export_each(job, [&](std::size_t index, const fs::path& file) {
     const Snapshot snapshot = take(job.run.read(index));
     OutputFile out(file);
-    out.write(take(make_bytes(snapshot.particles, VdbInstant{snapshot.step, snapshot.time}), file));
+    out.write(take(make_bytes(snapshot.particles, volumes::VdbInstant{snapshot.step, snapshot.time}), file));
     out.finish();
   });
 }
@@ -33,16 +33,16 @@ std::vector<fs::path> export_grids(const ExportJob& job, const MakeBytes& make_b
 
 std::vector<fs::path> export_vdb_points(const ExportJob& job) {
   const auto& materials = job.run.info().materials;
-  return export_grids(job, [&](const ParticleSet& particles, const VdbInstant& instant) {
-    return vdb_points(particles, radii(materials), names_of(materials), instant);
+  return export_grids(job, [&](const ParticleSet& particles, const volumes::VdbInstant& instant) {
+    return volumes::vdb_points(particles, radii(materials), names_of(materials), instant);
   });
 }
 
 std::vector<fs::path> export_vdb_volume(const ExportJob& job) {
   const std::vector<double> radius = radii(job.run.info().materials);
-  return export_grids(job, [&](const ParticleSet& particles, const VdbInstant& instant) {
-    return vdb_volume(particles, radius, job.options.surface, instant);
+  return export_grids(job, [&](const ParticleSet& particles, const volumes::VdbInstant& instant) {
+    return volumes::vdb_volume(particles, radius, job.options.surface, instant);
   });
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

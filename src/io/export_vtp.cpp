@@ -4,7 +4,7 @@
 #include "hooke/io/failure.h"
 #include "hooke/io/polydata_file.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -32,4 +32,4 @@ std::vector<std::filesystem::path> export_vtp(const ExportJob& job) {
       job, [&](std::size_t index, const std::filesystem::path& file) { write(take(job.run.read(index)), info, file); });
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -8,7 +8,7 @@
 #include "hooke/io/material_words.h"
 #include "hooke/io/write_rows.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -77,4 +77,4 @@ std::vector<std::filesystem::path> export_xyz(const ExportJob& job) {
   return {job.file};
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -10,7 +10,7 @@
 #include "hooke/base/assert.h"
 #include "hooke/base/expected.h"
 
-namespace hooke {
+namespace hooke::io {
 
 /// The exception by which the inner functions of this library report errors: hundreds of HDF5 calls can each fail. It
 /// leaves no public function; guarded() turns it into an Error.
@@ -60,4 +60,4 @@ T take(Expected<T> expected, const std::filesystem::path& file) {
   return take(std::move(expected));
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -38,4 +38,4 @@ void append_fletcher32(std::string& bytes) {
   for (unsigned shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(checksum >> shift & 0xffU);
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

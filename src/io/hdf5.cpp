@@ -10,7 +10,7 @@
 #include "hooke/io/hdf5_driver.h"
 #include "hooke/io/shuffle_deflate.h"
 
-namespace hooke::hdf5 {
+namespace hooke::io::hdf5 {
 
 namespace {
 
@@ -475,4 +475,4 @@ template std::vector<std::uint16_t> read_array(hid_t, const char*, hsize_t);
 template std::vector<std::uint32_t> read_array(hid_t, const char*, hsize_t);
 template std::vector<std::uint8_t> read_array(hid_t, const char*, hsize_t);
 
-}  // namespace hooke::hdf5
+}  // namespace hooke::io::hdf5

@@ -18,7 +18,7 @@
 
 // The part of HDF5's C interface that this library needs. All functions throw Failure. Callers hold hdf5::lock()
 // throughout: a run's writer has its own thread, and HDF5 may be built without thread safety (Debian's is).
-namespace hooke::hdf5 {
+namespace hooke::io::hdf5 {
 
 /// Exclusive use of the HDF5 library while the lock exists; turns off the library's own error messages.
 [[nodiscard]] std::unique_lock<std::recursive_mutex> lock();
@@ -143,4 +143,4 @@ void write_array(hid_t parent, const char* name, const T* values, hsize_t rows, 
 template <class T>
 std::vector<T> read_array(hid_t parent, const char* name, hsize_t width = 1);
 
-}  // namespace hooke::hdf5
+}  // namespace hooke::io::hdf5

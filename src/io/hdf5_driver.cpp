@@ -6,7 +6,7 @@
 
 #include "hooke/io/failure.h"
 
-namespace hooke::hdf5 {
+namespace hooke::io::hdf5 {
 
 namespace {
 
@@ -119,4 +119,4 @@ int read_error_of(hid_t object) {
   return static_cast<const JournaledFile*>(bytes)->read_error();
 }
 
-}  // namespace hooke::hdf5
+}  // namespace hooke::io::hdf5

@@ -18,7 +18,7 @@
 #include "hooke/base/hash.h"
 #include "hooke/io/failure.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -227,4 +227,4 @@ void JournaledFile::sync() {
   }
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -12,7 +12,7 @@
 
 #include "hooke/io/output_file.h"
 
-namespace hooke {
+namespace hooke::io {
 
 /// A file that changes by whole commits only, no matter when its writer is killed.
 ///
@@ -81,4 +81,4 @@ class JournaledFile {
   int read_error_ = 0;  // of the first read that failed
 };
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace hooke {
+namespace hooke::io {
 
 Domain lammps_box(const Snapshot& snapshot, const std::vector<MaterialInfo>& materials, const Scene* scene) {
   const ParticleSet& p = snapshot.particles;
@@ -24,4 +24,4 @@ Domain lammps_box(const Snapshot& snapshot, const std::vector<MaterialInfo>& mat
   return box;
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

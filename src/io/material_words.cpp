@@ -10,7 +10,7 @@
 #include "hooke/io/failure.h"
 #include "hooke/io/write_rows.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -79,4 +79,4 @@ std::array<std::uint8_t, 3> rgb_bytes(std::string_view color) {
   return rgb;
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

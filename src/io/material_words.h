@@ -12,7 +12,7 @@
 
 #include "hooke/io/snapshot.h"
 
-namespace hooke {
+namespace hooke::io {
 
 /// A name as one word of visible ASCII, for columns and comments: spaces, control characters, ", #, % and bytes beyond
 /// ASCII become %XX with two hexadecimal digits, as in web addresses; the rest stays.
@@ -30,4 +30,4 @@ std::vector<std::string> material_fields(const std::vector<MaterialInfo>& materi
 /// Red, green, blue of a material's "#rrggbb", sRGB; light grey where the material has no colour.
 std::array<std::uint8_t, 3> rgb_bytes(std::string_view color);
 
-}  // namespace hooke
+}  // namespace hooke::io

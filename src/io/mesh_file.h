@@ -13,7 +13,7 @@
 #include "hooke/io/snapshot.h"
 #include "hooke/io/write_rows.h"
 
-namespace hooke {
+namespace hooke::io {
 
 template <class T>
 void append_bytes(std::string& bytes, const T& value) {
@@ -97,4 +97,4 @@ void write_ply(OutputFile& out, const Snapshot& snapshot, const Mesh& mesh) {
   });
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

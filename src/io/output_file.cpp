@@ -20,7 +20,7 @@
 #include "hooke/base/assert.h"
 #include "hooke/io/failure.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -265,4 +265,4 @@ void append_number(std::string& text, double value) { append_shortest(text, valu
 void append_number(std::string& text, std::int64_t value) { append_shortest(text, value); }
 void append_number(std::string& text, std::uint64_t value) { append_shortest(text, value); }
 
-}  // namespace hooke
+}  // namespace hooke::io

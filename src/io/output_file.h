@@ -10,7 +10,7 @@
 
 #include "hooke/base/expected.h"
 
-namespace hooke {
+namespace hooke::io {
 
 /// A file descriptor that closes itself; -1 if none.
 class Descriptor {
@@ -91,4 +91,4 @@ void append_number(std::string& text, double value);
 void append_number(std::string& text, std::int64_t value);
 void append_number(std::string& text, std::uint64_t value);
 
-}  // namespace hooke
+}  // namespace hooke::io

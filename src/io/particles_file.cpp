@@ -14,7 +14,7 @@
 #include "hooke/io/run_info_json.h"
 #include "hooke/io/vtkhdf_columns.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -355,4 +355,4 @@ Snapshot read_particles(const std::filesystem::path& path, std::size_t index) {
   return snapshot;
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -11,7 +11,7 @@
 #include "hooke/io/hdf5.h"
 #include "hooke/io/snapshot.h"
 
-namespace hooke {
+namespace hooke::io {
 
 /// The table of contents of a particles.vtkhdf: one entry per snapshot.
 struct ParticlesContents {
@@ -64,4 +64,4 @@ ParticlesContents read_particles_contents(const std::filesystem::path& path);
 /// Reads snapshot `index` of a file.
 Snapshot read_particles(const std::filesystem::path& path, std::size_t index);
 
-}  // namespace hooke
+}  // namespace hooke::io

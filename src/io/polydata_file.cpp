@@ -12,7 +12,7 @@
 #include "hooke/base/assert.h"
 #include "hooke/io/output_file.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -158,4 +158,4 @@ std::vector<fs::path> export_polydata(const ExportJob& job,
   return files;
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -12,7 +12,7 @@
 #include "hooke/base/vec3.h"
 #include "hooke/io/export_format.h"
 
-namespace hooke {
+namespace hooke::io {
 
 /// A .vtp file of VTK: points with data, and cells with data, either all vertices or all lines. Arrays are base64
 /// within the XML: with a recent Expat, ParaView up to 5.12.0 (VTK 9.3.0) can't read data appended after it.
@@ -75,4 +75,4 @@ std::vector<Real> flatten(const std::vector<Vec3d>& vectors) {
 std::vector<std::filesystem::path> export_polydata(
     const ExportJob& job, const std::function<void(std::size_t, const std::filesystem::path&)>& write);
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -4,7 +4,7 @@
 
 #include "hooke/io/failure.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -58,4 +58,4 @@ void read_population(hid_t file, const std::filesystem::path& path, SimulationSt
   }
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

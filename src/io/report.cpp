@@ -12,7 +12,7 @@
 #include "hooke/io/output_file.h"
 #include "hooke/io/snapshot.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -165,4 +165,4 @@ std::uint64_t peak_resident_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -12,7 +12,7 @@
 #include "hooke/core/backend.h"
 #include "hooke/core/simulation.h"
 
-namespace hooke {
+namespace hooke::io {
 
 /// The results of a run: the object in report.json, --report and `bench --json`.
 struct RunReport {
@@ -61,4 +61,4 @@ Expected<void> write_text_file(const std::filesystem::path& file, const std::str
 /// Largest resident memory of this process so far, bytes.
 std::uint64_t peak_resident_bytes();
 
-}  // namespace hooke
+}  // namespace hooke::io

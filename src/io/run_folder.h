@@ -16,7 +16,7 @@
 #include "hooke/io/series.h"
 #include "hooke/io/snapshot.h"
 
-namespace hooke {
+namespace hooke::io {
 
 class RunLock;
 
@@ -117,4 +117,4 @@ class RunReader {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -7,10 +7,10 @@
 
 #include "hooke/io/snapshot.h"
 
-namespace hooke {
+namespace hooke::io {
 
 /// Converts a RunInfo to the JSON stored in every binary file of a run, and back. Throws Failure that names `file`.
 std::string to_json(const RunInfo& info);
 RunInfo parse_run_info(const std::string& json, const std::filesystem::path& file);
 
-}  // namespace hooke
+}  // namespace hooke::io

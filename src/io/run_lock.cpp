@@ -14,7 +14,7 @@
 #include "hooke/io/failure.h"
 #include "hooke/io/run_folder.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -73,4 +73,4 @@ void refuse_if_written(const fs::path& folder) {
   if (file && lock_call(file.get(), F_OFD_GETLK, lock) == 0 && lock.l_type != F_UNLCK) refuse(file.get(), folder);
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -6,7 +6,7 @@
 
 #include "hooke/io/output_file.h"
 
-namespace hooke {
+namespace hooke::io {
 
 /// The right to write a run folder, which one process has at a time. Readers need none.
 ///
@@ -30,4 +30,4 @@ class RunLock {
 /// Throws the same Failure where a process writes the folder; takes no lock.
 void refuse_if_written(const std::filesystem::path& folder);
 
-}  // namespace hooke
+}  // namespace hooke::io

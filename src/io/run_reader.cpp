@@ -8,7 +8,7 @@
 #include "hooke/io/particles_file.h"
 #include "hooke/io/run_folder.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace fs = std::filesystem;
 
@@ -67,4 +67,4 @@ Expected<Snapshot> RunReader::read(std::size_t index) const {
   });
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

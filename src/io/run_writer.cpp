@@ -14,7 +14,7 @@
 #include "hooke/io/run_lock.h"
 #include "hooke/io/series_file.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -144,7 +144,7 @@ struct RunWriter::Impl {
       series.sync();
     });
     if (!synced) return synced;
-    return hooke::write_checkpoint(folder / kCheckpointFile, std::get<SimulationState>(item), info);
+    return io::write_checkpoint(folder / kCheckpointFile, std::get<SimulationState>(item), info);
   }
 
   Expected<void> push(Item item) {
@@ -296,4 +296,4 @@ Expected<void> RunWriter::finish() {
   return written ? closed : written;
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

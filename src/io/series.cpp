@@ -4,7 +4,7 @@
 
 #include "hooke/io/output_file.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -106,4 +106,4 @@ std::string to_csv(const SeriesRow& row) {
   return line;
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -9,7 +9,7 @@
 #include "hooke/core/backend.h"
 #include "hooke/core/simulation.h"
 
-namespace hooke {
+namespace hooke::io {
 
 /// One row of series.csv: the physical quantities at one instant.
 struct SeriesRow {
@@ -30,4 +30,4 @@ SeriesRow make_series_row(const Simulation& simulation, const Measurements& meas
 std::string series_header(const std::vector<std::string>& colliders = {});
 std::string to_csv(const SeriesRow& row);
 
-}  // namespace hooke
+}  // namespace hooke::io

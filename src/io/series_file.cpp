@@ -13,7 +13,7 @@
 #include "hooke/base/assert.h"
 #include "hooke/io/failure.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -89,4 +89,4 @@ void SeriesFile::sync() {
   if (::fsync(fd_.get()) != 0) throw Failure(Error::Kind::io, path_, "can't be written: " + system_message(errno));
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

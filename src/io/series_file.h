@@ -9,7 +9,7 @@
 #include "hooke/io/output_file.h"
 #include "hooke/io/series.h"
 
-namespace hooke {
+namespace hooke::io {
 
 /// series.csv, written row by row; it always ends with a whole row. Throws Failure.
 class SeriesFile {
@@ -32,4 +32,4 @@ class SeriesFile {
   std::optional<std::int64_t> last_step_;
 };
 
-}  // namespace hooke
+}  // namespace hooke::io

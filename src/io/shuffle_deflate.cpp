@@ -10,7 +10,7 @@
 
 #include "hooke/base/assert.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -70,4 +70,4 @@ std::string shuffle_deflate(const void* data, std::size_t count, std::size_t ele
   return out;
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

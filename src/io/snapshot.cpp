@@ -7,7 +7,7 @@
 #include "hooke/io/failure.h"
 #include "hooke/io/run_info_json.h"
 
-namespace hooke {
+namespace hooke::io {
 
 std::vector<double> radii(const std::vector<MaterialInfo>& materials) {
   std::vector<double> all;
@@ -25,12 +25,6 @@ RunInfo describe_run(const Scene& scene, Precision precision) {
 
 RunInfo describe_run(const Simulation& simulation) {
   return describe_run(simulation.scene(), simulation.backend_info().precision);
-}
-
-const char* to_string(Precision precision) { return precision == Precision::single_precision ? "single" : "double"; }
-
-const char* to_string(Integrator integrator) {
-  return integrator == Integrator::symplectic_euler ? "symplectic-euler" : "velocity-verlet";
 }
 
 std::string to_json(const RunInfo& info) {
@@ -69,4 +63,4 @@ RunInfo parse_run_info(const std::string& json, const std::filesystem::path& fil
   }
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -11,7 +11,7 @@
 #include "hooke/core/simulation.h"
 #include "hooke/core/snapshot.h"
 
-namespace hooke {
+namespace hooke::io {
 
 /// The properties of a material that files keep.
 struct MaterialInfo {
@@ -41,8 +41,4 @@ struct RunInfo {
 RunInfo describe_run(const Scene& scene, Precision precision);
 RunInfo describe_run(const Simulation& simulation);
 
-/// "single" and "double", as in scene files; "symplectic-euler" and "velocity-verlet".
-const char* to_string(Precision precision);
-const char* to_string(Integrator integrator);
-
-}  // namespace hooke
+}  // namespace hooke::io

@@ -8,7 +8,7 @@
 #include "hooke/base/ascending.h"
 #include "hooke/io/failure.h"
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -119,4 +119,4 @@ void read_structure(hid_t file, const std::filesystem::path& path, SimulationSta
   check(state, path);
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

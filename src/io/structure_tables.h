@@ -8,7 +8,7 @@
 #include "hooke/core/simulation.h"
 #include "hooke/io/hdf5.h"
 
-namespace hooke {
+namespace hooke::io {
 
 /// Writes a scene's structure and its part of the state into an HDF5 file; nothing without a structure. Throws Failure.
 void write_structure(hid_t file, const SimulationState& state);
@@ -17,4 +17,4 @@ void write_structure(hid_t file, const SimulationState& state);
 /// Throws Failure, also where an index is out of range.
 void read_structure(hid_t file, const std::filesystem::path& path, SimulationState& state);
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace hooke {
+namespace hooke::io {
 
 namespace {
 
@@ -92,4 +92,4 @@ VtkhdfColumns VtkhdfColumns::open(hid_t file) {
   return columns;
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

@@ -9,7 +9,7 @@
 #include "hooke/io/hdf5.h"
 #include "hooke/io/snapshot.h"
 
-namespace hooke {
+namespace hooke::io {
 
 /// Groups of a particles.vtkhdf: the one that VTK reads and the one that it ignores.
 inline constexpr const char* kVtkGroup = "VTKHDF";
@@ -43,4 +43,4 @@ struct VtkhdfColumns {
   static void visit_all(VtkhdfColumns& columns, hid_t file, Visit&& visit);
 };
 
-}  // namespace hooke
+}  // namespace hooke::io

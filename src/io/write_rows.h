@@ -11,7 +11,7 @@
 #include "hooke/base/vec3.h"
 #include "hooke/io/output_file.h"
 
-namespace hooke {
+namespace hooke::io {
 
 /// Writes `count` rows in order; append(text, i) appends row `i`. All threads make rows at once, some megabytes at a
 /// time, because turning numbers into digits takes most of the time of text formats.
@@ -49,4 +49,4 @@ void append_vector(std::string& text, const Vec3d& v, const char* separator = " 
   append_number(text, static_cast<Real>(v.z));
 }
 
-}  // namespace hooke
+}  // namespace hooke::io

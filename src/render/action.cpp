@@ -9,7 +9,7 @@
 #include "hooke/base/assert.h"
 #include "hooke/render/camera.h"
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -147,4 +147,4 @@ Box3d seen_action_box(const Scene& scene, std::span<const ParticleSet> moments) 
   return box;
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

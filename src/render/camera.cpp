@@ -9,7 +9,7 @@
 
 #include "hooke/base/assert.h"
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -178,4 +178,4 @@ Camera camera_at(const Scene& scene, const Box3d& action, double aspect, double 
   return camera;
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

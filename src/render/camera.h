@@ -9,7 +9,7 @@
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// A pinhole camera.
 struct Camera {
@@ -54,4 +54,4 @@ std::optional<Vec3d> followed_point(const Scene& scene, const ParticleSet& parti
 Camera camera_at(const Scene& scene, const Box3d& action, double aspect, double time,
                  const std::optional<Vec3d>& followed = {});
 
-}  // namespace hooke
+}  // namespace hooke::render

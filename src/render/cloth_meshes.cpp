@@ -8,7 +8,7 @@
 #include "hooke/base/assert.h"
 #include "hooke/core/torn_edges.h"
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -75,4 +75,4 @@ std::vector<ShadedMesh> cloth_meshes(const Scene& scene, const ParticleSet& part
   return meshes;
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -9,7 +9,7 @@
 #include "hooke/core/scene.h"
 #include "hooke/render/shaded_mesh.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// The surfaces of the scene's structure, at the positions of its particles, each in the colour of its first particle;
 /// without triangles that miss a particle or have a torn edge. `color_of` takes the index of a particle. Sets in
@@ -17,4 +17,4 @@ namespace hooke {
 std::vector<ShadedMesh> cloth_meshes(const Scene& scene, const ParticleSet& particles, const Vec3d& origin,
                                      const std::function<Color(std::size_t)>& color_of, std::vector<char>& covered);
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -9,7 +9,7 @@
 #include "hooke/base/parallel.h"
 #include "hooke/physics/shapes.h"
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -172,4 +172,4 @@ std::vector<ShadedMesh> collider_meshes(const Scene& scene, double time, const V
   return meshes;
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

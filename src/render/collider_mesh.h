@@ -7,7 +7,7 @@
 #include "hooke/core/scene.h"
 #include "hooke/render/shaded_mesh.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// The surface of a shape as triangles; of a plane the part inside `domain`.
 TriangleMesh shape_surface(const Shape& shape, const Domain& domain);
@@ -16,4 +16,4 @@ TriangleMesh shape_surface(const Shape& shape, const Domain& domain);
 /// encloses a space or is an open mesh, and is no glass, only the far side is drawn.
 std::vector<ShadedMesh> collider_meshes(const Scene& scene, double time, const Vec3d& origin);
 
-}  // namespace hooke
+}  // namespace hooke::render

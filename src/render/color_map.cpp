@@ -11,7 +11,7 @@
 
 #include "hooke/base/assert.h"
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -93,4 +93,4 @@ Color map_color(double value) {
   return map[static_cast<std::size_t>(std::lround(std::clamp(value, 0.0, 1.0) * (kColors - 1)))];
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-namespace hooke {
+namespace hooke::render {
 
 /// A colour as screens take it: sRGB, 8 bits a channel.
 struct Color {
@@ -28,4 +28,4 @@ Oklab to_oklab(Color color);
 /// steps of the value look equal. `value` in [0, 1], clamped; NaN is grey.
 Color map_color(double value);
 
-}  // namespace hooke
+}  // namespace hooke::render

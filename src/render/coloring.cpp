@@ -9,7 +9,7 @@
 #include "hooke/core/contacts.h"
 #include "hooke/render/action.h"
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -100,4 +100,4 @@ std::vector<double> color_values(const Scene& scene, const ParticleSet& particle
   return values;
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

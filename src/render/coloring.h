@@ -10,7 +10,7 @@
 #include "hooke/core/scene.h"
 #include "hooke/render/camera.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// What the colour of a particle tells.
 enum class ColorBy {
@@ -55,4 +55,4 @@ ColorScale default_scale(const Scene& scene, const ParticleSet& first, ColorBy b
 std::vector<double> color_values(const Scene& scene, const ParticleSet& particles, double time, const Box3d& action,
                                  ColorBy by);
 
-}  // namespace hooke
+}  // namespace hooke::render

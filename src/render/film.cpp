@@ -21,7 +21,7 @@
 
 #include "hooke/base/assert.h"
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -275,4 +275,4 @@ FilmWriter::~FilmWriter() = default;
 FilmWriter::FilmWriter(FilmWriter&&) noexcept = default;
 FilmWriter& FilmWriter::operator=(FilmWriter&&) noexcept = default;
 
-}  // namespace hooke
+}  // namespace hooke::render

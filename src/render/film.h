@@ -10,7 +10,7 @@
 #include "hooke/base/expected.h"
 #include "hooke/render/image.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// Whether the extension of `file`, in either case, is that of a film.
 bool is_film(const std::filesystem::path& file);
@@ -52,4 +52,4 @@ class FilmWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -13,7 +13,7 @@
 #include "hooke/render/spring_meshes.h"
 #include "hooke/render/water_mixing.h"
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -203,4 +203,4 @@ Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, 
   return frame;
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

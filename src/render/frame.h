@@ -14,7 +14,7 @@
 #include "hooke/render/coloring.h"
 #include "hooke/render/shaded_mesh.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// A sphere to be drawn.
 struct Sphere {
@@ -84,4 +84,4 @@ Look make_look(const Scene& scene, const ParticleSet& first, ColorBy by,
 /// The picture of `particles` at `time` (s). `aspect`: width over height, > 0.
 Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, const Look& look, double aspect);
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -10,7 +10,7 @@
 #include "hooke/base/assert.h"
 #include "hooke/base/expected.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// A picture: 8 bits for each of red, green, blue (sRGB) and alpha, which counts only where a picture is written with
 /// it; the first row is the top.
@@ -43,4 +43,4 @@ Expected<std::string> encode_png(const Image& image, bool alpha = false);
 /// The picture in the bytes of a PNG file of any kind; bad_input where the bytes are no PNG file.
 Expected<Image> decode_png(const std::string& bytes);
 
-}  // namespace hooke
+}  // namespace hooke::render

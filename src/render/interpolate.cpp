@@ -9,7 +9,7 @@
 #include "hooke/base/parallel.h"
 #include "hooke/physics/periodic.h"
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -83,4 +83,4 @@ ParticleSet drawn_back(const Scene& scene, const ParticleSet& particles, double 
   return then;
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

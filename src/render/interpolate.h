@@ -5,7 +5,7 @@
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// The particles of a run at one time, by ascending id.
 struct Moment {
@@ -22,4 +22,4 @@ ParticleSet interpolate(const Scene& scene, const Moment& before, const Moment& 
 /// The particles `seconds` >= 0 ago, for an instant between two steps: x - v seconds, wrapped at periodic faces.
 ParticleSet drawn_back(const Scene& scene, const ParticleSet& particles, double seconds);
 
-}  // namespace hooke
+}  // namespace hooke::render

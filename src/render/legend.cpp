@@ -12,7 +12,7 @@
 #include "hooke/base/assert.h"
 #include "hooke/render/color_map.h"
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -152,4 +152,4 @@ void draw_caption(Image& image, const std::string& text) {
   canvas.text(text, 1.4 * canvas.unit(), image.height - 1.4 * canvas.unit(), Canvas::Align::left);
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -9,7 +9,7 @@
 #include "hooke/render/camera.h"
 #include "hooke/render/color_map.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// A particle as the device reads it, 16 bytes.
 struct LiveParticle {
@@ -64,4 +64,4 @@ struct LiveView {
   bool dark = true;
 };
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -5,7 +5,7 @@
 #include "hooke/base/assert.h"
 #include "hooke/render/image.h"
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -59,4 +59,4 @@ Expected<Image> decode_png(const std::string& bytes) {
   return image;
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -8,7 +8,7 @@
 #include "hooke/render/frame.h"
 #include "hooke/render/image.h"
 
-namespace hooke {
+namespace hooke::render {
 
 struct RenderSettings {
   int width = 1280;  ///< pixels, at least 1 and no more than OpenGL can draw
@@ -35,4 +35,4 @@ class Renderer {
   virtual std::string device() const = 0;
 };
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -41,4 +41,4 @@ std::vector<ShadedMesh::Corner> shaded_corners(const TriangleMesh& mesh) {
   return corners;
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -9,7 +9,7 @@
 #include "hooke/core/triangle_mesh.h"
 #include "hooke/render/color_map.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// A surface of triangles to be drawn.
 struct ShadedMesh {
@@ -39,4 +39,4 @@ struct ShadedMesh {
 /// The corners of a mesh with normals that are smooth where triangles meet at less than 40 degrees.
 std::vector<ShadedMesh::Corner> shaded_corners(const TriangleMesh& mesh);
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -12,7 +12,7 @@
 #include "hooke/physics/periodic.h"
 #include "hooke/physics/spring.h"
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -93,4 +93,4 @@ std::vector<ShadedMesh> spring_meshes(const Scene& scene, const ParticleSet& par
   return meshes;
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

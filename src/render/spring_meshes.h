@@ -9,7 +9,7 @@
 #include "hooke/core/scene.h"
 #include "hooke/render/shaded_mesh.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// The springs of a scene's structure as rods between its particles, a mesh a colour, as the scene's picture has them;
 /// without springs that are broken, that cross a periodic face, or whose two ends are `covered` (a flag a particle) by
@@ -22,4 +22,4 @@ std::vector<ShadedMesh> spring_meshes(const Scene& scene, const ParticleSet& par
 /// The colour of a strain over that which is coloured fully: -1 or less blue, 0 white, 1 or more red.
 Color strain_color(double share);
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -11,7 +11,7 @@
 #include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -288,4 +288,4 @@ PixelRectangle bounds_on_picture(std::span<const Sphere> spheres, std::span<cons
   return box;
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -8,7 +8,7 @@
 
 #include "hooke/render/frame.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// Maps points of space to pixels of a picture, counted from its lower left corner.
 struct Projection {
@@ -37,4 +37,4 @@ struct PixelRectangle {
 PixelRectangle bounds_on_picture(std::span<const Sphere> spheres, std::span<const std::uint32_t> chosen,
                                  const Projection& projection);
 
-}  // namespace hooke
+}  // namespace hooke::render

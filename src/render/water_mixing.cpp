@@ -12,7 +12,7 @@
 #include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -161,4 +161,4 @@ std::vector<WaterMixing> water_mixing(const Scene& scene, const ParticleSet& par
   return mixing;
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

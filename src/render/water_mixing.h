@@ -7,7 +7,7 @@
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// How water around a particle is mixed with air, within a box of a few radii on each side.
 struct WaterMixing {
@@ -19,4 +19,4 @@ struct WaterMixing {
 /// particle, m, > 0; `fastest`: speed that sets the resolution of churn, m/s, > 0; speeds above twice it count as that.
 std::vector<WaterMixing> water_mixing(const Scene& scene, const ParticleSet& particles, double radius, double fastest);
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -11,7 +11,7 @@
 #include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -82,4 +82,4 @@ WaterThickness water_thickness(std::span<const Sphere> spheres, const Projection
   return thickness;
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -7,7 +7,7 @@
 
 #include "hooke/render/visible_spheres.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// Thickness of the water along the view, m, coarse: deep water looks dark and thin water bright.
 struct WaterThickness {
@@ -21,4 +21,4 @@ struct WaterThickness {
 /// number of threads.
 WaterThickness water_thickness(std::span<const Sphere> spheres, const Projection& projection);
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -3,7 +3,7 @@
 
 #include "hooke/scene/attraction_builder.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 Attraction build_attraction(const Json& json) {
   Attraction attraction;
@@ -16,4 +16,4 @@ Attraction build_attraction(const Json& json) {
   return attraction;
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

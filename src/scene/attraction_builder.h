@@ -5,9 +5,9 @@
 #include "hooke/core/attraction.h"
 #include "hooke/scene/json_reader.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// Builds a scene's "attraction" from its JSON, which has passed the schema and has its defaults.
 Attraction build_attraction(const Json& json);
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -7,7 +7,7 @@
 
 #include <fstream>
 
-namespace hooke {
+namespace hooke::scene {
 
 std::uint64_t available_memory() {
   std::ifstream file("/proc/meminfo");
@@ -31,4 +31,4 @@ std::string in_bytes(double bytes) {
   return unit == 0 ? fmt::format("{} bytes", bytes) : fmt::format("{:.1f} {}", bytes, kUnits[unit]);
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-namespace hooke {
+namespace hooke::scene {
 
 /// Bytes that this machine can give without swapping; 0 where that is unknown.
 std::uint64_t available_memory();
@@ -13,4 +13,4 @@ std::uint64_t available_memory();
 /// "1.2 GiB", "260 bytes".
 std::string in_bytes(double bytes);
 
-}  // namespace hooke
+}  // namespace hooke::scene

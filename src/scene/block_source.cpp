@@ -13,7 +13,7 @@
 #include "hooke/scene/random_packing.h"
 #include "hooke/scene/scene_builder.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 // Upper end of the centres along one axis where a block names no upper corner.
@@ -118,4 +118,4 @@ std::vector<Vec3d> block_centres(const BlockSource& block, const Domain& domain,
   return centres;
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -12,7 +12,7 @@
 #include "hooke/scene/json_reader.h"
 #include "hooke/scene/lattice.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// A block of particles as the scene writes it, with the box that it fills.
 struct BlockSource {
@@ -38,4 +38,4 @@ double expected_count(const BlockSource& block);
 /// that says how many particles would fit.
 std::vector<Vec3d> block_centres(const BlockSource& block, const Domain& domain, Findings& findings);
 
-}  // namespace hooke
+}  // namespace hooke::scene

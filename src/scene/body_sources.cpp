@@ -17,7 +17,7 @@
 #include "hooke/scene/scene_builder.h"
 #include "hooke/scene/structure_maker.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 // The box around a shape, and which part of the box the shape fills.
@@ -167,4 +167,4 @@ void StructureMaker::add_bodies(const Json& bodies) {
   }
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

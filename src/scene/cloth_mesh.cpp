@@ -6,7 +6,7 @@
 #include "hooke/scene/mesh_file.h"
 #include "hooke/scene/mesh_repair.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 Expected<ClothMesh> read_cloth_mesh(const std::filesystem::path& file) {
   auto triangles = read_obj_triangles(file);
@@ -23,4 +23,4 @@ Expected<ClothMesh> read_cloth_mesh(const std::filesystem::path& file) {
   }
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -10,7 +10,7 @@
 #include "hooke/base/expected.h"
 #include "hooke/core/triangle_mesh.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// A sheet of triangles that share their corners, in the order of the file.
 struct ClothMesh {
@@ -24,4 +24,4 @@ struct ClothMesh {
 /// `where`.
 Expected<ClothMesh> read_cloth_mesh(const std::filesystem::path& file);
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -18,7 +18,7 @@
 #include "hooke/scene/scene_path.h"
 #include "hooke/scene/structure_maker.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 // One cloth being made: the positions of its particles, its springs and its surface.
@@ -241,4 +241,4 @@ void StructureMaker::add_cloths(const Json& cloths) {
   }
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -10,7 +10,7 @@
 #include "hooke/base/random.h"
 #include "hooke/scene/scene_builder.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 constexpr double kSphereCut = 10, kDiscCut = 6;  // scales
@@ -124,4 +124,4 @@ ClusterParticles make_cluster(const ClusterSource& cluster, double mass, const s
   return particles;
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -10,7 +10,7 @@
 #include "hooke/core/scene.h"
 #include "hooke/scene/json_reader.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// Particles held together by the scene's attraction, like stars. All bits follow from additions,
 /// multiplications and square roots, so they are the same on every machine.
@@ -39,4 +39,4 @@ struct ClusterParticles {
 };
 ClusterParticles make_cluster(const ClusterSource& cluster, double mass, const std::optional<Attraction>& attraction);
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -14,7 +14,7 @@
 #include "hooke/scene/material_names.h"
 #include "hooke/scene/scene_builder.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 // Turns an axis and an angle in degrees into a vector along the axis whose length is the angle in rad.
@@ -121,4 +121,4 @@ void build_colliders(Json& colliders, const ShapeFiles& files, Scene& scene, Fin
   }
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -10,7 +10,7 @@
 #include "hooke/scene/json_reader.h"
 #include "hooke/scene/shape_reader.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// Fills `scene.colliders` from the entries of "colliders"; the scene already has its materials. Skips what the
 /// schema's findings touch. Writes generated names for unnamed colliders into `colliders`.
@@ -20,4 +20,4 @@ void build_colliders(Json& colliders, const ShapeFiles& files, Scene& scene, Fin
 /// refused it. The result is empty, with findings, where the motion is wrong.
 std::optional<Motion> read_motion(const Json& entry, const std::string& where, Findings& findings);
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -9,7 +9,7 @@
 
 #include "hooke/scene/words.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// The fields of one line of CSV, without blanks around them but with those between quotes. A field's text lies in the
 /// line, or in `unquoted` where quotes had to be removed.
@@ -58,4 +58,4 @@ struct CsvFields {
   }
 };
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -11,18 +11,18 @@
 #include "hooke/scene/particle_format.h"
 #include "hooke/scene/words.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 namespace {
 
 constexpr std::array<std::pair<std::string_view, Quantity>, 8> kNames{{{"x", Quantity::x},
-                                                                    {"y", Quantity::y},
-                                                                    {"z", Quantity::z},
-                                                                    {"vx", Quantity::vx},
-                                                                    {"vy", Quantity::vy},
-                                                                    {"vz", Quantity::vz},
-                                                                    {"id", Quantity::id},
-                                                                    {"material", Quantity::material}}};
+                                                                       {"y", Quantity::y},
+                                                                       {"z", Quantity::z},
+                                                                       {"vx", Quantity::vx},
+                                                                       {"vy", Quantity::vy},
+                                                                       {"vz", Quantity::vz},
+                                                                       {"id", Quantity::id},
+                                                                       {"material", Quantity::material}}};
 
 std::vector<Column> columns_of(const CsvFields& header) {
   std::vector<Column> columns;
@@ -69,4 +69,4 @@ void read_csv_particles(FileScanner& in, ParticleRows& rows) {
   }
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -10,7 +10,7 @@
 
 #include "hooke/scene/json_path.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 std::vector<Finding> default_warnings(const Scene& scene) {
   std::vector<Finding> warnings;
@@ -32,4 +32,4 @@ std::vector<Finding> default_warnings(const Scene& scene) {
   return warnings;
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -10,7 +10,7 @@
 #include "hooke/scene/material_names.h"
 #include "hooke/scene/scene_builder.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 Range range_of(const Json& pair) { return {pair[0].get<double>(), pair[1].get<double>()}; }
@@ -84,4 +84,4 @@ std::vector<std::size_t> build_sinks(const Json& sinks, const ShapeFiles& files,
   return entries;
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -7,7 +7,7 @@
 #include "hooke/scene/material_names.h"
 #include "hooke/scene/scene_builder.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 constexpr double kPedestriansTime = 0.5;  // s, in which people adapt their speed (Helbing and Molnar 1995)
@@ -65,4 +65,4 @@ void build_fields(Json& fields, Scene& scene, Findings& findings) {
   }
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

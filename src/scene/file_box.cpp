@@ -11,7 +11,7 @@
 #include "hooke/core/scene.h"
 #include "hooke/scene/particle_file.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 namespace {
 
@@ -63,4 +63,4 @@ void check_box(const FileBox& box, const std::string& name, const Domain& domain
                          fmt::format("says that the box is {}; a periodic domain must be of the same size", differing));
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

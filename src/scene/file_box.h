@@ -11,8 +11,10 @@
 #include "hooke/scene/findings.h"
 
 namespace hooke {
-
 struct Domain;
+}
+
+namespace hooke::scene {
 
 /// The box that a file of particles gives them.
 struct FileBox {
@@ -30,4 +32,4 @@ struct FileBox {
 void check_box(const FileBox& box, const std::string& name, const Domain& domain, Findings& findings,
                std::vector<Finding>& warnings);
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -10,7 +10,7 @@
 #include "hooke/base/assert.h"
 #include "hooke/scene/words.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 FileScanner::FileScanner(const std::filesystem::path& file)
     : buffer_(std::make_unique_for_overwrite<char[]>(kBufferSize)) {
@@ -118,4 +118,4 @@ void FileScanner::go_back(const Place& place) {
   place_ = place;
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

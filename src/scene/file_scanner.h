@@ -13,7 +13,7 @@
 
 #include "hooke/base/printable.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// A fault that ends the reading of a file. Never leaves the library: the reader's caller makes a finding of it.
 class FileFault : public std::runtime_error {
@@ -88,4 +88,4 @@ class FileScanner {
   Place place_;
 };
 
-}  // namespace hooke
+}  // namespace hooke::scene

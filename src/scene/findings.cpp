@@ -9,7 +9,7 @@
 #include "hooke/base/printable.h"
 #include "hooke/scene/json_lines.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 namespace {
 
@@ -71,4 +71,4 @@ std::vector<Finding> Findings::take() {
   return taken;
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -10,7 +10,7 @@
 #include "hooke/base/expected.h"
 #include "hooke/scene/json_path.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// The faults of one scene, collected until all of it has been checked, or until there are so many that they would bury
 /// each other.
@@ -60,4 +60,4 @@ class Findings {
   bool left_out_ = false;
 };
 
-}  // namespace hooke
+}  // namespace hooke::scene

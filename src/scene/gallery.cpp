@@ -8,7 +8,7 @@
 #include "hooke/scene/json_reader.h"
 #include "hooke/scene/text_file.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace fs = std::filesystem;
 
 Expected<std::vector<GalleryScene>> list_scenes(const fs::path& folder) {
@@ -33,4 +33,4 @@ Expected<std::vector<GalleryScene>> list_scenes(const fs::path& folder) {
   return scenes;
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -8,7 +8,7 @@
 
 #include "hooke/base/expected.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// One scene of a gallery, as it describes itself.
 struct GalleryScene {
@@ -21,4 +21,4 @@ struct GalleryScene {
 /// can't be read.
 Expected<std::vector<GalleryScene>> list_scenes(const std::filesystem::path& folder);
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -8,7 +8,7 @@
 
 #include "hooke/scene/words.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// Hands a text to a parser of events and knows how far it has read, and on which line that is.
 class JsonCursor {
@@ -71,4 +71,4 @@ class JsonCursor {
   int line_ = 1;
 };
 
-}  // namespace hooke
+}  // namespace hooke::scene

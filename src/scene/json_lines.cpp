@@ -12,7 +12,7 @@
 #include "hooke/scene/json_path.h"
 #include "hooke/scene/json_reader.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 // A value that is looked for, or that lies above one.
@@ -118,4 +118,4 @@ std::vector<int> lines_of(std::string_view text, const std::vector<std::string>&
   return lines;
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

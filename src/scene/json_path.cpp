@@ -9,7 +9,7 @@
 
 #include "hooke/base/printable.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 // Bytes from 0x80 on belong to non-ASCII letters.
@@ -160,4 +160,4 @@ bool PathSet::contains_at_or_below(std::string_view path) const {
   return false;
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

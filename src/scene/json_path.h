@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-namespace hooke {
+namespace hooke::scene {
 
 /// Keys and indices from the top of a JSON document: "materials.water.radius", "particles[0].block". A key with other
 /// characters than letters, digits, '_', '-' and '$' is quoted, with the escapes of JSON: materials["salt water"].
@@ -44,4 +44,4 @@ class PathSet {
   std::set<std::string, std::less<>> paths_;
 };
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -13,7 +13,7 @@
 #include "hooke/scene/json_path.h"
 #include "hooke/scene/words.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 struct Overflow {
@@ -236,4 +236,4 @@ std::string pretty(const Json& value) {
   return out;
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

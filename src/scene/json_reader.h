@@ -12,7 +12,7 @@
 #include "hooke/base/printable.h"
 #include "hooke/scene/findings.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// JSON whose objects keep the order in which their keys were written.
 using Json = nlohmann::ordered_json;
@@ -41,4 +41,4 @@ std::string brief(const Json& value);
 /// back to the same value.
 std::string pretty(const Json& value);
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -15,7 +15,7 @@
 #include "hooke/scene/spelling.h"
 #include "hooke/scene/words.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 namespace {
 
@@ -233,4 +233,4 @@ class DataReader {
 
 void read_lammps_data(FileScanner& in, ParticleRows& rows) { DataReader(in, rows).read(); }
 
-}  // namespace hooke
+}  // namespace hooke::scene

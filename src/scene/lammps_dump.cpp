@@ -15,7 +15,7 @@
 #include "hooke/scene/particle_format.h"
 #include "hooke/scene/words.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 namespace {
 
@@ -157,14 +157,14 @@ std::vector<Column> columns_of(const std::vector<std::string>& titles) {
     const Title* known = known_title(title);
     if (known == nullptr) continue;
     const Title*& of_quantity = best[static_cast<std::size_t>(known->quantity)];
-    if (of_quantity == nullptr || known < of_field) of_field = known;
+    if (of_quantity == nullptr || known < of_quantity) of_quantity = known;
   }
   std::vector<Column> columns;
   for (const std::string& title : titles) {
     const Title* known = known_title(title);
-    const Quantity quantity = known == nullptr                                        ? Quantity::unknown
-                        : known == best[static_cast<std::size_t>(known->quantity)] ? known->quantity
-                                                                                : Quantity::passed_over;
+    const Quantity quantity = known == nullptr                                           ? Quantity::unknown
+                              : known == best[static_cast<std::size_t>(known->quantity)] ? known->quantity
+                                                                                         : Quantity::passed_over;
     columns.push_back({quantity, title});
   }
   return columns;
@@ -231,4 +231,4 @@ void read_lammps_dump(FileScanner& in, ParticleRows& rows) {
   }
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -8,7 +8,7 @@
 
 #include "hooke/base/assert.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 constexpr double kMostSites = 9223372036854775808.0;  // 2^63
@@ -116,4 +116,4 @@ void Lattice::append_sites(std::uint64_t count, std::vector<Vec3d>& out) const {
   }
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -8,7 +8,7 @@
 #include "hooke/base/box3.h"
 #include "hooke/base/vec3.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// The upward direction: against gravity's largest component; +y without gravity.
 struct UpDirection {
@@ -54,4 +54,4 @@ class Lattice {
   std::uint64_t layers_;
 };
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -18,7 +18,7 @@
 #include "hooke/scene/structure_maker.h"
 #include "hooke/scene/text_file.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 Expected<LoadedScene> parse(std::string_view text, const std::string& name, const std::filesystem::path& folder,
@@ -73,4 +73,4 @@ Expected<LoadedScene> load_scene(const std::filesystem::path& file, const LoadOp
   return parse_scene(*text, file.string(), file.parent_path(), options);
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

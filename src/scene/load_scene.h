@@ -12,7 +12,7 @@
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// Bytes that one particle needs in all: in the back end, in its neighbour list, and while it is written to files.
 inline constexpr double kBytesPerParticle = 260;
@@ -68,4 +68,4 @@ Expected<LoadedScene> parse_scene(std::string_view text, const std::string& name
 /// The JSON Schema of scene files: the one source of keys, defaults, units and ranges.
 std::string_view scene_schema();
 
-}  // namespace hooke
+}  // namespace hooke::scene

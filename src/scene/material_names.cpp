@@ -10,7 +10,7 @@
 #include "hooke/scene/json_reader.h"
 #include "hooke/scene/spelling.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 std::optional<std::size_t> material_named(const std::string& name, const std::string& where,
                                           const std::vector<Material>& materials, Findings& findings) {
@@ -26,4 +26,4 @@ std::optional<std::size_t> material_named(const std::string& name, const std::st
   return {};
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -13,7 +13,7 @@
 #include "hooke/scene/mesh_repair.h"
 #include "hooke/scene/polygon_mesh.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 using MeshReader = void(FileScanner& in, PolygonMesh& mesh);
@@ -94,4 +94,4 @@ std::size_t count_open_edges(const TriangleMesh& mesh) {
   return open.single + open.odd;
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

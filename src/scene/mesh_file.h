@@ -9,7 +9,7 @@
 #include "hooke/base/expected.h"
 #include "hooke/core/triangle_mesh.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// Reads the triangles of an OBJ, STL or PLY file, in the file's own units and double precision. Polygons are cut into
 /// triangles, vertices at the same place are merged, slits welded and doubled triangles dropped (mesh_repair.h). Opens
@@ -24,4 +24,4 @@ Expected<TriangleMesh> read_obj_triangles(const std::filesystem::path& file);
 /// triangles.
 std::size_t count_open_edges(const TriangleMesh& mesh);
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -16,7 +16,7 @@
 #include "hooke/base/box3.h"
 #include "hooke/base/hash.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 constexpr double kOfSize = 1e-5, kOfEdge = 0.1;  // the tolerance of a weld
@@ -209,4 +209,4 @@ OpenEdges open_edges(const TriangleMesh& mesh) {
   return open;
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

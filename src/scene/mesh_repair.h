@@ -10,7 +10,7 @@
 
 #include "hooke/core/triangle_mesh.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 // What programs leave behind in the meshes that they write: vertices that are there several times, slits that no one
 // sees, facets that are there twice. All results depend on the order of vertices and triangles alone.
@@ -39,4 +39,4 @@ struct OpenEdges {
 /// triangles.
 OpenEdges open_edges(const TriangleMesh& mesh);
 
-}  // namespace hooke
+}  // namespace hooke::scene

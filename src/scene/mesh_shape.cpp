@@ -19,7 +19,7 @@
 #include "hooke/scene/scene_path.h"
 #include "hooke/volumes/mesh_field.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 // A gigabyte of samples.
@@ -65,12 +65,12 @@ class MeshShapeReader {
     if (!rotation) return {};
     place(*mesh, json_.at("scale").get<double>(), *rotation, vec3_or(json_.at("translate"), {}));
 
-    FieldOptions options;
+    volumes::FieldOptions options;
     options.cell = json_.contains("voxel") ? json_.at("voxel").get<double>() : files_.smallest_radius / kCellsPerRadius;
     options.reach = files_.reach;
     options.depth = files_.depth;
     if (!check_closed(*mesh, options) || !is_small_enough(*mesh, options)) return {};
-    auto field = make_distance_field(*mesh, options);
+    auto field = volumes::make_distance_field(*mesh, options);
     if (!field) {
       findings_.add(where_, std::move(field.error().findings.front().message));
       return {};
@@ -106,7 +106,8 @@ class MeshShapeReader {
   void book(const DistanceField& field) const {
     if (files_.memory == nullptr) return;
     FieldMemory& memory = *files_.memory;
-    memory.most = std::max(memory.most, memory.kept + kBytesPerSampleMade * static_cast<double>(field.samples.size()));
+    memory.most =
+        std::max(memory.most, memory.kept + volumes::kBytesPerSampleMade * static_cast<double>(field.samples.size()));
     if (files_.kept) memory.kept += static_cast<double>(field.bytes());
   }
 
@@ -127,7 +128,7 @@ class MeshShapeReader {
   }
 
   // Decides whether the mesh encloses a space. False, with a finding, where it must and does not.
-  bool check_closed(const TriangleMesh& mesh, FieldOptions& options) {
+  bool check_closed(const TriangleMesh& mesh, volumes::FieldOptions& options) {
     const OpenEdges open = open_edges(mesh);
     options.closed = open.single == 0 && open.odd == 0;
     if (options.closed || files_.opening == ShapeFiles::Opening::allowed) return true;
@@ -140,26 +141,26 @@ class MeshShapeReader {
     return false;
   }
 
-  bool is_small_enough(const TriangleMesh& mesh, const FieldOptions& options) {
+  bool is_small_enough(const TriangleMesh& mesh, const volumes::FieldOptions& options) {
     const std::string at = json_.contains("voxel") ? join_path(where_, "voxel") : where_;
     constexpr const char* kAdvice = "so give a larger \"voxel\" or a smaller \"scale\"";
-    if (!spans_few_cells(mesh, options)) {
+    if (!volumes::spans_few_cells(mesh, options)) {
       findings_.add(at, fmt::format("spans too many samples of its distance, {:.3g} m apart; {} along each axis are "
                                     "possible, {}",
                                     options.cell, DistanceFieldView::kMostBricks * DistanceFieldView::kCells, kAdvice));
       return false;
     }
-    const double samples = expected_samples(mesh, options, kMostSamples);
+    const double samples = volumes::expected_samples(mesh, options, kMostSamples);
     const std::uint64_t limit = files_.memory_limit != 0 ? files_.memory_limit : available_memory();
     if (!(samples <= kMostSamples)) {
       findings_.add(at,
                     fmt::format("has about {:.2g} samples of its distance, {:.3g} m apart, or more; at most {:.2g} are "
                                 "possible, {}",
                                 samples, options.cell, kMostSamples, kAdvice));
-    } else if (limit != 0 && samples * kBytesPerSampleMade > static_cast<double>(limit)) {
+    } else if (limit != 0 && samples * volumes::kBytesPerSampleMade > static_cast<double>(limit)) {
       findings_.add(at, fmt::format("has about {:.2g} samples of its distance, {:.3g} m apart, which need about {} of "
                                     "memory while they are made; {} are available, {}",
-                                    samples, options.cell, in_bytes(samples * kBytesPerSampleMade),
+                                    samples, options.cell, in_bytes(samples * volumes::kBytesPerSampleMade),
                                     in_bytes(static_cast<double>(limit)), kAdvice));
     } else {
       return true;
@@ -182,4 +183,4 @@ std::optional<MeshShape> read_mesh_shape(const Json& json, const std::string& wh
   return MeshShapeReader(json, where, files, findings).read();
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

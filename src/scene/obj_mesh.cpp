@@ -10,7 +10,7 @@
 #include "hooke/scene/polygon_mesh.h"
 #include "hooke/scene/words.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 class ObjReader {
@@ -93,4 +93,4 @@ class ObjReader {
 
 void read_obj(FileScanner& in, PolygonMesh& mesh) { ObjReader(in, mesh).read(); }
 
-}  // namespace hooke
+}  // namespace hooke::scene

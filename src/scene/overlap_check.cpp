@@ -15,7 +15,7 @@
 #include "hooke/core/contacts.h"
 #include "hooke/scene/available_memory.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 // A neighbour list holds a 4-byte number for each particle of a pair, and about as many pairs again that are near but
@@ -58,4 +58,4 @@ void refuse_overlaps(const Scene& scene, const ParticleSet& particles, const Loa
                            100 * overlaps.ratio));
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

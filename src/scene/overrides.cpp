@@ -9,7 +9,7 @@
 
 #include "hooke/scene/schema.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 // The '=' between path and value: the first one outside quoted keys.
@@ -121,4 +121,4 @@ void apply_overrides(const std::vector<std::string>& overrides, Json& scene, Fin
   for (const std::string& text : overrides) apply(text, scene, findings);
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

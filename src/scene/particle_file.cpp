@@ -11,7 +11,7 @@
 #include "hooke/base/assert.h"
 #include "hooke/scene/particle_format.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 namespace {
 
@@ -94,4 +94,4 @@ std::string place_in_file(const std::string& name, std::uint64_t place, bool bin
   return binary ? fmt::format("{}, byte {}", name, place) : fmt::format("{}:{}", name, place);
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -16,7 +16,7 @@
 #include "hooke/scene/file_box.h"
 #include "hooke/scene/findings.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 inline constexpr std::uint64_t kLastFrame = std::numeric_limits<std::uint64_t>::max();
 
@@ -65,4 +65,4 @@ FileParticles read_particle_file(const std::filesystem::path& file, const std::s
 /// A place in a file, as messages write it: "initial.csv:12", "initial.ply, byte 4096".
 std::string place_in_file(const std::string& name, std::uint64_t place, bool binary);
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace hooke {
+namespace hooke::scene {
 
 void go_to_frame(FileScanner& in, std::uint64_t frame, const std::function<bool()>& skip) {
   FileScanner::Place found = in.place();
@@ -32,4 +32,4 @@ FileFault ends_early(const FileScanner& in, std::uint64_t rows, std::uint64_t co
   return {in.line_number(), fmt::format("ends here, after {} of {} particles", rows, count)};
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -7,7 +7,7 @@
 #include "hooke/scene/file_scanner.h"
 #include "hooke/scene/particle_rows.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// Reads particles from the scanner's position into `rows`: sets the columns and the expected number of rows, then adds
 /// the rows unless only their number was asked for. Throws FileFault where it can't go on.
@@ -30,4 +30,4 @@ ParticleReader read_xyz_particles;
 ParticleReader read_lammps_data;
 ParticleReader read_lammps_dump;
 
-}  // namespace hooke
+}  // namespace hooke::scene

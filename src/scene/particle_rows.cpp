@@ -15,7 +15,7 @@
 #include "hooke/scene/spelling.h"
 #include "hooke/scene/words.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 namespace {
 
@@ -121,7 +121,8 @@ bool ParticleRows::expect(std::uint64_t count, std::uint64_t most) {
   return true;
 }
 
-bool ParticleRows::read(Quantity quantity, std::string_view title, std::string_view text, Row& row, std::uint64_t place) {
+bool ParticleRows::read(Quantity quantity, std::string_view title, std::string_view text, Row& row,
+                        std::uint64_t place) {
   if (quantity < Quantity::id) {
     if (read_number(text, row[quantity])) return true;
     complain(place, fmt::format("{} is \"{}\"; must be a finite number", printable(title, 40), printable(text, 40)));
@@ -307,4 +308,4 @@ void ParticleRows::warn_of(const char* what, double Material::* expected, const 
                    difference.rows == 1 ? "" : "s", difference.rows == 1 ? "s" : "")});
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -16,7 +16,7 @@
 #include "hooke/scene/file_scanner.h"
 #include "hooke/scene/particle_file.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// What a column of a particle file holds. SI units.
 enum class Quantity : std::uint8_t {
@@ -154,4 +154,4 @@ class ParticleRows {
   std::size_t next_velocity_ = 0;
 };
 
-}  // namespace hooke
+}  // namespace hooke::scene

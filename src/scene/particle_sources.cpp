@@ -18,7 +18,7 @@
 #include "hooke/scene/scene_path.h"
 #include "hooke/scene/spelling.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 constexpr std::size_t kMostFindings = 20;  // of one kind, about the particles of one source
@@ -343,4 +343,4 @@ ParticleSet load_particles(const Json& json, const Scene& scene, const std::file
   return loader.make();
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

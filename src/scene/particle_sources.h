@@ -11,7 +11,7 @@
 #include "hooke/scene/json_reader.h"
 #include "hooke/scene/load_scene.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// Makes the particles of a scene's sources, sorted by id. Checks all sources and compares the memory they will need
 /// with the memory available before it makes any particles. Leaves out sources that earlier findings touch. Without
@@ -19,4 +19,4 @@ namespace hooke {
 ParticleSet load_particles(const Json& json, const Scene& scene, const std::filesystem::path& folder,
                            const LoadOptions& options, Findings& findings, std::vector<Finding>& warnings);
 
-}  // namespace hooke
+}  // namespace hooke::scene

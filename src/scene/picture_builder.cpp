@@ -13,7 +13,7 @@
 #include "hooke/scene/scene_builder.h"
 #include "hooke/scene/spelling.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 // Reads the members of an object at a path, without those that have a finding.
@@ -111,4 +111,4 @@ void build_picture(const Json& json, Scene& scene, const Findings& findings) {
   if (springs == "strain") picture.springs = SpringLook::strain;
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

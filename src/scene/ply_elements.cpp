@@ -9,7 +9,7 @@
 
 #include "hooke/scene/json_reader.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 constexpr std::size_t kMostProperties = 4096;  // of all elements
@@ -253,4 +253,4 @@ void skip_elements(const PlyHeader& header, std::size_t first, std::size_t end, 
 template void skip_elements(const PlyHeader&, std::size_t, std::size_t, PlyTextValues&);
 template void skip_elements(const PlyHeader&, std::size_t, std::size_t, PlyBinaryValues&);
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -13,7 +13,7 @@
 #include "hooke/scene/file_scanner.h"
 #include "hooke/scene/words.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 // PLY, as text or binary in either byte order: a header that names elements and their properties, then the values of
 // all elements in the header's order. Readers of particles and of meshes share what is here. No count of a file is
@@ -107,4 +107,4 @@ void skip_elements(const PlyHeader& header, std::size_t first, std::size_t end, 
 extern template void skip_elements(const PlyHeader&, std::size_t, std::size_t, PlyTextValues&);
 extern template void skip_elements(const PlyHeader&, std::size_t, std::size_t, PlyBinaryValues&);
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -12,7 +12,7 @@
 #include "hooke/scene/ply_elements.h"
 #include "hooke/scene/polygon_mesh.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 std::optional<double> number(std::string_view text) {
@@ -170,4 +170,4 @@ void read_ply_mesh(FileScanner& in, PolygonMesh& mesh) {
   reader.read();
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

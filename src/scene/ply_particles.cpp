@@ -13,7 +13,7 @@
 #include "hooke/scene/ply_elements.h"
 #include "hooke/scene/words.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 namespace {
 
@@ -147,7 +147,8 @@ std::vector<Column> columns_of(const Properties& vertex) {
   for (const Property& p : vertex) {
     const std::string& name = p.ply.name;
     columns.push_back({p.quantity, name});
-    if (p.ply.count && p.quantity == Quantity::vx) columns.insert(columns.end(), {{Quantity::vy, name}, {Quantity::vz, name}});
+    if (p.ply.count && p.quantity == Quantity::vx)
+      columns.insert(columns.end(), {{Quantity::vy, name}, {Quantity::vz, name}});
   }
   return columns;
 }
@@ -182,4 +183,4 @@ void read_ply_particles(FileScanner& in, ParticleRows& rows) {
   read_body(header, index, PlyBinaryValues(in, header.encoding, "particle"), rows);
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

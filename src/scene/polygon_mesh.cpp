@@ -10,7 +10,7 @@
 #include <cmath>
 #include <span>
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 // Cutting ears takes time with the square of the corners.
@@ -132,4 +132,4 @@ TriangleMesh cut_into_triangles(PolygonMesh&& polygons) {
   return mesh;
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

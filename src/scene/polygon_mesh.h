@@ -11,7 +11,7 @@
 #include "hooke/core/triangle_mesh.h"
 #include "hooke/scene/file_scanner.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// Vertices and faces in the order of a file. Readers check every index before they put it here.
 struct PolygonMesh {
@@ -35,4 +35,4 @@ void read_ply_mesh(FileScanner& in, PolygonMesh& mesh);
 /// that is not convex has too many corners for that.
 TriangleMesh cut_into_triangles(PolygonMesh&& polygons);
 
-}  // namespace hooke
+}  // namespace hooke::scene

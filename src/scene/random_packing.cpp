@@ -10,7 +10,7 @@
 #include "hooke/base/assert.h"
 #include "hooke/base/random.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 // Makes these draws differ from the jitter's with the same seed.
@@ -209,4 +209,4 @@ std::vector<Vec3d> random_packing(const Box3d& box, double spacing, std::uint64_
   return Packing(box, spacing, count, seed).run();
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

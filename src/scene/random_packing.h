@@ -8,7 +8,7 @@
 
 #include "hooke/scene/lattice.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// Asks for as many centres as fit.
 inline constexpr std::uint64_t kAsManyAsFit = std::numeric_limits<std::uint64_t>::max();
@@ -21,4 +21,4 @@ std::vector<Vec3d> random_packing(const Box3d& box, double spacing, std::uint64_
 /// Upper bound of the number of centres that random_packing can place.
 double random_packing_bound(const Box3d& box, double spacing);
 
-}  // namespace hooke
+}  // namespace hooke::scene

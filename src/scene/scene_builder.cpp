@@ -20,7 +20,7 @@
 #include "hooke/scene/picture_builder.h"
 #include "hooke/scene/spelling.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 constexpr std::int64_t kMostSteps = 9007199254740992;  // 2^53: step * dt still has an exact step
@@ -326,4 +326,4 @@ void build_scene(Json& json, const std::filesystem::path& folder, const LoadOpti
   add_core_findings(scene, entries_of, findings);
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

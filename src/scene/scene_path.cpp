@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace hooke {
+namespace hooke::scene {
 namespace fs = std::filesystem;
 
 Expected<fs::path> find_scene_file(const fs::path& folder, const std::string& name, bool allow_outside) {
@@ -32,4 +32,4 @@ Expected<fs::path> find_scene_file(const fs::path& folder, const std::string& na
   return file;
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

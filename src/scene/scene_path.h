@@ -7,7 +7,7 @@
 
 #include "hooke/base/expected.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// The file that a scene in `folder` means by `name`. Unless `allow_outside`, a name is an error if it is absolute,
 /// holds "..", or leads out of the folder through a symbolic link; so is a name without a readable file. The error's
@@ -15,4 +15,4 @@ namespace hooke {
 Expected<std::filesystem::path> find_scene_file(const std::filesystem::path& folder, const std::string& name,
                                                 bool allow_outside);
 
-}  // namespace hooke
+}  // namespace hooke::scene

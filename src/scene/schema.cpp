@@ -5,7 +5,7 @@
 
 #include "hooke/scene/load_scene.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 const Json* find(const Json& object, const char* key) {
@@ -120,4 +120,4 @@ void fill_defaults(const Json& schema, Json& value) {
   }
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

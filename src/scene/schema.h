@@ -8,7 +8,7 @@
 #include "hooke/scene/json_path.h"
 #include "hooke/scene/json_reader.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// schema/scene.json as a value, with every "$ref" replaced by its definition.
 const Json& schema_root();
@@ -35,4 +35,4 @@ Alternatives alternatives_of(const Json& schema, const Json& value);
 /// Writes the schema's defaults for what `value` leaves out, at all levels. Leaves values of a wrong type alone.
 void fill_defaults(const Json& schema, Json& value);
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -16,7 +16,7 @@
 #include "hooke/scene/schema.h"
 #include "hooke/scene/spelling.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 struct CompiledSchema {
@@ -268,4 +268,4 @@ void check_against_schema(const Json& scene, Findings& findings) {
   }
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -7,7 +7,7 @@
 #include "hooke/scene/findings.h"
 #include "hooke/scene/json_reader.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// Checks a scene against the schema and words every finding from it: the value, what is allowed, the nearest key for a
 /// misspelling.
@@ -16,4 +16,4 @@ void check_against_schema(const Json& scene, Findings& findings);
 /// What a part of the schema allows, in words: "a number > 0 (m)".
 std::string allowed_by(const Json& schema);
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -7,7 +7,7 @@
 #include "hooke/scene/mesh_shape.h"
 #include "hooke/scene/scene_builder.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 // Reads the only member of a "shape" object that has passed the schema.
@@ -48,4 +48,4 @@ std::optional<Shape> read_shape(const Json& shape, const std::string& where, con
   return read;
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -12,7 +12,7 @@
 #include "hooke/scene/json_reader.h"
 #include "hooke/scene/load_scene.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// Where the files of shapes are, and what their distance fields are needed for.
 struct ShapeFiles {
@@ -36,4 +36,4 @@ struct ShapeFiles {
 std::optional<Shape> read_shape(const Json& shape, const std::string& where, const ShapeFiles& files,
                                 Findings& findings);
 
-}  // namespace hooke
+}  // namespace hooke::scene

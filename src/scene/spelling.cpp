@@ -7,7 +7,7 @@
 
 #include "hooke/base/printable.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 // Optimal string alignment: the Damerau-Levenshtein distance in which no part is edited twice.
@@ -63,4 +63,4 @@ std::string quoted_list(const std::vector<std::string>& names) {
   return list;
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

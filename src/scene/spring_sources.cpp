@@ -15,7 +15,7 @@
 #include "hooke/scene/spelling.h"
 #include "hooke/scene/structure_maker.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 constexpr std::size_t kMostFindings = 20;  // of one kind
@@ -200,4 +200,4 @@ void StructureMaker::add_springs(const Json& springs) {
   if (any) reader.refuse_twins();
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -15,7 +15,7 @@
 #include "hooke/scene/polygon_mesh.h"
 #include "hooke/scene/words.h"
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 constexpr std::uint64_t kHeader = 80, kFacet = 50;  // bytes; the number of facets, 4 bytes, lies between
@@ -170,4 +170,4 @@ void read_stl(FileScanner& in, PolygonMesh& mesh) {
   BinaryStl(in, mesh).read(facets);
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -15,7 +15,7 @@
 #include "hooke/scene/json_path.h"
 #include "hooke/scene/material_names.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 std::optional<std::uint16_t> StructureMaker::material_of(const Json& entry, const std::string& path) {
   const std::string where = join_path(path, "material");
@@ -105,4 +105,4 @@ std::shared_ptr<const Structure> load_structure(const Json& json, const Scene& s
   return std::make_shared<Structure>(std::move(maker.structure));
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

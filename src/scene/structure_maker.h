@@ -14,7 +14,7 @@
 #include "hooke/scene/json_reader.h"
 #include "hooke/scene/load_scene.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 /// Shared by the sections of a scene that tie particles together: the particles so far, to which they add, and the
 /// structure that they build.
@@ -61,4 +61,4 @@ std::shared_ptr<const Structure> load_structure(const Json& json, const Scene& s
                                                 Findings& findings, ParticleSet& particles,
                                                 std::vector<Finding>& warnings, FieldMemory& fields);
 
-}  // namespace hooke
+}  // namespace hooke::scene

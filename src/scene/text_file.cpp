@@ -8,7 +8,7 @@
 #include <cstring>
 #include <memory>
 
-namespace hooke {
+namespace hooke::scene {
 namespace {
 
 struct Close {
@@ -39,4 +39,4 @@ Expected<std::string> read_text_file(const std::filesystem::path& path, std::uin
   return text;
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace hooke {
+namespace hooke::scene {
 
 namespace {
 
@@ -66,4 +66,4 @@ bool read_count(std::string_view text, std::uint64_t& value) {
   return fault == std::errc() && stop == text.data() + text.size();
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hooke {
+namespace hooke::scene {
 
 /// `text` without blanks at both ends.
 std::string_view trimmed(std::string_view text);
@@ -30,4 +30,4 @@ bool read_number(std::string_view text, double& value);
 /// Reads all of `text` as a whole number. False where it is none or too large.
 bool read_count(std::string_view text, std::uint64_t& value);
 
-}  // namespace hooke
+}  // namespace hooke::scene

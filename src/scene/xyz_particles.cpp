@@ -12,7 +12,7 @@
 #include "hooke/scene/particle_format.h"
 #include "hooke/scene/words.h"
 
-namespace hooke {
+namespace hooke::scene {
 
 namespace {
 
@@ -88,14 +88,15 @@ std::vector<Column> columns_of(std::string_view properties, std::uint64_t line) 
                                      [&](const Property& p) { return p.name == name && p.width == width; });
     for (std::size_t i = 0; i < width; ++i) {
       const Quantity quantity = known == std::end(kProperties)
-                              ? Quantity::unknown
-                              : static_cast<Quantity>(static_cast<std::size_t>(known->first) + i);
+                                    ? Quantity::unknown
+                                    : static_cast<Quantity>(static_cast<std::size_t>(known->first) + i);
       columns.push_back({quantity, std::string(name)});
     }
   }
   // A species is a name, which is clearer than the number of a type.
-  const auto has_species = std::any_of(columns.begin(), columns.end(),
-                                       [](const Column& c) { return c.quantity == Quantity::material && c.title != "type"; });
+  const auto has_species = std::any_of(columns.begin(), columns.end(), [](const Column& c) {
+    return c.quantity == Quantity::material && c.title != "type";
+  });
   for (Column& c : columns) {
     if (has_species && c.title == "type") c.quantity = Quantity::passed_over;
   }
@@ -124,7 +125,8 @@ std::optional<FileBox> box_of(std::string_view comment, std::uint64_t line) {
 
 // Species, position, and any further columns of the first row.
 std::vector<Column> plain_columns(std::size_t width) {
-  std::vector<Column> columns{{Quantity::material, "species"}, {Quantity::x, "x"}, {Quantity::y, "y"}, {Quantity::z, "z"}};
+  std::vector<Column> columns{
+      {Quantity::material, "species"}, {Quantity::x, "x"}, {Quantity::y, "y"}, {Quantity::z, "z"}};
   for (std::size_t i = columns.size(); i < std::min<std::size_t>(width, kMostColumns); ++i) {
     columns.push_back({Quantity::unknown, fmt::format("{}", i + 1)});
   }
@@ -178,4 +180,4 @@ void read_xyz_particles(FileScanner& in, ParticleRows& rows) {
   }
 }
 
-}  // namespace hooke
+}  // namespace hooke::scene

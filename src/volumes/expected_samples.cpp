@@ -9,7 +9,7 @@
 #include "hooke/base/box3.h"
 #include "hooke/volumes/mesh_field.h"
 
-namespace hooke {
+namespace hooke::volumes {
 namespace {
 
 constexpr int kCells = DistanceFieldView::kCells, kSamples = DistanceFieldView::kSamples;
@@ -117,4 +117,4 @@ double expected_samples(const TriangleMesh& mesh, const FieldOptions& options, d
   return kPerBrick * bricks.count();
 }
 
-}  // namespace hooke
+}  // namespace hooke::volumes

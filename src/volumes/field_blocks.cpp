@@ -8,7 +8,7 @@
 #include "hooke/base/parallel.h"
 #include "hooke/neighbours/cell_grid.h"
 
-namespace hooke {
+namespace hooke::volumes {
 
 FieldBlocks::FieldBlocks(std::span<const Vec3d> position, std::span<const double> reach, double voxel)
     : position_(position),
@@ -111,4 +111,4 @@ template void FieldBlocks::sum(std::span<const std::size_t>, std::span<const std
 template void FieldBlocks::sum(std::span<const std::size_t>, std::span<const std::array<float, 3>>,
                                const std::function<void(std::size_t, const Sums<3>&)>&) const;
 
-}  // namespace hooke
+}  // namespace hooke::volumes

@@ -13,7 +13,7 @@
 
 #include "hooke/base/vec3.h"
 
-namespace hooke {
+namespace hooke::volumes {
 
 /// Sums over particles on a lattice of voxels, block by block. To every voxel within its reach, a particle adds the
 /// weight w = (1 - d^2 / reach^2)^3, d (m) its distance from the voxel's centre, and w times each of its values. Voxel
@@ -85,4 +85,4 @@ class FieldBlocks {
   std::vector<std::uint64_t> blocks_;  // keys, ascending
 };
 
-}  // namespace hooke
+}  // namespace hooke::volumes

@@ -17,7 +17,7 @@
 
 #include "hooke/volumes/field_blocks.h"
 
-namespace hooke {
+namespace hooke::volumes {
 
 namespace {
 
@@ -186,4 +186,4 @@ openvdb::Vec3SGrid::Ptr FluidVolume::velocity() const {
   return grid;
 }
 
-}  // namespace hooke
+}  // namespace hooke::volumes

@@ -13,7 +13,7 @@
 #include "hooke/core/particles.h"
 #include "hooke/volumes/surface_options.h"
 
-namespace hooke {
+namespace hooke::volumes {
 
 /// Particles as one fluid, on OpenVDB grids: SurfaceOptions define the fluid's surface. Lengths are in m. Voxel (0, 0,
 /// 0) of every grid has its centre at the origin, so that the grids of a run's files coincide.
@@ -45,4 +45,4 @@ class FluidVolume {
   std::vector<std::array<float, 1>> sphere_;  // m, radius of each particle's sphere
 };
 
-}  // namespace hooke
+}  // namespace hooke::volumes

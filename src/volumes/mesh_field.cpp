@@ -14,7 +14,7 @@
 #include "hooke/volumes/no_throw.h"
 #include "hooke/volumes/openvdb_support.h"
 
-namespace hooke {
+namespace hooke::volumes {
 namespace {
 
 constexpr int kCells = DistanceFieldView::kCells, kSamples = DistanceFieldView::kSamples;
@@ -192,4 +192,4 @@ Expected<DistanceField> make_distance_field(const TriangleMesh& mesh, const Fiel
   return no_throw([&]() -> Expected<DistanceField> { return field_around(mesh, options); });
 }
 
-}  // namespace hooke
+}  // namespace hooke::volumes

@@ -6,7 +6,7 @@
 #include "hooke/core/distance_field.h"
 #include "hooke/core/triangle_mesh.h"
 
-namespace hooke {
+namespace hooke::volumes {
 
 /// Options for making a distance field.
 struct FieldOptions {
@@ -29,4 +29,4 @@ inline constexpr double kBytesPerSampleMade = 12;
 /// mesh spans too many cells or there is too little memory.
 Expected<DistanceField> make_distance_field(const TriangleMesh& mesh, const FieldOptions& options);
 
-}  // namespace hooke
+}  // namespace hooke::volumes

@@ -7,7 +7,7 @@
 
 #include "hooke/base/expected.h"
 
-namespace hooke {
+namespace hooke::volumes {
 
 /// Calls `work`, which returns an Expected, and turns exceptions into errors: OpenVDB reports errors by exceptions.
 template <class Work>
@@ -21,4 +21,4 @@ auto no_throw(const Work& work) noexcept -> decltype(work()) {
   }
 }
 
-}  // namespace hooke
+}  // namespace hooke::volumes

@@ -12,7 +12,7 @@
 #include "hooke/volumes/fluid_volume.h"
 #include "hooke/volumes/no_throw.h"
 
-namespace hooke {
+namespace hooke::volumes {
 
 namespace {
 
@@ -70,4 +70,4 @@ Expected<SurfaceMesh> make_surface_mesh(const ParticleSet& particles, std::span<
   return no_throw([&] { return FluidVolume::create(particles, radius, options).map(mesh_of); });
 }
 
-}  // namespace hooke
+}  // namespace hooke::volumes

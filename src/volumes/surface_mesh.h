@@ -12,7 +12,7 @@
 #include "hooke/core/particles.h"
 #include "hooke/volumes/surface_options.h"
 
-namespace hooke {
+namespace hooke::volumes {
 
 /// The surface of a fluid: a closed mesh of four-sided faces.
 struct SurfaceMesh {
@@ -27,4 +27,4 @@ struct SurfaceMesh {
 Expected<SurfaceMesh> make_surface_mesh(const ParticleSet& particles, std::span<const double> radius,
                                         const SurfaceOptions& options);
 
-}  // namespace hooke
+}  // namespace hooke::volumes

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-namespace hooke {
+namespace hooke::volumes {
 
 /// How the surface of a fluid is drawn around its particles: a smooth skin around spheres. The surface of a lone
 /// particle is exactly its sphere.
@@ -16,4 +16,4 @@ struct SurfaceOptions {
   double resolution = 0.5;
 };
 
-}  // namespace hooke
+}  // namespace hooke::volumes

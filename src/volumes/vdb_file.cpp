@@ -14,7 +14,7 @@
 #include "hooke/volumes/fluid_volume.h"
 #include "hooke/volumes/no_throw.h"
 
-namespace hooke {
+namespace hooke::volumes {
 
 namespace {
 
@@ -108,4 +108,4 @@ Expected<std::string> vdb_volume(const ParticleSet& particles, std::span<const d
   });
 }
 
-}  // namespace hooke
+}  // namespace hooke::volumes

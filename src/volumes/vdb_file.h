@@ -10,7 +10,7 @@
 #include "hooke/core/particles.h"
 #include "hooke/volumes/surface_options.h"
 
-namespace hooke {
+namespace hooke::volumes {
 
 /// The description of the instant in every grid of a file.
 struct VdbInstant {
@@ -31,4 +31,4 @@ Expected<std::string> vdb_points(const ParticleSet& particles, std::span<const d
 Expected<std::string> vdb_volume(const ParticleSet& particles, std::span<const double> radius,
                                  const SurfaceOptions& options, const VdbInstant& instant);
 
-}  // namespace hooke
+}  // namespace hooke::volumes

@@ -7,7 +7,7 @@
 #include "hooke/volumes/surface_mesh.h"
 #include "hooke/volumes/vdb_file.h"
 
-namespace hooke {
+namespace hooke::volumes {
 
 namespace {
 
@@ -34,4 +34,4 @@ Expected<std::string> vdb_volume(const ParticleSet&, std::span<const double>, co
   return refuse();
 }
 
-}  // namespace hooke
+}  // namespace hooke::volumes

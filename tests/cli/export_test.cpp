@@ -60,7 +60,7 @@ TEST_F(ExportCommand, DoesWithoutTheSceneOfAFile) {
 TEST_F(ExportCommand, AFullDiskIsStatus3AndLeavesNoFile) {
   std::filesystem::create_directory(path("out"));
   std::vector<std::vector<std::string>> exports{{"p.csv"}, {"p.ply"}, {"p.vtp"}};
-  if (has_openvdb()) {
+  if (volumes::has_openvdb()) {
     exports.push_back({"p.vdb"});
     exports.push_back({"p.vdb", "--as", "volume"});
   }
@@ -88,14 +88,14 @@ TEST_F(ExportCommand, HelpListsEveryFormatUnderItsContent) {
   std::size_t listed = 0;
   for (std::string line; std::getline(help, line);) {
     if (line.starts_with("  --as ")) content = line.substr(7);
-    for (const ExportFormatInfo& format : export_formats()) {
+    for (const io::ExportFormatInfo& format : io::export_formats()) {
       if (content != to_string(format.content) || !line.starts_with(std::string("    ") + format.extension + ' '))
         continue;
       EXPECT_THAT(line, testing::EndsWith(format.description));
       ++listed;
     }
   }
-  EXPECT_EQ(listed, export_formats().size());
+  EXPECT_EQ(listed, io::export_formats().size());
 }
 
 TEST_F(ExportCommand, AsAndTheSurfaceAreChecked) {

@@ -66,7 +66,7 @@ class Faults : public ProgramTest {
 
   /// The run keeps its first three snapshots, of steps 0, 7 and 14, and goes on to the end of the undisturbed one.
   void expect_whole(const std::string& run) {
-    const auto reader = RunReader::open(path(run));
+    const auto reader = io::RunReader::open(path(run));
     ASSERT_TRUE(reader) << reader.error().text();
     for (const std::int64_t step : {0, 7, 14}) EXPECT_TRUE(reader->find_step(step)) << step;
     hooke_ok(arguments({"-o", run, "--resume", run + "/checkpoint.h5"}));

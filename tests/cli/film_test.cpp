@@ -41,12 +41,12 @@ class FilmOfARun : public ProgramTest {
     return words;
   }
 
-  Image frame(const std::string& file, int index) const {
+  render::Image frame(const std::string& file, int index) const {
     const std::string command = "ffmpeg -v error -y -i '" + path(file).string() + "' -vf 'select=eq(n\\," +
                                 std::to_string(index) + ")' -frames:v 1 '" + path("frame.png").string() + "'";
     EXPECT_EQ(std::system(command.c_str()), 0);
-    auto image = decode_png(read("frame.png"));
-    return image ? std::move(*image) : Image();
+    auto image = render::decode_png(read("frame.png"));
+    return image ? std::move(*image) : render::Image();
   }
 };
 

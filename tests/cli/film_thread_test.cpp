@@ -82,30 +82,31 @@ class Stage {
 /// The stage of the running test.
 Stage* stage = nullptr;
 
-class PlainRenderer : public Renderer {
+class PlainRenderer : public render::Renderer {
  public:
-  explicit PlainRenderer(const RenderSettings& settings) : settings_(settings) {}
+  explicit PlainRenderer(const render::RenderSettings& settings) : settings_(settings) {}
 
-  Expected<Image> render(const Frame& frame) override {
+  Expected<render::Image> render(const render::Frame& frame) override {
     std::vector<Vec3d> centres;
-    for (const Sphere& sphere : frame.spheres) centres.push_back(frame.origin + Vec3d{sphere.x, sphere.y, sphere.z});
+    for (const render::Sphere& sphere : frame.spheres)
+      centres.push_back(frame.origin + Vec3d{sphere.x, sphere.y, sphere.z});
     if (auto drawn = stage->draw(std::move(centres)); !drawn) return fail(std::move(drawn).error());
     figures_.spheres_drawn = frame.spheres.size();
     figures_.total_seconds = 0.25;
-    return Image(settings_.width, settings_.height);
+    return render::Image(settings_.width, settings_.height);
   }
-  RenderFigures figures() const override { return figures_; }
+  render::RenderFigures figures() const override { return figures_; }
   std::string device() const override { return "none"; }
 
  private:
-  RenderSettings settings_;
-  RenderFigures figures_;
+  render::RenderSettings settings_;
+  render::RenderFigures figures_;
 };
 
 }  // namespace
 
 // Replaces the function that loads hooke-gl.so.
-Expected<std::unique_ptr<Renderer>> load_gl_renderer(const RenderSettings& settings) {
+Expected<std::unique_ptr<render::Renderer>> load_gl_renderer(const render::RenderSettings& settings) {
   if (stage->no_device) return fail(*stage->no_device);
   return std::make_unique<PlainRenderer>(settings);
 }
@@ -205,7 +206,8 @@ TEST_F(FilmThreads, EachFrameShowsItsMoment) {
     for (int step = 0; step <= 8; ++step) {
       while (static_cast<double>(expected.size()) * steps_a_frame <= step + 1e-6) {
         const double late = (step - static_cast<double>(expected.size()) * steps_a_frame) * dt;
-        expected.push_back(drawn_back(simulation_.scene(), simulation_.particles(), std::max(0.0, late)).position);
+        expected.push_back(
+            render::drawn_back(simulation_.scene(), simulation_.particles(), std::max(0.0, late)).position);
       }
       if (film->is_due(simulation_.time())) film->show(simulation_.snapshot());
       ASSERT_TRUE(test::advance(simulation_, 1));

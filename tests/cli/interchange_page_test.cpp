@@ -85,14 +85,14 @@ class InterchangePage : public ProgramTest {
   void expect_lammps_went_on() const {
     hooke_ok({"run", "scenes/mixed.json", "--allow-outside", "--set", "precision=\"double\"", "--set",
               R"(particles=[{"file": "../out/last.data"}])", "--steps", "25", "-o", "out/double"});
-    const auto run = RunReader::open(path("out/double"));
+    const auto run = io::RunReader::open(path("out/double"));
     ASSERT_TRUE(run) << run.error().text();
     const auto ours = run->read(run->size() - 1);
     ASSERT_TRUE(ours) << ours.error().text();
-    LoadOptions options;
+    scene::LoadOptions options;
     options.overrides = {R"(particles=[{"file": "../out/from_lammps.data"}])"};
     options.allow_outside = true;
-    const auto theirs = load_scene(path("scenes/mixed.json"), options);
+    const auto theirs = scene::load_scene(path("scenes/mixed.json"), options);
     ASSERT_TRUE(theirs) << theirs.error().text();
     const ParticleSet& a = ours->particles;
     const ParticleSet& b = theirs->particles;

@@ -41,11 +41,11 @@ class Interchange : public ProgramTest, public testing::WithParamInterface<std::
 
   // Compares the particles of one of the run's snapshots with those that the file brings back.
   void expect_same(const std::string& precision, std::size_t index, const std::string& source) {
-    const auto run = RunReader::open(path(precision + "/particles.vtkhdf"));
+    const auto run = io::RunReader::open(path(precision + "/particles.vtkhdf"));
     ASSERT_TRUE(run) << run.error().text();
     const auto snapshot = run->read(index);
     ASSERT_TRUE(snapshot) << snapshot.error().text();
-    const auto loaded = parse_scene(scene(precision, source), "again.json", path("."));
+    const auto loaded = scene::parse_scene(scene(precision, source), "again.json", path("."));
     ASSERT_TRUE(loaded) << loaded.error().text();
     for (const Finding& warning : loaded->warnings) {
       if (GetParam() != ".csv") ADD_FAILURE() << warning.where << ": " << warning.message;

@@ -35,10 +35,10 @@ class RenderCommand : public ProgramTest {
     return with({"render", "s", "-o", output, "--samples", "1", "--size", "96x54"}, more);
   }
 
-  Image picture(const std::string& file) const {
-    auto image = decode_png(read(file));
+  render::Image picture(const std::string& file) const {
+    auto image = render::decode_png(read(file));
     EXPECT_TRUE(image) << file;
-    return image ? std::move(*image) : Image();
+    return image ? std::move(*image) : render::Image();
   }
 
   std::vector<std::string> files() const {
@@ -65,7 +65,7 @@ TEST_F(RenderCommand, ShowsTheLastSnapshot) {
   EXPECT_THAT(hooke_ok(render("p.png")), HasSubstr("216 particles at 0.3 s in p.png"));
   hooke_ok(render("q.png", {"--time", "0.3"}));
   EXPECT_EQ(read("p.png"), read("q.png"));
-  const Image image = picture("p.png");
+  const render::Image image = picture("p.png");
   EXPECT_EQ(image.width, 96);
   EXPECT_EQ(image.height, 54);
   // Balls without a colour of their own are blue.
@@ -138,7 +138,7 @@ TEST_F(RenderCommand, FilmsShowPartsOfTheRunAtAnySpeed) {
 
 TEST_F(RenderCommand, PicturesMayHaveAlpha) {
   hooke_ok(render("p.png", {"--alpha"}));
-  const Image image = picture("p.png");
+  const render::Image image = picture("p.png");
   EXPECT_EQ(image.at(1, 1)[3], 0);
   int solid = 0;
   for (std::size_t i = 3; i < image.pixels.size(); i += 4) solid += image.pixels[i] == 255;
@@ -188,7 +188,7 @@ TEST_F(RenderCommand, RefusesNumbersThatMakeNoSense) {
 TEST_F(RenderCommand, DrawsAnySizeThereIs) {
   for (const char* size : {"1x1", "1x2000", "16384x1", "3x7"}) {
     hooke_ok({"render", "s", "-o", "p.png", "--size", size, "--samples", "1", "--color-by", "speed"});
-    const Image image = picture("p.png");
+    const render::Image image = picture("p.png");
     EXPECT_EQ(std::to_string(image.width) + "x" + std::to_string(image.height), size);
   }
   for (const char* size : {"2x2", "4096x2"}) {

@@ -28,11 +28,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace hooke;
   static const fuzz::InputFile file(".h5");
   const std::filesystem::path& path = file.write(sealed(std::string(fuzz::text_of(data, size))));
-  if (const auto checkpoint = read_checkpoint(path); !checkpoint) {
+  if (const auto checkpoint = io::read_checkpoint(path); !checkpoint) {
     fuzz::require_readable(checkpoint.error());
   } else {
     fuzz::require(checkpoint->state.particles.columns_fit(), "columns have one length");
   }
-  if (const auto described = describe_file(path); !described) fuzz::require_readable(described.error());
+  if (const auto described = io::describe_file(path); !described) fuzz::require_readable(described.error());
   return 0;
 }

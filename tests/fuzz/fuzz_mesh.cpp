@@ -19,7 +19,7 @@ void require_sound(const hooke::TriangleMesh& mesh) {
       hooke::fuzz::require(corner < mesh.vertices.size(), "corners are vertices");
     }
   }
-  (void)hooke::count_open_edges(mesh);
+  (void)hooke::scene::count_open_edges(mesh);
 }
 
 }  // namespace
@@ -29,12 +29,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const fuzz::InputFile file(HOOKE_FUZZ_EXTENSION);
   const std::filesystem::path& path = file.write(fuzz::text_of(data, size));
   std::vector<std::string> warnings;
-  if (const auto mesh = read_mesh(path, &warnings)) {
+  if (const auto mesh = scene::read_mesh(path, &warnings)) {
     require_sound(*mesh);
   } else {
     fuzz::require_readable(mesh.error());
   }
-  if (const auto cloth = read_cloth_mesh(path)) {
+  if (const auto cloth = scene::read_cloth_mesh(path)) {
     require_sound(cloth->mesh);
   } else {
     fuzz::require_readable(cloth.error());

@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     "domain": {"min": [0, 0, 0], "max": [1, 1, 1]},
     "materials": {"a": {"radius": 0.05, "mass": 1, "stiffness": 1000}},
     "particles": [{"material": "a", "block": {"min": [0.2, 0.2, 0.2], "count": [2, 2, 2], "spacing": 0.1}}]})";
-  LoadOptions options;
+  scene::LoadOptions options;
   options.memory_limit = 1 << 20U;
   std::string_view rest = fuzz::text_of(data, size);
   while (!rest.empty() && options.overrides.size() < 16) {
@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     options.overrides.emplace_back(rest.substr(0, end));
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
-  const auto loaded = parse_scene(kScene, "scene.json", std::filesystem::temp_directory_path(), options);
+  const auto loaded = scene::parse_scene(kScene, "scene.json", std::filesystem::temp_directory_path(), options);
   if (!loaded) fuzz::require_readable(loaded.error());
   return 0;
 }

@@ -25,18 +25,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const std::vector<Material> materials{material("water", 0.5, 1), material("oil", 0.25, 2)};
   const std::filesystem::path& path = file.write(fuzz::text_of(data, size));
 
-  ParticleFileRules rules;
+  scene::ParticleFileRules rules;
   rules.materials = materials;
   if (size % 2 == 0) rules.material = 1;
   if (size % 3 == 0) rules.types = {{"1", 0}, {"C", 1}};
-  if (size % 5 == 0) rules.frame = size % 10 == 0 ? kLastFrame : 1;
-  Findings findings("scene.json");
+  if (size % 5 == 0) rules.frame = size % 10 == 0 ? scene::kLastFrame : 1;
+  scene::Findings findings("scene.json");
   std::vector<Finding> warnings;
-  const FileParticles read = read_particle_file(path, "input", rules, findings, warnings);
+  const scene::FileParticles read = scene::read_particle_file(path, "input", rules, findings, warnings);
   const bool refused = !findings.empty();
   for (const Finding& finding : findings.take()) fuzz::require_readable(finding);
   for (const Finding& warning : warnings) fuzz::require_readable(warning);
-  (void)count_particles(path, rules);
+  (void)scene::count_particles(path, rules);
   if (refused) return 0;
 
   const std::size_t n = read.position.size();

@@ -10,8 +10,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace hooke;
   static const fuzz::InputFile file(".vtkhdf");
   const std::filesystem::path& path = file.write(fuzz::text_of(data, size));
-  if (const auto described = describe_file(path); !described) fuzz::require_readable(described.error());
-  const auto run = RunReader::open(path);
+  if (const auto described = io::describe_file(path); !described) fuzz::require_readable(described.error());
+  const auto run = io::RunReader::open(path);
   if (!run) {
     fuzz::require_readable(run.error());
     return 0;

@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   std::filesystem::create_directories(folder / "checkpoint");
   std::filesystem::create_directories(folder / "snapshots");
   const samples::TemporaryFolder work;
-  if (!hooke::write_checkpoint(work / "checkpoint.h5", samples::state(3, 20), samples::run_info())) return 3;
+  if (!hooke::io::write_checkpoint(work / "checkpoint.h5", samples::state(3, 20), samples::run_info())) return 3;
   const std::string sealed = samples::read_file(work / "checkpoint.h5");
   samples::write_file(folder / "checkpoint/small", sealed.substr(0, sealed.size() - 2 * sizeof(std::uint64_t)));
   samples::write_run(work / "run", samples::run_info(), {samples::snapshot(0, 30), samples::snapshot(8, 20)});

@@ -16,7 +16,7 @@ using samples::TemporaryFolder;
 class Checkpoints : public testing::Test {
  protected:
   std::string error_of_reading(const std::filesystem::path& path) {
-    const auto read = read_checkpoint(path);
+    const auto read = io::read_checkpoint(path);
     EXPECT_FALSE(read);
     if (read) return {};
     EXPECT_EQ(read.error().kind, Error::Kind::bad_input);
@@ -32,9 +32,9 @@ class Checkpoints : public testing::Test {
 TEST_F(Checkpoints, ReadBackBitForBit) {
   for (const std::size_t n : {0U, 1U, 17U, 5000U}) {
     const SimulationState state = samples::state(1234567890123, n);
-    const RunInfo info = samples::run_info();
-    ASSERT_TRUE(write_checkpoint(file, state, info));
-    const auto read = read_checkpoint(file);
+    const io::RunInfo info = samples::run_info();
+    ASSERT_TRUE(io::write_checkpoint(file, state, info));
+    const auto read = io::read_checkpoint(file);
     ASSERT_TRUE(read) << read.error().text();
     EXPECT_EQ(read->info, info);
     EXPECT_EQ(read->state.step, state.step);
@@ -54,8 +54,8 @@ TEST_F(Checkpoints, ReadBackBitForBit) {
 TEST_F(Checkpoints, KeepAccelerationsEmptyWhereThereAreNone) {
   SimulationState state = samples::state(3, 10);
   state.particles.acceleration.clear();
-  ASSERT_TRUE(write_checkpoint(file, state, samples::run_info()));
-  const auto read = read_checkpoint(folder.path());  // the folder of the checkpoint works too
+  ASSERT_TRUE(io::write_checkpoint(file, state, samples::run_info()));
+  const auto read = io::read_checkpoint(folder.path());  // the folder of the checkpoint works too
   ASSERT_TRUE(read);
   EXPECT_TRUE(read->state.particles.acceleration.empty());
   EXPECT_TRUE(samples::same(read->state.particles, state.particles));
@@ -68,14 +68,14 @@ TEST_F(Checkpoints, SayWhatIsWrongWithAFile) {
   samples::write_file(file, "step,t,id\n0,0,1\n");
   EXPECT_EQ(error_of_reading(file), "is no checkpoint of Hooke's, or is cut short");
 
-  ASSERT_TRUE(write_checkpoint(file, samples::state(3, 100), samples::run_info()));
+  ASSERT_TRUE(io::write_checkpoint(file, samples::state(3, 100), samples::run_info()));
   const std::string whole = samples::read_file(file);
   samples::write_file(file, whole.substr(0, whole.size() / 2));
   EXPECT_EQ(error_of_reading(file), "is no checkpoint of Hooke's, or is cut short");
 }
 
 TEST_F(Checkpoints, NoticeEveryChangedBit) {
-  ASSERT_TRUE(write_checkpoint(file, samples::state(3, 100), samples::run_info()));
+  ASSERT_TRUE(io::write_checkpoint(file, samples::state(3, 100), samples::run_info()));
   const std::string whole = samples::read_file(file);
   std::mt19937 random(1);
   for (int i = 0; i < 200; ++i) {
@@ -89,23 +89,24 @@ TEST_F(Checkpoints, NoticeEveryChangedBit) {
 }
 
 TEST_F(Checkpoints, AnUnwritablePathIsAnError) {
-  const auto written = write_checkpoint(folder / "none" / "checkpoint.h5", samples::state(1, 3), samples::run_info());
+  const auto written =
+      io::write_checkpoint(folder / "none" / "checkpoint.h5", samples::state(1, 3), samples::run_info());
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().kind, Error::Kind::io);
   EXPECT_NE(written.error().text().find("No such file"), std::string::npos);
 }
 
 TEST(Resumable, NamesEveryDifferenceThatMatters) {
-  const RunInfo checkpoint = samples::run_info();
-  RunInfo scene = checkpoint;
+  const io::RunInfo checkpoint = samples::run_info();
+  io::RunInfo scene = checkpoint;
   scene.scene = "another name";
   scene.materials[0].radius = 0.3;
-  EXPECT_TRUE(check_resumable(checkpoint, scene).empty());
+  EXPECT_TRUE(io::check_resumable(checkpoint, scene).empty());
   scene.time_step = 0.001;
   scene.integrator = Integrator::velocity_verlet;
   scene.precision = Precision::double_precision;
   scene.materials.pop_back();
-  const auto findings = check_resumable(checkpoint, scene);
+  const auto findings = io::check_resumable(checkpoint, scene);
   ASSERT_EQ(findings.size(), 4U);
   EXPECT_EQ(findings[0].where, "time.step");
   EXPECT_NE(findings[0].message.find("0.001"), std::string::npos);

@@ -84,7 +84,7 @@ class DamagedSnapshots : public testing::Test {
   void expect_refused_after(const std::function<void(hid_t)>& change) {
     samples::write_file(file, whole);
     edit(file, change);
-    const auto run = RunReader::open(file);
+    const auto run = io::RunReader::open(file);
     if (!run) {
       expect_refused(run);
       return;
@@ -172,7 +172,7 @@ TEST_F(DamagedSnapshots, TheDescriptionOfTheRunIsWhatWasWritten) {
   std::string damaged = whole;
   damaged[digit] = static_cast<char>(damaged[digit] ^ 1);
   samples::write_file(file, damaged);
-  expect_refused(RunReader::open(file));
+  expect_refused(io::RunReader::open(file));
 }
 
 // Every chunk that is read bears a checksum.
@@ -202,7 +202,7 @@ TEST_F(DamagedSnapshots, AChangedBitIsRefused) {
       std::string damaged = whole;
       damaged[address.back() + at] = static_cast<char>(damaged[address.back() + at] ^ 16);
       samples::write_file(file, damaged);
-      const auto run = RunReader::open(file);
+      const auto run = io::RunReader::open(file);
       if (run) {
         expect_refused(run->read(1));
       } else {
@@ -215,7 +215,7 @@ TEST_F(DamagedSnapshots, AChangedBitIsRefused) {
 class DamagedCheckpoints : public testing::Test {
  protected:
   DamagedCheckpoints() {
-    EXPECT_TRUE(write_checkpoint(file, samples::state(3, 100), samples::run_info()));
+    EXPECT_TRUE(io::write_checkpoint(file, samples::state(3, 100), samples::run_info()));
     const std::string sealed = samples::read_file(file);
     whole = sealed.substr(0, sealed.size() - 2 * sizeof(std::uint64_t));
   }
@@ -235,9 +235,9 @@ class DamagedCheckpoints : public testing::Test {
     samples::write_file(file, whole);
     edit(file, change);
     seal();
-    expect_refused(read_checkpoint(file));
-    expect_refused(describe_file(file));
-    if (of_structure) expect_refused(read_structure_of_run(folder.path()));
+    expect_refused(io::read_checkpoint(file));
+    expect_refused(io::describe_file(file));
+    if (of_structure) expect_refused(io::read_structure_of_run(folder.path()));
   }
 
   samples::TemporaryFolder folder;
@@ -248,8 +248,8 @@ class DamagedCheckpoints : public testing::Test {
 TEST_F(DamagedCheckpoints, AreSoundWithANewSeal) {
   samples::write_file(file, whole);
   seal();
-  EXPECT_TRUE(read_checkpoint(file));
-  EXPECT_TRUE(read_structure_of_run(folder.path()));
+  EXPECT_TRUE(io::read_checkpoint(file));
+  EXPECT_TRUE(io::read_structure_of_run(folder.path()));
 }
 
 TEST_F(DamagedCheckpoints, TablesAreOfTheirTypeRankAndLength) {

@@ -28,15 +28,15 @@ class ExportCloth : public testing::Test {
   }
 
   Expected<std::vector<std::filesystem::path>> exported(const char* file) {
-    const RunReader run = samples::write_run(folder_ / "run", info_, {snapshot_});
-    ExportOptions options;
-    options.content = ExportContent::cloths;
+    const io::RunReader run = samples::write_run(folder_ / "run", info_, {snapshot_});
+    io::ExportOptions options;
+    options.content = io::ExportContent::cloths;
     options.scene = &scene_;
-    return export_run(run, std::vector<std::size_t>{0}, folder_ / file, options);
+    return io::export_run(run, std::vector<std::size_t>{0}, folder_ / file, options);
   }
 
   const samples::TemporaryFolder folder_;
-  const RunInfo info_ = samples::run_info();
+  const io::RunInfo info_ = samples::run_info();
   Scene scene_ = samples::scene(info_);
   Snapshot snapshot_{40, 0.2, {}};
 };
@@ -95,10 +95,10 @@ TEST_F(ExportCloth, NeedsACloth) {
 }
 
 TEST_F(ExportCloth, FindsTheClothsOfARunInItsCheckpoint) {
-  EXPECT_EQ(read_structure_of_run(folder_.path()).value(), nullptr) << "no checkpoint yet";
+  EXPECT_EQ(io::read_structure_of_run(folder_.path()).value(), nullptr) << "no checkpoint yet";
   const SimulationState state = samples::state(7, 20);
-  ASSERT_TRUE(write_checkpoint(folder_ / "checkpoint.h5", state, info_));
-  const auto structure = read_structure_of_run(folder_.path());
+  ASSERT_TRUE(io::write_checkpoint(folder_ / "checkpoint.h5", state, info_));
+  const auto structure = io::read_structure_of_run(folder_.path());
   ASSERT_TRUE(structure) << structure.error().text();
   EXPECT_EQ(**structure, *state.structure);
 }

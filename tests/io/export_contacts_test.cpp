@@ -34,12 +34,12 @@ class ExportContacts : public testing::Test {
   }
 
   Expected<std::vector<std::filesystem::path>> exported(const char* name, const Scene* scene) {
-    ExportOptions options;
-    options.content = ExportContent::contacts;
+    io::ExportOptions options;
+    options.content = io::ExportContent::contacts;
     options.scene = scene;
-    const RunInfo info = describe_run(scene_, Precision::double_precision);
-    const RunReader run = samples::write_run(folder_ / "run", info, {snapshot_});
-    return export_run(run, std::vector<std::size_t>{0}, folder_ / name, options);
+    const io::RunInfo info = io::describe_run(scene_, Precision::double_precision);
+    const io::RunReader run = samples::write_run(folder_ / "run", info, {snapshot_});
+    return io::export_run(run, std::vector<std::size_t>{0}, folder_ / name, options);
   }
 
   const samples::TemporaryFolder folder_;

@@ -66,14 +66,14 @@ class ExportLammps : public testing::TestWithParam<Precision> {
       ASSERT_EQ((Vec3d{number(4), number(5), number(6)}), p.position[i]);
       ASSERT_EQ((Vec3d{number(7), number(8), number(9)}), p.velocity[i]);
       if (!with_sizes) continue;
-      const MaterialInfo& material = info_.materials[p.material[i]];
+      const io::MaterialInfo& material = info_.materials[p.material[i]];
       ASSERT_EQ(samples::number(row[2]), material.radius);
       ASSERT_NEAR(samples::number(row[3]), material.mass, 1e-15);
     }
   }
 
   const samples::TemporaryFolder folder_;
-  RunInfo info_ = samples::run_info(GetParam());
+  io::RunInfo info_ = samples::run_info(GetParam());
   std::vector<Snapshot> snapshots_{samples::snapshot(0, 3000, GetParam()), samples::snapshot(8, 0, GetParam()),
                                    samples::snapshot(16, 2000, GetParam())};
 };
@@ -138,7 +138,7 @@ TEST_P(ExportLammps, DumpSaysWhatLammpsCanNotTakeFromIt) {
     for (std::size_t i = 0; i < snapshot.particles.size(); ++i) {
       const auto row = samples::words(next());
       ASSERT_EQ(row.size(), 11U);
-      const MaterialInfo& material = info_.materials[snapshot.particles.material[i]];
+      const io::MaterialInfo& material = info_.materials[snapshot.particles.material[i]];
       ASSERT_EQ(row[2].substr(0, 4), material.name.substr(0, 4));
       ASSERT_EQ(samples::number(row[3]), material.radius);
       ASSERT_EQ(samples::number(row[4]), material.mass);

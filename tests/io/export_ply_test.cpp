@@ -72,7 +72,7 @@ Ply read_ply(const std::filesystem::path& file) {
 
 class ExportPlyFile : public testing::Test {
  protected:
-  std::vector<std::filesystem::path> exported(const RunInfo& info, const std::vector<Snapshot>& snapshots,
+  std::vector<std::filesystem::path> exported(const io::RunInfo& info, const std::vector<Snapshot>& snapshots,
                                               const Scene* scene) {
     return samples::export_all(samples::write_run(folder_ / "run", info, snapshots), folder_ / "p.ply", scene);
   }
@@ -83,7 +83,7 @@ class ExportPlyFile : public testing::Test {
 class ExportPly : public ExportPlyFile, public testing::WithParamInterface<Precision> {};
 
 TEST_P(ExportPly, HoldsEverySnapshotToTheBit) {
-  RunInfo info = samples::run_info(GetParam());
+  io::RunInfo info = samples::run_info(GetParam());
   info.materials[0].name = "salt \"sea\"\nend_header \u00e4%";
   const std::vector<Snapshot> snapshots{samples::snapshot(0, 3000, GetParam()), samples::snapshot(8, 0, GetParam()),
                                         samples::snapshot(16, 7, GetParam())};
@@ -116,7 +116,7 @@ TEST_P(ExportPly, HoldsEverySnapshotToTheBit) {
 }
 
 TEST_P(ExportPly, VtkReadsItWithColours) {
-  const RunInfo info = samples::run_info(GetParam());
+  const io::RunInfo info = samples::run_info(GetParam());
   const Scene scene = samples::scene(info);
   const std::vector<Snapshot> snapshots{samples::snapshot(0, 500, GetParam())};
   const auto files = exported(info, snapshots, &scene);
@@ -149,7 +149,7 @@ TEST_F(ExportPlyFile, KeepsIdsOf64Bits) {
 }
 
 TEST_F(ExportPlyFile, PaintsWhatHasNoColourGrey) {
-  RunInfo info = samples::run_info();
+  io::RunInfo info = samples::run_info();
   info.materials.push_back({"plain", 1, 1});
   const Scene scene = samples::scene(info);
   Snapshot snapshot = samples::snapshot(0, 1);

@@ -14,15 +14,15 @@ namespace {
 class ExportSprings : public testing::Test {
  protected:
   Expected<std::vector<std::filesystem::path>> exported(const SimulationState& state) {
-    const RunReader run = samples::write_run(folder_ / "run", info_, {samples::snapshot(40, 5)});
-    EXPECT_TRUE(write_checkpoint(folder_ / "run" / kCheckpointFile, state, info_));
-    ExportOptions options;
-    options.content = ExportContent::springs;
-    return export_run(run, std::vector<std::size_t>{0}, folder_ / "s.csv", options);
+    const io::RunReader run = samples::write_run(folder_ / "run", info_, {samples::snapshot(40, 5)});
+    EXPECT_TRUE(io::write_checkpoint(folder_ / "run" / io::kCheckpointFile, state, info_));
+    io::ExportOptions options;
+    options.content = io::ExportContent::springs;
+    return io::export_run(run, std::vector<std::size_t>{0}, folder_ / "s.csv", options);
   }
 
   const samples::TemporaryFolder folder_;
-  const RunInfo info_ = samples::run_info();
+  const io::RunInfo info_ = samples::run_info();
 };
 
 TEST_F(ExportSprings, TellsWhichAreBroken) {

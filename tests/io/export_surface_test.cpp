@@ -28,7 +28,7 @@ struct Measures {
 class ExportSurface : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    if (!has_openvdb()) GTEST_SKIP() << "needs OpenVDB, which is not in this build";
+    if (!volumes::has_openvdb()) GTEST_SKIP() << "needs OpenVDB, which is not in this build";
   }
   void add(const Vec3d& x) {
     ParticleSet& p = snapshot_.particles;
@@ -44,15 +44,16 @@ class ExportSurface : public testing::TestWithParam<const char*> {
       add(Vec3d{-1, 2, 3} + 2 * kRadius * at);
     }
   }
-  Expected<std::vector<std::filesystem::path>> exported(const SurfaceOptions& surface) {
-    const RunInfo info{"s", 0.005, Integrator::symplectic_euler, Precision::single_precision, {{"water", kRadius, 1}}};
-    const RunReader run = samples::write_run(folder_ / "run", info, {snapshot_});
-    ExportOptions options;
-    options.content = ExportContent::surface;
+  Expected<std::vector<std::filesystem::path>> exported(const volumes::SurfaceOptions& surface) {
+    const io::RunInfo info{
+        "s", 0.005, Integrator::symplectic_euler, Precision::single_precision, {{"water", kRadius, 1}}};
+    const io::RunReader run = samples::write_run(folder_ / "run", info, {snapshot_});
+    io::ExportOptions options;
+    options.content = io::ExportContent::surface;
     options.surface = surface;
-    return export_run(run, std::vector<std::size_t>{0}, folder_ / (std::string("s.") + GetParam()), options);
+    return io::export_run(run, std::vector<std::size_t>{0}, folder_ / (std::string("s.") + GetParam()), options);
   }
-  Measures measured(const SurfaceOptions& surface = {}) {
+  Measures measured(const volumes::SurfaceOptions& surface = {}) {
     const auto files = exported(surface);
     if (!files) throw std::runtime_error(files.error().text());
     const auto words = samples::words(samples::output_of(
@@ -96,7 +97,7 @@ TEST_P(ExportSurface, WithoutMuchSmoothingIsOfSingleSpheres) {
 
 TEST_P(ExportSurface, RefusesOptionsOutOfRange) {
   add({0, 0, 0});
-  const std::pair<SurfaceOptions, const char*> wrong[] = {
+  const std::pair<volumes::SurfaceOptions, const char*> wrong[] = {
       {{0, 1.5, 0.5}, "radius 0 is not from 0.1 to 10"},        {{1, 0, 0.5}, "smoothing 0 is not from 0.5 to 10"},
       {{1, 1.5, 0}, "resolution 0 is not from 0.1 to 1"},       {{1, 1.5, 1.1}, "resolution 1.1 is not from 0.1 to 1"},
       {{std::nan(""), 1.5, 0.5}, "radius nan is not from 0.1"},
@@ -152,20 +153,20 @@ TEST_P(ExportSurface, IsByMaterial) {
   add({1.5 * kRadius, 0, 0});
   EXPECT_EQ(measured({1, 1.5, 0.1}).bad_edges, 0);
   snapshot_.particles.material[1] = 1;
-  const RunInfo info{"s",
-                     0.005,
-                     Integrator::symplectic_euler,
-                     Precision::single_precision,
-                     {{"water", kRadius, 1}, {"oil", kRadius, 1}}};
-  const RunReader run = samples::write_run(folder_ / "two", info, {snapshot_});
+  const io::RunInfo info{"s",
+                         0.005,
+                         Integrator::symplectic_euler,
+                         Precision::single_precision,
+                         {{"water", kRadius, 1}, {"oil", kRadius, 1}}};
+  const io::RunReader run = samples::write_run(folder_ / "two", info, {snapshot_});
   Scene scene;
   scene.materials = {{"water", kRadius, 1, {}, 0, "#0000ff"}, {"oil", kRadius, 1, {}, 0, "#ff8000"}};
-  ExportOptions options;
-  options.content = ExportContent::surface;
+  io::ExportOptions options;
+  options.content = io::ExportContent::surface;
   options.surface = {1, 1.5, 0.1};
   options.scene = &scene;
   const auto file = folder_ / (std::string("two.") + GetParam());
-  const auto files = export_run(run, std::vector<std::size_t>{0}, file, options);
+  const auto files = io::export_run(run, std::vector<std::size_t>{0}, file, options);
   ASSERT_TRUE(files) << files.error().text();
   const auto words = samples::words(samples::output_of(
       fmt::format("/usr/bin/python3 '{}/tests/io/read_mesh.py' '{}'", HOOKE_SOURCE_DIR, file.string())));

@@ -57,8 +57,8 @@ template <class Real, class Bits>
 void expect_csv_round_trip(Precision precision) {
   const TemporaryFolder folder;
   const Snapshot snapshot = random_snapshot<Real, Bits>();
-  const RunReader run = samples::write_run(folder / "run", samples::run_info(precision), {snapshot});
-  ASSERT_TRUE(export_run(run, std::vector<std::size_t>{0}, folder / "t.csv"));
+  const io::RunReader run = samples::write_run(folder / "run", samples::run_info(precision), {snapshot});
+  ASSERT_TRUE(io::export_run(run, std::vector<std::size_t>{0}, folder / "t.csv"));
   std::istringstream lines(samples::read_file(folder / "t.csv"));
   std::string line;
   std::getline(lines, line);
@@ -91,10 +91,10 @@ TEST(ExportCsv, DoublesReadBackToTheSameDouble) {
 
 TEST(ExportCsv, HoldsAllChosenSnapshotsInOneFile) {
   const TemporaryFolder folder;
-  const RunReader run =
+  const io::RunReader run =
       samples::write_run(folder / "run", samples::run_info(),
                          {samples::snapshot(0, 3), samples::snapshot(8, 2), samples::snapshot(16, 3)});
-  const auto written = export_run(run, std::vector<std::size_t>{0, 2}, folder / "T.CSV");
+  const auto written = io::export_run(run, std::vector<std::size_t>{0, 2}, folder / "T.CSV");
   ASSERT_TRUE(written) << written.error().text();
   EXPECT_EQ(*written, std::vector<std::filesystem::path>{folder / "T.CSV"});
   std::istringstream lines(samples::read_file(folder / "T.CSV"));
@@ -105,27 +105,27 @@ TEST(ExportCsv, HoldsAllChosenSnapshotsInOneFile) {
 
 TEST(ExportCsv, QuotesNamesThatNeedIt) {
   const TemporaryFolder folder;
-  RunInfo info = samples::run_info();
+  io::RunInfo info = samples::run_info();
   info.materials[0].name = "salt, \"sea\"";
   Snapshot one = samples::snapshot(0, 1);
   one.particles.material[0] = 0;
-  const RunReader run = samples::write_run(folder / "run", info, {one});
-  ASSERT_TRUE(export_run(run, std::vector<std::size_t>{0}, folder / "t.csv"));
+  const io::RunReader run = samples::write_run(folder / "run", info, {one});
+  ASSERT_TRUE(io::export_run(run, std::vector<std::size_t>{0}, folder / "t.csv"));
   EXPECT_NE(samples::read_file(folder / "t.csv").find(",\"salt, \"\"sea\"\"\","), std::string::npos);
 }
 
 TEST(ExportVtp, WritesOneFileOrACollection) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "out");
-  const RunReader run =
+  const io::RunReader run =
       samples::write_run(folder / "run", samples::run_info(), {samples::snapshot(0, 5), samples::snapshot(8, 5)});
-  ASSERT_TRUE(export_run(run, std::vector<std::size_t>{1}, folder / "out/one.vtp"));
+  ASSERT_TRUE(io::export_run(run, std::vector<std::size_t>{1}, folder / "out/one.vtp"));
   const std::string one = samples::read_file(folder / "out/one.vtp");
   EXPECT_NE(one.find("NumberOfPoints=\"5\" NumberOfVerts=\"5\""), std::string::npos);
   EXPECT_NE(one.find(R"(type="Float32" Name="velocity")"), std::string::npos);
   EXPECT_NE(one.find(">0.04</DataArray>"), std::string::npos);
 
-  const auto written = export_run(run, std::vector<std::size_t>{0, 1}, folder / "out/all.vtp");
+  const auto written = io::export_run(run, std::vector<std::size_t>{0, 1}, folder / "out/all.vtp");
   ASSERT_TRUE(written);
   EXPECT_EQ(written->front(), folder / "out/all.pvd");
   EXPECT_EQ(samples::files_in(folder / "out"),
@@ -138,24 +138,24 @@ TEST(ExportVtp, WritesOneFileOrACollection) {
 
 TEST(Export, SaysWhatItKnowsAndLeavesNothingHalfMade) {
   const TemporaryFolder folder;
-  const RunReader run =
+  const io::RunReader run =
       samples::write_run(folder / "run", samples::run_info(), {samples::snapshot(0, 5), samples::snapshot(8, 5)});
-  const auto unknown = export_run(run, std::vector<std::size_t>{0}, folder / "t.xyzzy");
+  const auto unknown = io::export_run(run, std::vector<std::size_t>{0}, folder / "t.xyzzy");
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().kind, Error::Kind::bad_input);
   EXPECT_NE(unknown.error().text().find("known are .csv, .vtp, .pvd, .ply"), std::string::npos);
 
-  EXPECT_FALSE(export_run(run, std::vector<std::size_t>{}, folder / "t.csv"));
+  EXPECT_FALSE(io::export_run(run, std::vector<std::size_t>{}, folder / "t.csv"));
   // The run has lost its second snapshot since it was opened.
-  ASSERT_TRUE(RunWriter::resume(folder / "run", samples::run_info(), "{}", 8, {0, 16}));
-  EXPECT_FALSE(export_run(run, std::vector<std::size_t>{0, 1}, folder / "t.csv"));
-  const auto unwritable = export_run(run, std::vector<std::size_t>{0}, folder / "none/t.csv");
+  ASSERT_TRUE(io::RunWriter::resume(folder / "run", samples::run_info(), "{}", 8, {0, 16}));
+  EXPECT_FALSE(io::export_run(run, std::vector<std::size_t>{0, 1}, folder / "t.csv"));
+  const auto unwritable = io::export_run(run, std::vector<std::size_t>{0}, folder / "none/t.csv");
   ASSERT_FALSE(unwritable);
   EXPECT_EQ(unwritable.error().kind, Error::Kind::io);
   EXPECT_EQ(samples::files_in(folder.path()), std::vector<std::string>{"run"});
 
-  const RunReader empty = samples::write_run(folder / "empty", samples::run_info(), {});
-  const auto nothing = export_run(empty, std::vector<std::size_t>{0}, folder / "t.csv");
+  const io::RunReader empty = samples::write_run(folder / "empty", samples::run_info(), {});
+  const auto nothing = io::export_run(empty, std::vector<std::size_t>{0}, folder / "t.csv");
   ASSERT_FALSE(nothing);
   EXPECT_NE(nothing.error().text().find("holds no complete snapshot"), std::string::npos);
 }
@@ -163,26 +163,26 @@ TEST(Export, SaysWhatItKnowsAndLeavesNothingHalfMade) {
 TEST(DescribeFile, TellsRunsSnapshotsAndCheckpointsApart) {
   const TemporaryFolder folder;
   samples::write_run(folder / "run", samples::run_info(), {samples::snapshot(0, 5), samples::snapshot(8, 4)});
-  auto run = describe_file(folder / "run");
+  auto run = io::describe_file(folder / "run");
   ASSERT_TRUE(run) << run.error().text();
-  EXPECT_EQ(run->kind, FileDescription::Kind::run_folder);
+  EXPECT_EQ(run->kind, io::FileDescription::Kind::run_folder);
   EXPECT_EQ(run->info, samples::run_info());
   EXPECT_EQ(run->steps, (std::vector<std::int64_t>{0, 8}));
   EXPECT_EQ(run->times, (std::vector<double>{0, 0.04}));
   EXPECT_EQ(run->particle_counts, (std::vector<std::uint64_t>{5, 4}));
   EXPECT_FALSE(run->checkpoint_step);
 
-  ASSERT_TRUE(write_checkpoint(folder / "run/checkpoint.h5", samples::state(9, 4), samples::run_info()));
-  EXPECT_EQ(describe_file(folder / "run")->checkpoint_step, 9);
-  EXPECT_EQ(describe_file(folder / "run/particles.vtkhdf")->kind, FileDescription::Kind::particles_file);
-  const auto checkpoint = describe_file(folder / "run/checkpoint.h5");
+  ASSERT_TRUE(io::write_checkpoint(folder / "run/checkpoint.h5", samples::state(9, 4), samples::run_info()));
+  EXPECT_EQ(io::describe_file(folder / "run")->checkpoint_step, 9);
+  EXPECT_EQ(io::describe_file(folder / "run/particles.vtkhdf")->kind, io::FileDescription::Kind::particles_file);
+  const auto checkpoint = io::describe_file(folder / "run/checkpoint.h5");
   ASSERT_TRUE(checkpoint);
-  EXPECT_EQ(checkpoint->kind, FileDescription::Kind::checkpoint);
+  EXPECT_EQ(checkpoint->kind, io::FileDescription::Kind::checkpoint);
   EXPECT_EQ(checkpoint->steps, std::vector<std::int64_t>{9});
   EXPECT_EQ(checkpoint->particle_counts, std::vector<std::uint64_t>{4});
 
   for (const char* name : {"run/scene.json", "none", "run/series.csv"}) {
-    const auto foreign = describe_file(folder / name);
+    const auto foreign = io::describe_file(folder / name);
     ASSERT_FALSE(foreign) << name;
     EXPECT_EQ(foreign.error().kind, Error::Kind::bad_input);
   }

@@ -107,8 +107,8 @@ Numbers rounded(Numbers numbers) {
 
 class ExportUsda : public testing::Test {
  protected:
-  Stage exported(const RunInfo& info, const std::vector<Snapshot>& snapshots, const Scene* scene) {
-    const RunReader run = samples::write_run(folder_ / to_string(info.precision), info, snapshots);
+  Stage exported(const io::RunInfo& info, const std::vector<Snapshot>& snapshots, const Scene* scene) {
+    const io::RunReader run = samples::write_run(folder_ / to_string(info.precision), info, snapshots);
     EXPECT_EQ(samples::export_all(run, folder_ / "p.usda", scene).size(), 1U);
     return read_stage(folder_ / "p.usda");
   }
@@ -118,7 +118,7 @@ class ExportUsda : public testing::Test {
 
 TEST_F(ExportUsda, HasASampleASnapshot) {
   for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
-    RunInfo info = samples::run_info(precision);
+    io::RunInfo info = samples::run_info(precision);
     info.materials[0].name = "salt \"sea\"\\\n\u00e4";
     std::vector<Snapshot> snapshots;
     for (const std::int64_t step : {0, 8, 16, 24}) snapshots.push_back(samples::snapshot(step, 3000, precision));
@@ -216,7 +216,7 @@ TEST_F(ExportUsda, KeepsTimesOfUnevenSnapshots) {
 
 // Frames of a film: no multiple of 1/24 s but those of whole seconds is a step.
 TEST_F(ExportUsda, HasWholeCodesWhereOutputFallsOnTheNextStep) {
-  RunInfo info = samples::run_info();
+  io::RunInfo info = samples::run_info();
   info.time_step = 0.001;
   const OutputCadence cadence{1.0 / 24, 0};
   std::vector<Snapshot> snapshots;

@@ -22,13 +22,13 @@ class ExportVdb : public testing::Test {
   ExportVdb() { openvdb::initialize(); }
 
   /// The grids of a snapshot's file, by name.
-  std::map<std::string, openvdb::GridBase::Ptr> exported(const RunInfo& info, const Snapshot& snapshot,
-                                                         ExportContent content) {
-    const RunReader run = samples::write_run(folder_ / "run", info, {snapshot});
-    ExportOptions options;
+  std::map<std::string, openvdb::GridBase::Ptr> exported(const io::RunInfo& info, const Snapshot& snapshot,
+                                                         io::ExportContent content) {
+    const io::RunReader run = samples::write_run(folder_ / "run", info, {snapshot});
+    io::ExportOptions options;
     options.content = content;
     options.surface.resolution = 0.25;
-    const auto files = export_run(run, std::vector<std::size_t>{0}, folder_ / "f.vdb", options);
+    const auto files = io::export_run(run, std::vector<std::size_t>{0}, folder_ / "f.vdb", options);
     if (!files) throw std::runtime_error(files.error().text());
     openvdb::io::File file(files->front().string());
     file.open(/*delayLoad=*/false);
@@ -47,10 +47,10 @@ class ExportVdb : public testing::Test {
 };
 
 TEST_F(ExportVdb, PointsCarryWhatHoudiniWants) {
-  const RunInfo info = samples::run_info();
+  const io::RunInfo info = samples::run_info();
   const Snapshot snapshot = samples::snapshot(8, 1000);
   const ParticleSet& p = snapshot.particles;
-  const auto grids = exported(info, snapshot, ExportContent::particles);
+  const auto grids = exported(info, snapshot, io::ExportContent::particles);
   ASSERT_EQ(grids.size(), 1U);
   const auto grid = openvdb::gridPtrCast<points::PointDataGrid>(grids.at("particles"));
   EXPECT_EQ(grid->metaValue<std::string>("materials"), info.materials[0].name + "," + info.materials[1].name);
@@ -80,14 +80,15 @@ TEST_F(ExportVdb, PointsCarryWhatHoudiniWants) {
 
 TEST_F(ExportVdb, VolumeOfASphereIsItsFogLevelSetAndVelocity) {
   constexpr double kRadius = 0.4;
-  const RunInfo info{"s", 0.005, Integrator::symplectic_euler, Precision::single_precision, {{"water", kRadius, 1}}};
+  const io::RunInfo info{
+      "s", 0.005, Integrator::symplectic_euler, Precision::single_precision, {{"water", kRadius, 1}}};
   Snapshot snapshot{8, 0.04, {}};
   snapshot.particles.id = {5};
   snapshot.particles.material = {0};
   snapshot.particles.position = {{2.03, -1, 30}};
   snapshot.particles.velocity = {{3, 0, -1}};
   const openvdb::Vec3d centre(2.03, -1, 30);
-  const auto grids = exported(info, snapshot, ExportContent::volume);
+  const auto grids = exported(info, snapshot, io::ExportContent::volume);
   ASSERT_EQ(grids.size(), 3U);
 
   const auto surface = openvdb::gridPtrCast<openvdb::FloatGrid>(grids.at("surface"));
@@ -123,10 +124,10 @@ TEST_F(ExportVdb, VolumeOfASphereIsItsFogLevelSetAndVelocity) {
 
 TEST_F(ExportVdb, OfNobodyHoldsEmptyGrids) {
   const Snapshot nobody{0, 0, {}};
-  EXPECT_TRUE(exported(samples::run_info(), nobody, ExportContent::particles).at("particles")->empty());
+  EXPECT_TRUE(exported(samples::run_info(), nobody, io::ExportContent::particles).at("particles")->empty());
   std::filesystem::remove_all(folder_.path());
   std::filesystem::create_directory(folder_.path());
-  EXPECT_TRUE(exported(samples::run_info(), nobody, ExportContent::volume).at("density")->empty());
+  EXPECT_TRUE(exported(samples::run_info(), nobody, io::ExportContent::volume).at("density")->empty());
 }
 
 }  // namespace

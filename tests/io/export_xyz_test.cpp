@@ -48,8 +48,8 @@ std::vector<Frame> read_frames(const std::filesystem::path& file) {
 
 class ExportXyzFile : public testing::Test {
  protected:
-  std::vector<Frame> exported(const RunInfo& info, const std::vector<Snapshot>& snapshots, const Scene* scene) {
-    const RunReader run = samples::write_run(folder / "run", info, snapshots);
+  std::vector<Frame> exported(const io::RunInfo& info, const std::vector<Snapshot>& snapshots, const Scene* scene) {
+    const io::RunReader run = samples::write_run(folder / "run", info, snapshots);
     const auto written = samples::export_all(run, folder / "run.xyz", scene);
     EXPECT_EQ(written, std::vector<std::filesystem::path>{folder / "run.xyz"});
     return read_frames(folder / "run.xyz");
@@ -61,7 +61,7 @@ class ExportXyzFile : public testing::Test {
 class ExportXyz : public ExportXyzFile, public testing::WithParamInterface<Precision> {};
 
 TEST_P(ExportXyz, HoldsEverySnapshotToTheBit) {
-  RunInfo info = samples::run_info(GetParam());
+  io::RunInfo info = samples::run_info(GetParam());
   info.materials[0].name = "salt \"sea\"\n#1 \u00e4%";
   const Scene scene = samples::scene(info);
   // More rows than the writer makes at once.
@@ -86,7 +86,7 @@ TEST_P(ExportXyz, HoldsEverySnapshotToTheBit) {
         return Vec3d{samples::number(row[column], GetParam()), samples::number(row[column + 1], GetParam()),
                      samples::number(row[column + 2], GetParam())};
       };
-      const MaterialInfo& material = info.materials[p.material[i]];
+      const io::MaterialInfo& material = info.materials[p.material[i]];
       ASSERT_EQ(row[0], p.material[i] == 0 ? "salt%20%22sea%22%0A%231%20%C3%A4%25" : "oil");
       ASSERT_EQ(vector(1), p.position[i]);
       ASSERT_EQ(vector(4), p.velocity[i]);
@@ -107,19 +107,19 @@ TEST_F(ExportXyzFile, HasNoCellWithoutAScene) {
 }
 
 TEST_F(ExportXyzFile, HasASecondExtension) {
-  const RunReader run = samples::write_run(folder / "run", samples::run_info(), {samples::snapshot(0, 3)});
+  const io::RunReader run = samples::write_run(folder / "run", samples::run_info(), {samples::snapshot(0, 3)});
   samples::export_all(run, folder / "a.xyz");
   samples::export_all(run, folder / "a.extxyz");
   EXPECT_EQ(samples::read_file(folder / "a.extxyz"), samples::read_file(folder / "a.xyz"));
 }
 
 TEST_F(ExportXyzFile, RefusesASceneOfAnotherRun) {
-  const RunReader run = samples::write_run(folder / "run", samples::run_info(), {samples::snapshot(0, 3)});
+  const io::RunReader run = samples::write_run(folder / "run", samples::run_info(), {samples::snapshot(0, 3)});
   Scene scene = samples::scene(samples::run_info());
   scene.materials.pop_back();
-  ExportOptions options;
+  io::ExportOptions options;
   options.scene = &scene;
-  const auto refused = export_run(run, std::vector<std::size_t>{0}, folder / "a.xyz", options);
+  const auto refused = io::export_run(run, std::vector<std::size_t>{0}, folder / "a.xyz", options);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().text().find("other materials"), std::string::npos);
 }

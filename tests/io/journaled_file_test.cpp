@@ -13,7 +13,7 @@ namespace hooke {
 namespace {
 
 using samples::TemporaryFolder;
-using Mode = JournaledFile::Mode;
+using Mode = io::JournaledFile::Mode;
 
 class Journaled : public testing::Test {
  protected:
@@ -21,26 +21,26 @@ class Journaled : public testing::Test {
 
   void reopen(Mode mode) {
     file.reset();
-    file = std::make_unique<JournaledFile>(path, mode);
+    file = std::make_unique<io::JournaledFile>(path, mode);
   }
   void write(std::uint64_t at, const std::string& text) {
     file->write(at, text.data(), text.size());
     file->set_end(std::max(file->end(), at + text.size()));
   }
-  static std::string read(JournaledFile& from, std::uint64_t at, std::size_t size) {
+  static std::string read(io::JournaledFile& from, std::uint64_t at, std::size_t size) {
     std::string text(size, '?');
     EXPECT_EQ(from.read(at, text.data(), size), 0);
     return text;
   }
   std::string committed(std::uint64_t at, std::size_t size) {
-    JournaledFile reader(path, Mode::read);
+    io::JournaledFile reader(path, Mode::read);
     return read(reader, at, size);
   }
 
   TemporaryFolder folder;
   std::filesystem::path path = folder / "file";
   std::filesystem::path journal = folder / "file.journal";
-  std::unique_ptr<JournaledFile> file;
+  std::unique_ptr<io::JournaledFile> file;
 };
 
 TEST_F(Journaled, ChangesShowWhenTheyAreCommitted) {
@@ -89,7 +89,7 @@ TEST_F(Journaled, AnInterruptedCommitIsWholeOrNothing) {
     samples::write_file(path, before);
     samples::write_file(journal, whole_journal.substr(0, size));
     ASSERT_EQ(content(), before) << size;
-    JournaledFile(path, Mode::update);
+    io::JournaledFile(path, Mode::update);
     ASSERT_EQ(samples::read_file(path), before);
     ASSERT_FALSE(std::filesystem::exists(journal));
   }
@@ -97,7 +97,7 @@ TEST_F(Journaled, AnInterruptedCommitIsWholeOrNothing) {
     samples::write_file(path, interrupted);
     samples::write_file(journal, whole_journal);
     EXPECT_EQ(content(), after);
-    JournaledFile(path, Mode::update);
+    io::JournaledFile(path, Mode::update);
     EXPECT_EQ(samples::read_file(path), after);
     EXPECT_FALSE(std::filesystem::exists(journal));
   }
@@ -121,7 +121,7 @@ TEST_F(Journaled, AFailedWriteStaysAnError) {
   write(0, "abc");
   file->commit();
   file.reset();
-  JournaledFile full("/dev/full", Mode::update);
+  io::JournaledFile full("/dev/full", Mode::update);
   const std::string text(100, 'x');
   full.write(0, text.data(), text.size());
   EXPECT_NE(full.write_error(), 0);

@@ -36,10 +36,10 @@ Simulation falling_pair() {
 TEST(Report, HasEveryFieldThatIsPromised) {
   Simulation simulation = falling_pair();
   ASSERT_TRUE(simulation.step(50));
-  RunReport report = make_report(simulation, *simulation.measure());
+  io::RunReport report = io::make_report(simulation, *simulation.measure());
   report.steps = 50;
   report.seconds = 0.25;
-  const auto json = nlohmann::json::parse(to_json(report));
+  const auto json = nlohmann::json::parse(io::to_json(report));
   EXPECT_EQ(json["particles"], 2);
   EXPECT_EQ(json["steps"], 50);
   EXPECT_EQ(json["step"], 50);
@@ -67,22 +67,22 @@ TEST(Report, HasEveryFieldThatIsPromised) {
 }
 
 TEST(Report, StagesAddUpToTheSeconds) {
-  RunReport report;
+  io::RunReport report;
   report.seconds = 10;
   report.stages = {.sort = 1, .list = 2, .motion = 0.5, .force = 4, .drift = 0.25};
-  auto stages = nlohmann::json::parse(to_json(report)).at("stages");
+  auto stages = nlohmann::json::parse(io::to_json(report)).at("stages");
   EXPECT_TRUE(stages["walls"].is_null()) << "nobody has measured them";
   EXPECT_EQ(stages["force"], 4);
   EXPECT_EQ(stages["rest"], 2.25);
   report.walls = 1.5;
-  stages = nlohmann::json::parse(to_json(report)).at("stages");
+  stages = nlohmann::json::parse(io::to_json(report)).at("stages");
   EXPECT_EQ(stages["walls"], 1.5);
   EXPECT_EQ(stages["force"], 2.5);
   EXPECT_EQ(stages["rest"], 2.25);
 }
 
 TEST(Report, CountsEachContactForBothItsParticles) {
-  RunReport report;
+  io::RunReport report;
   EXPECT_EQ(report.contacts_per_particle(), 0);
   report.particles = 4;
   report.measurements.contacts = 6;
@@ -90,40 +90,40 @@ TEST(Report, CountsEachContactForBothItsParticles) {
 }
 
 TEST(Report, StaysJsonWhenNumbersAreNot) {
-  RunReport report;
+  io::RunReport report;
   report.measurements.kinetic_energy = NAN;
   report.scene = "bad \xff text";
-  const auto json = nlohmann::json::parse(to_json(report));
+  const auto json = nlohmann::json::parse(io::to_json(report));
   EXPECT_TRUE(json["energy"]["kinetic"].is_null());
 }
 
 TEST(Report, SeriesAndSnapshotsComeFromASimulation) {
   Simulation simulation = falling_pair();
   ASSERT_TRUE(simulation.step(3));
-  const SeriesRow row = make_series_row(simulation, *simulation.measure());
+  const io::SeriesRow row = io::make_series_row(simulation, *simulation.measure());
   EXPECT_EQ(row.step, 3);
   EXPECT_EQ(row.measurements.particles, 2U);
   const Snapshot snapshot = *simulation.snapshot();
   EXPECT_EQ(snapshot.step, 3);
   EXPECT_EQ(snapshot.time, simulation.time());
   EXPECT_EQ(snapshot.particles.position, simulation.particles().position);
-  const RunInfo info = describe_run(simulation);
+  const io::RunInfo info = io::describe_run(simulation);
   EXPECT_EQ(info.precision, Precision::double_precision);
   EXPECT_EQ(info.materials.at(0).name, "water");
 }
 
 TEST(Report, TextFilesAreReplacedWhole) {
   const samples::TemporaryFolder folder;
-  ASSERT_TRUE(write_text_file(folder / "report.json", "old"));
-  ASSERT_TRUE(write_text_file(folder / "report.json", "new"));
+  ASSERT_TRUE(io::write_text_file(folder / "report.json", "old"));
+  ASSERT_TRUE(io::write_text_file(folder / "report.json", "new"));
   EXPECT_EQ(samples::read_file(folder / "report.json"), "new");
-  const auto failed = write_text_file(folder / "none/report.json", "x");
+  const auto failed = io::write_text_file(folder / "none/report.json", "x");
   ASSERT_FALSE(failed);
   EXPECT_EQ(failed.error().kind, Error::Kind::io);
 }
 
 TEST(Report, CountsMemoryBeyondTheProgramsOwn) {
-  RunReport report;
+  io::RunReport report;
   EXPECT_EQ(report.bytes_per_particle(), 0);
   report.particles = 1000;
   report.program_bytes = 40'000'000;

@@ -20,11 +20,11 @@ constexpr OutputCadence kEveryEight{0, 8};
 
 class RunFolder : public testing::Test {
  protected:
-  Expected<RunWriter> create(bool overwrite = false, Precision precision = Precision::single_precision) {
-    return RunWriter::create(run, samples::run_info(precision), "{\"hooke\": 1}\n", {overwrite});
+  Expected<io::RunWriter> create(bool overwrite = false, Precision precision = Precision::single_precision) {
+    return io::RunWriter::create(run, samples::run_info(precision), "{\"hooke\": 1}\n", {overwrite});
   }
   std::vector<Snapshot> read_all() {
-    const auto reader = RunReader::open(run);
+    const auto reader = io::RunReader::open(run);
     EXPECT_TRUE(reader) << reader.error().text();
     std::vector<Snapshot> all;
     for (std::size_t k = 0; reader && k < reader->size(); ++k) {
@@ -40,10 +40,10 @@ class RunFolder : public testing::Test {
     for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_TRUE(samples::same(read[k], expected[k])) << k;
   }
   std::string export_all() {
-    const auto reader = RunReader::open(run);
+    const auto reader = io::RunReader::open(run);
     std::vector<std::size_t> all(reader->size());
     for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
-    const auto written = export_run(*reader, all, folder / "all.csv");
+    const auto written = io::export_run(*reader, all, folder / "all.csv");
     EXPECT_TRUE(written);
     return samples::read_file(folder / "all.csv");
   }
@@ -76,7 +76,7 @@ TEST_F(RunFolder, TellsStepsAndTimes) {
   auto writer = create();
   for (const std::int64_t step : {0, 8, 16}) ASSERT_TRUE(writer->write_snapshot(samples::snapshot(step, 4)));
   ASSERT_TRUE(writer->flush());
-  const auto reader = RunReader::open(run / "particles.vtkhdf");  // while it is still being written
+  const auto reader = io::RunReader::open(run / "particles.vtkhdf");  // while it is still being written
   ASSERT_TRUE(reader) << reader.error().text();
   EXPECT_EQ(reader->info(), samples::run_info());
   EXPECT_EQ(std::vector(reader->steps().begin(), reader->steps().end()), (std::vector<std::int64_t>{0, 8, 16}));
@@ -89,7 +89,7 @@ TEST_F(RunFolder, TellsStepsAndTimes) {
   ASSERT_TRUE(writer->write_snapshot(samples::snapshot(24, 4)));
   ASSERT_TRUE(writer->flush());
   EXPECT_TRUE(samples::same(*reader->read(2), samples::snapshot(16, 4)));
-  EXPECT_EQ(RunReader::open(run)->size(), 4U);
+  EXPECT_EQ(io::RunReader::open(run)->size(), 4U);
 }
 
 TEST_F(RunFolder, KeepsIdsOfAllSixtyFourBits) {
@@ -110,8 +110,8 @@ TEST_F(RunFolder, WritesAStepOnceAndInOrder) {
   for (const std::int64_t step : {0, 8, 8}) ASSERT_TRUE(writer->write_series(samples::series_row(step)));
   ASSERT_TRUE(writer->finish());
   expect_snapshots({samples::snapshot(8, 4)});
-  EXPECT_EQ(samples::read_file(run / "series.csv"),
-            series_header() + '\n' + to_csv(samples::series_row(0)) + '\n' + to_csv(samples::series_row(8)) + '\n');
+  EXPECT_EQ(samples::read_file(run / "series.csv"), io::series_header() + '\n' + io::to_csv(samples::series_row(0)) +
+                                                        '\n' + io::to_csv(samples::series_row(8)) + '\n');
 }
 
 TEST_F(RunFolder, RefusesARunThatIsThereUnlessToldTo) {
@@ -121,7 +121,7 @@ TEST_F(RunFolder, RefusesARunThatIsThereUnlessToldTo) {
   EXPECT_EQ(again.error().kind, Error::Kind::bad_input);
   EXPECT_NE(again.error().text().find("holds a run already"), std::string::npos);
   samples::write_file(run / "notes.txt", "mine");
-  ASSERT_TRUE(write_checkpoint(run / "checkpoint.h5", samples::state(1, 2), samples::run_info()));
+  ASSERT_TRUE(io::write_checkpoint(run / "checkpoint.h5", samples::state(1, 2), samples::run_info()));
   ASSERT_TRUE(create(true)->finish());
   EXPECT_EQ(samples::files_in(run),
             (std::vector<std::string>{"notes.txt", "particles.vtkhdf", "scene.json", "series.csv"}));
@@ -145,21 +145,21 @@ TEST_F(RunFolder, AnUnwritablePathLeavesNothingBehind) {
   EXPECT_EQ(writer.error().kind, Error::Kind::io);
   EXPECT_EQ(samples::files_in(folder.path()), std::vector<std::string>{"a"});
 
-  const auto at_file = RunWriter::create(folder / "a", samples::run_info(), "{}", {});
+  const auto at_file = io::RunWriter::create(folder / "a", samples::run_info(), "{}", {});
   ASSERT_FALSE(at_file);
   EXPECT_NE(at_file.error().text().find("is a file, not a folder"), std::string::npos);
 
   // A folder is in the way of series.csv: particles.vtkhdf must not stay behind.
   fs::create_directories(folder / "b");
   fs::create_directories(folder / "b/series.csv.unfinished");
-  const auto blocked = RunWriter::create(folder / "b", samples::run_info(), "{}", {});
+  const auto blocked = io::RunWriter::create(folder / "b", samples::run_info(), "{}", {});
   ASSERT_FALSE(blocked);
   EXPECT_FALSE(fs::exists(folder / "b/particles.vtkhdf"));
 }
 
 TEST_F(RunFolder, SaysWhatIsNoRun) {
   const auto message = [](const fs::path& path) {
-    const auto reader = RunReader::open(path);
+    const auto reader = io::RunReader::open(path);
     EXPECT_FALSE(reader);
     EXPECT_EQ(reader.error().kind, Error::Kind::bad_input);
     return reader.error().text();
@@ -170,7 +170,7 @@ TEST_F(RunFolder, SaysWhatIsNoRun) {
   EXPECT_NE(message(folder / "empty.vtkhdf").find("is empty"), std::string::npos);
   samples::write_file(folder / "text.vtkhdf", std::string(5000, 'x'));
   EXPECT_NE(message(folder / "text.vtkhdf").find("is damaged, cut short, or no HDF5 file"), std::string::npos);
-  ASSERT_TRUE(write_checkpoint(folder / "c.h5", samples::state(1, 2), samples::run_info()));
+  ASSERT_TRUE(io::write_checkpoint(folder / "c.h5", samples::state(1, 2), samples::run_info()));
   EXPECT_NE(message(folder / "c.h5").find("holds no run"), std::string::npos);
 
   auto writer = create();
@@ -189,7 +189,7 @@ TEST_F(RunFolder, DamagedSnapshotsAreErrors) {
   // In the middle of the largest chunk.
   for (std::size_t i = 0; i < 64; ++i) damaged[damaged.size() / 2 + i] = static_cast<char>(i * 37);
   samples::write_file(run / "particles.vtkhdf", damaged);
-  const auto reader = RunReader::open(run);
+  const auto reader = io::RunReader::open(run);
   ASSERT_TRUE(reader) << reader.error().text();
   const auto snapshot = reader->read(0);
   ASSERT_FALSE(snapshot);
@@ -198,7 +198,7 @@ TEST_F(RunFolder, DamagedSnapshotsAreErrors) {
 
 TEST_F(RunFolder, ResumedRunsExportWhatUninterruptedOnesDo) {
   const auto count_at = [](std::int64_t step) { return static_cast<std::size_t>(3000 - step); };  // some leave
-  const auto write_to = [&](RunWriter&& writer, std::int64_t from, std::int64_t to) {
+  const auto write_to = [&](io::RunWriter&& writer, std::int64_t from, std::int64_t to) {
     for (std::int64_t step = from; step <= to; ++step) {
       if (kEveryEight.is_due(step, 0.005) || step == to) {
         ASSERT_TRUE(writer.write_snapshot(samples::snapshot(step, count_at(step))));
@@ -216,9 +216,10 @@ TEST_F(RunFolder, ResumedRunsExportWhatUninterruptedOnesDo) {
 
   for (const std::int64_t stopped : {0, 7, 30, 32, 59}) {
     write_to(*create(true), 0, stopped);
-    const auto checkpoint = read_checkpoint(run);
+    const auto checkpoint = io::read_checkpoint(run);
     ASSERT_TRUE(checkpoint);
-    auto writer = RunWriter::resume(run, samples::run_info(), "{\"resumed\": 1}", checkpoint->state.step, kEveryEight);
+    auto writer =
+        io::RunWriter::resume(run, samples::run_info(), "{\"resumed\": 1}", checkpoint->state.step, kEveryEight);
     ASSERT_TRUE(writer) << writer.error().text();
     write_to(std::move(*writer), checkpoint->state.step + 1, 60);
     EXPECT_EQ(export_all(), expected) << stopped;
@@ -234,21 +235,21 @@ TEST_F(RunFolder, ResumingFromAnOlderCheckpointCutsWhatCameAfter) {
     ASSERT_TRUE(writer->write_series(samples::series_row(step)));
   }
   ASSERT_TRUE(writer->finish());
-  auto resumed = RunWriter::resume(run, samples::run_info(), "{}", 20, kEveryEight);
+  auto resumed = io::RunWriter::resume(run, samples::run_info(), "{}", 20, kEveryEight);
   ASSERT_TRUE(resumed);
   ASSERT_TRUE(resumed->finish());
   expect_snapshots({samples::snapshot(0, 2000), samples::snapshot(8, 2000), samples::snapshot(16, 2000)});
-  EXPECT_EQ(samples::read_file(run / "series.csv"), series_header() + '\n' + to_csv(samples::series_row(0)) + '\n' +
-                                                        to_csv(samples::series_row(8)) + '\n' +
-                                                        to_csv(samples::series_row(16)) + '\n');
+  EXPECT_EQ(samples::read_file(run / "series.csv"), io::series_header() + '\n' + io::to_csv(samples::series_row(0)) +
+                                                        '\n' + io::to_csv(samples::series_row(8)) + '\n' +
+                                                        io::to_csv(samples::series_row(16)) + '\n');
 }
 
 TEST_F(RunFolder, ResumingAnotherKindOfRunIsRefused) {
   ASSERT_TRUE(create()->finish());
-  const auto other = RunWriter::resume(run, samples::run_info(Precision::double_precision), "{}", 0, kEveryEight);
+  const auto other = io::RunWriter::resume(run, samples::run_info(Precision::double_precision), "{}", 0, kEveryEight);
   ASSERT_FALSE(other);
   EXPECT_NE(other.error().text().find("is of another run"), std::string::npos);
-  EXPECT_FALSE(RunWriter::resume(folder / "none", samples::run_info(), "{}", 0, kEveryEight));
+  EXPECT_FALSE(io::RunWriter::resume(folder / "none", samples::run_info(), "{}", 0, kEveryEight));
 }
 
 }  // namespace

@@ -18,10 +18,10 @@ namespace fs = std::filesystem;
 
 class RunLocks : public testing::Test {
  protected:
-  Expected<RunWriter> create(bool overwrite = false) {
-    return RunWriter::create(run, samples::run_info(), "{}", {overwrite});
+  Expected<io::RunWriter> create(bool overwrite = false) {
+    return io::RunWriter::create(run, samples::run_info(), "{}", {overwrite});
   }
-  Expected<RunWriter> resume() { return RunWriter::resume(run, samples::run_info(), "{}", 8, {0, 8}); }
+  Expected<io::RunWriter> resume() { return io::RunWriter::resume(run, samples::run_info(), "{}", 8, {0, 8}); }
 
   template <class T>
   void expect_refused(const Expected<T>& second, pid_t writer) {
@@ -42,18 +42,18 @@ TEST_F(RunLocks, RefuseASecondWriter) {
   ASSERT_TRUE(first->flush());
   expect_refused(create(true), ::getpid());
   expect_refused(resume(), ::getpid());
-  expect_refused(check_not_written(run), ::getpid());
+  expect_refused(io::check_not_written(run), ::getpid());
 
   // Nothing has changed for the first one, and readers need no lock.
-  EXPECT_EQ(RunReader::open(run)->size(), 2U);
+  EXPECT_EQ(io::RunReader::open(run)->size(), 2U);
   ASSERT_TRUE(first->write_snapshot(samples::snapshot(16, 10)));
   ASSERT_TRUE(first->finish());
-  EXPECT_EQ(RunReader::open(run)->size(), 3U);
+  EXPECT_EQ(io::RunReader::open(run)->size(), 3U);
 }
 
 TEST_F(RunLocks, EndWithTheirWriter) {
   ASSERT_TRUE(create());  // ends without finish()
-  EXPECT_TRUE(check_not_written(run));
+  EXPECT_TRUE(io::check_not_written(run));
   auto second = create(true);
   ASSERT_TRUE(second) << second.error().text();
   ASSERT_TRUE(second->finish());
@@ -78,11 +78,11 @@ TEST_F(RunLocks, OfAKilledProcessAreTakenOver) {
   ASSERT_EQ(::read(ready[0], &good, 1), 1);
   EXPECT_EQ(good, 'y');
   expect_refused(create(true), child);
-  expect_refused(check_not_written(run), child);
+  expect_refused(io::check_not_written(run), child);
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);
-  EXPECT_TRUE(fs::exists(run / kLockFile));
-  EXPECT_TRUE(check_not_written(run));
+  EXPECT_TRUE(fs::exists(run / io::kLockFile));
+  EXPECT_TRUE(io::check_not_written(run));
   auto writer = create(true);
   ASSERT_TRUE(writer) << writer.error().text();
   expect_refused(resume(), ::getpid());

@@ -35,7 +35,7 @@ TemporaryFolder::~TemporaryFolder() {
   fs::remove_all(path_, ignored);
 }
 
-RunInfo run_info(Precision precision) {
+io::RunInfo run_info(Precision precision) {
   return {"sample", 0.005, Integrator::symplectic_euler, precision, {{"water", 0.2, 1.0}, {"oil", 0.35, 0.8}}};
 }
 
@@ -93,8 +93,8 @@ SimulationState state(std::int64_t step, std::size_t n) {
   return s;
 }
 
-SeriesRow series_row(std::int64_t step) {
-  SeriesRow row;
+io::SeriesRow series_row(std::int64_t step) {
+  io::SeriesRow row;
   row.step = step;
   row.time = static_cast<double>(step) * 0.005;
   row.measurements.kinetic_energy = static_cast<double>(step) / 3;
@@ -102,7 +102,7 @@ SeriesRow series_row(std::int64_t step) {
   return row;
 }
 
-Scene scene(const RunInfo& info) {
+Scene scene(const io::RunInfo& info) {
   Scene s;
   s.name = info.scene;
   s.time_step = info.time_step;
@@ -121,19 +121,19 @@ Scene scene(const RunInfo& info) {
   return s;
 }
 
-RunReader write_run(const fs::path& folder, const RunInfo& info, const std::vector<Snapshot>& snapshots) {
-  RunWriter writer = take(RunWriter::create(folder, info, "{}\n", {}));
-  for (const Snapshot& snapshot : snapshots) take(writer.write_snapshot(snapshot));
-  take(writer.finish());
-  return take(RunReader::open(folder));
+io::RunReader write_run(const fs::path& folder, const io::RunInfo& info, const std::vector<Snapshot>& snapshots) {
+  io::RunWriter writer = io::take(io::RunWriter::create(folder, info, "{}\n", {}));
+  for (const Snapshot& snapshot : snapshots) io::take(writer.write_snapshot(snapshot));
+  io::take(writer.finish());
+  return io::take(io::RunReader::open(folder));
 }
 
-std::vector<fs::path> export_all(const RunReader& run, const fs::path& file, const Scene* scene) {
+std::vector<fs::path> export_all(const io::RunReader& run, const fs::path& file, const Scene* scene) {
   std::vector<std::size_t> all(run.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  ExportOptions options;
+  io::ExportOptions options;
   options.scene = scene;
-  return take(export_run(run, all, file, options));
+  return io::take(io::export_run(run, all, file, options));
 }
 
 namespace {

@@ -28,21 +28,22 @@ class TemporaryFolder {
 };
 
 /// Two materials, dt 0.005 s.
-RunInfo run_info(Precision precision = Precision::single_precision);
+io::RunInfo run_info(Precision precision = Precision::single_precision);
 
 /// `n` particles with random positions and velocities that depend on the step: the same call gives the same bits.
 ParticleSet particles(std::int64_t step, std::size_t n, Precision precision);
 Snapshot snapshot(std::int64_t step, std::size_t n, Precision precision = Precision::single_precision);
 /// A state with every field set.
 SimulationState state(std::int64_t step, std::size_t n);
-SeriesRow series_row(std::int64_t step);
+io::SeriesRow series_row(std::int64_t step);
 
 /// A scene of these materials, with colours, in a domain that holds the particles; periodic along y, up is z.
-Scene scene(const RunInfo& info);
+Scene scene(const io::RunInfo& info);
 /// Writes a run of these snapshots and opens it. Throws where that fails.
-RunReader write_run(const std::filesystem::path& folder, const RunInfo& info, const std::vector<Snapshot>& snapshots);
+io::RunReader write_run(const std::filesystem::path& folder, const io::RunInfo& info,
+                        const std::vector<Snapshot>& snapshots);
 /// Exports all snapshots of a run and returns the files. Throws where that fails.
-std::vector<std::filesystem::path> export_all(const RunReader& run, const std::filesystem::path& file,
+std::vector<std::filesystem::path> export_all(const io::RunReader& run, const std::filesystem::path& file,
                                               const Scene* scene = nullptr);
 
 /// Whether ids, materials, positions and velocities (and accelerations) are the same bits.

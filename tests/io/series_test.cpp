@@ -12,11 +12,11 @@ namespace hooke {
 namespace {
 
 TEST(Series, RowsHaveTheColumnsOfTheHeader) {
-  SeriesRow row = samples::series_row(40);
+  io::SeriesRow row = samples::series_row(40);
   row.measurements.particles = 512000;
   row.ledger.removed = 3;
-  const std::string header = series_header();
-  const std::string line = to_csv(row);
+  const std::string header = io::series_header();
+  const std::string line = io::to_csv(row);
   EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(line.begin(), line.end(), ','));
   EXPECT_EQ(header.rfind("step,t,particles,contacts,", 0), 0U);
   EXPECT_EQ(line.rfind("40,0.2,512000,0,0,13.333333333333334,", 0), 0U);

@@ -70,7 +70,7 @@ void kill_during(const SharedNumber& progress, std::chrono::microseconds delay, 
 std::size_t count_at(std::int64_t step) { return static_cast<std::size_t>(20000 - step % 3 * 100); }
 
 /// Writes snapshots of ascending steps until it is killed; `flushed` is the last one that must survive.
-bool write_for_ever(RunWriter& writer, std::int64_t from, SharedNumber& flushed) {
+bool write_for_ever(io::RunWriter& writer, std::int64_t from, SharedNumber& flushed) {
   for (std::int64_t step = from;; ++step) {
     if (!writer.write_snapshot(samples::snapshot(step, count_at(step)))) return false;
     if (!writer.write_series(samples::series_row(step))) return false;
@@ -92,11 +92,11 @@ TEST_P(SurvivalOfKills, EverySnapshotBeforeAKillReadsBack) {
     SharedNumber flushed;
     const auto delay = [&] { return std::chrono::microseconds(random() % 60000); };
     kill_during(flushed, delay(), [&] {
-      auto writer = RunWriter::create(run, samples::run_info(), "{}", {});
+      auto writer = io::RunWriter::create(run, samples::run_info(), "{}", {});
       return writer && write_for_ever(*writer, 0, flushed);
     });
     const auto check = [&]() -> std::int64_t {
-      const auto reader = RunReader::open(run);
+      const auto reader = io::RunReader::open(run);
       EXPECT_TRUE(reader) << reader.error().text();
       if (!reader) return -1;
       const auto n = static_cast<std::int64_t>(reader->size());
@@ -114,7 +114,7 @@ TEST_P(SurvivalOfKills, EverySnapshotBeforeAKillReadsBack) {
     // And once more, killed while the run is continued.
     SharedNumber again;
     kill_during(again, delay(), [&] {
-      auto writer = RunWriter::resume(run, samples::run_info(), "{}", before - 1, {0, 1});
+      auto writer = io::RunWriter::resume(run, samples::run_info(), "{}", before - 1, {0, 1});
       return writer && write_for_ever(*writer, before, again);
     });
     flushed.set(again.get());
@@ -131,11 +131,11 @@ TEST_P(SurvivalOfKills, AKillDuringACheckpointLeavesTheOldOrTheNewOne) {
     SharedNumber written;
     kill_during(written, std::chrono::microseconds(random() % 20000), [&] {
       for (std::int64_t step = 0;; ++step) {
-        if (!write_checkpoint(file, samples::state(step, 3000), samples::run_info())) return false;
+        if (!io::write_checkpoint(file, samples::state(step, 3000), samples::run_info())) return false;
         written.set(step);
       }
     });
-    const auto read = read_checkpoint(file);
+    const auto read = io::read_checkpoint(file);
     ASSERT_TRUE(read) << read.error().text();
     EXPECT_GE(read->state.step, written.get());
     EXPECT_LE(read->state.step, written.get() + 1);
@@ -157,7 +157,7 @@ TEST(Survival, AFullDiskIsReportedAndWhatWasThereStaysReadable) {
     SharedNumber flushed;
     const pid_t child = start([&] {
       limit_file_size(limit);
-      auto writer = RunWriter::create(run, samples::run_info(), "{}", {});
+      auto writer = io::RunWriter::create(run, samples::run_info(), "{}", {});
       if (!writer || write_for_ever(*writer, 0, flushed)) return false;
       const auto after = writer->finish();
       // Later calls give the error too, with the reason, and nothing crashes at the end.
@@ -166,7 +166,7 @@ TEST(Survival, AFullDiskIsReportedAndWhatWasThereStaysReadable) {
              !writer->write_snapshot(samples::snapshot(1000, 10));
     });
     EXPECT_EQ(wait_for(child), 0) << limit;
-    const auto reader = RunReader::open(run);
+    const auto reader = io::RunReader::open(run);
     ASSERT_TRUE(reader) << reader.error().text();
     EXPECT_EQ(static_cast<std::int64_t>(reader->size()), flushed.get() + 1);
     for (std::size_t k = 0; k < reader->size(); ++k) {
@@ -177,34 +177,34 @@ TEST(Survival, AFullDiskIsReportedAndWhatWasThereStaysReadable) {
     }
     // With room again, the run goes on.
     const std::int64_t resumed = std::max<std::int64_t>(flushed.get(), 0);
-    auto writer = RunWriter::resume(run, samples::run_info(), "{}", resumed, {0, 1});
+    auto writer = io::RunWriter::resume(run, samples::run_info(), "{}", resumed, {0, 1});
     ASSERT_TRUE(writer) << writer.error().text();
     ASSERT_TRUE(writer->write_snapshot(samples::snapshot(flushed.get() + 1, 20000)));
     ASSERT_TRUE(writer->finish());
-    EXPECT_EQ(RunReader::open(run)->size(), static_cast<std::size_t>(flushed.get() + 2));
+    EXPECT_EQ(io::RunReader::open(run)->size(), static_cast<std::size_t>(flushed.get() + 2));
   }
 }
 
 TEST(Survival, AFullDiskKeepsTheOldCheckpoint) {
   const TemporaryFolder folder;
   const fs::path file = folder / "checkpoint.h5";
-  ASSERT_TRUE(write_checkpoint(file, samples::state(1, 1000), samples::run_info()));
+  ASSERT_TRUE(io::write_checkpoint(file, samples::state(1, 1000), samples::run_info()));
   const pid_t child = start([&] {
     limit_file_size(100'000);
-    const auto written = write_checkpoint(file, samples::state(2, 5000), samples::run_info());
+    const auto written = io::write_checkpoint(file, samples::state(2, 5000), samples::run_info());
     return !written && written.error().kind == Error::Kind::io &&
            written.error().text() == file.string() + ": can't be written: File too large";
   });
   EXPECT_EQ(wait_for(child), 0);
   EXPECT_EQ(samples::files_in(folder.path()), std::vector<std::string>{"checkpoint.h5"});
-  EXPECT_EQ(read_checkpoint(file)->state.step, 1);
+  EXPECT_EQ(io::read_checkpoint(file)->state.step, 1);
 }
 
 TEST(Survival, AFullDiskLeavesNoNewRunHalfMade) {
   const TemporaryFolder folder;
   const pid_t child = start([&] {
     limit_file_size(500);
-    const auto writer = RunWriter::create(folder / "a/b/run", samples::run_info(), "{}", {});
+    const auto writer = io::RunWriter::create(folder / "a/b/run", samples::run_info(), "{}", {});
     return !writer && writer.error().kind == Error::Kind::io;
   });
   EXPECT_EQ(wait_for(child), 0);

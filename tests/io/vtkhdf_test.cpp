@@ -18,13 +18,13 @@ namespace {
 class Vtkhdf : public testing::Test {
  protected:
   void SetUp() override {
-    auto writer = RunWriter::create(folder / "run", samples::run_info(), "{}", {});
+    auto writer = io::RunWriter::create(folder / "run", samples::run_info(), "{}", {});
     for (std::size_t k = 0; k < counts.size(); ++k) {
       ASSERT_TRUE(writer->write_snapshot(samples::snapshot(static_cast<std::int64_t>(8 * k), counts[k])));
     }
     // Not finished: plain HDF5 reads a run that goes on.
     ASSERT_TRUE(writer->flush());
-    writer_ = std::make_unique<RunWriter>(std::move(*writer));
+    writer_ = std::make_unique<io::RunWriter>(std::move(*writer));
     file = H5Fopen((folder / "run/particles.vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     ASSERT_GE(file, 0);
   }
@@ -64,7 +64,7 @@ class Vtkhdf : public testing::Test {
 
   const std::vector<std::size_t> counts{3000, 3000, 2000, 2000, 3500, 1};
   samples::TemporaryFolder folder;
-  std::unique_ptr<RunWriter> writer_;
+  std::unique_ptr<io::RunWriter> writer_;
   hid_t file = -1;
 };
 

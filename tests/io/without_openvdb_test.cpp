@@ -12,17 +12,17 @@ namespace hooke {
 namespace {
 
 TEST(WithoutOpenVdb, ExportsNameTheFileThatCantBe) {
-  if (has_openvdb()) GTEST_SKIP() << "OpenVDB is in this build";
+  if (volumes::has_openvdb()) GTEST_SKIP() << "OpenVDB is in this build";
   const samples::TemporaryFolder folder;
-  const RunReader run = samples::write_run(folder / "run", samples::run_info(), {samples::snapshot(8, 10)});
-  const std::pair<ExportContent, const char*> needed[] = {{ExportContent::particles, "f.vdb"},
-                                                          {ExportContent::volume, "f.vdb"},
-                                                          {ExportContent::surface, "f.obj"},
-                                                          {ExportContent::surface, "f.ply"}};
+  const io::RunReader run = samples::write_run(folder / "run", samples::run_info(), {samples::snapshot(8, 10)});
+  const std::pair<io::ExportContent, const char*> needed[] = {{io::ExportContent::particles, "f.vdb"},
+                                                              {io::ExportContent::volume, "f.vdb"},
+                                                              {io::ExportContent::surface, "f.obj"},
+                                                              {io::ExportContent::surface, "f.ply"}};
   for (const auto& [content, name] : needed) {
-    ExportOptions options;
+    io::ExportOptions options;
     options.content = content;
-    const auto files = export_run(run, std::vector<std::size_t>{0}, folder / name, options);
+    const auto files = io::export_run(run, std::vector<std::size_t>{0}, folder / name, options);
     ASSERT_FALSE(files) << name;
     EXPECT_EQ(files.error().kind, Error::Kind::bad_input);
     EXPECT_EQ(files.error().text(),

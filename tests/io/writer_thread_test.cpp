@@ -55,14 +55,14 @@ bool wait_until(const std::function<bool()>& holds) {
 
 class WriterThread : public testing::Test {
  protected:
-  static RunWriter create(const fs::path& at) {
-    auto writer = RunWriter::create(at, samples::run_info(), "{}", {.overwrite = true});
+  static io::RunWriter create(const fs::path& at) {
+    auto writer = io::RunWriter::create(at, samples::run_info(), "{}", {.overwrite = true});
     EXPECT_TRUE(writer) << writer.error().text();
     return std::move(writer.value());
   }
 
   // Steps `first` to `last`: a row and a snapshot for each step, and a large checkpoint for every fifth.
-  static void write(RunWriter& writer, std::int64_t first, std::int64_t last) {
+  static void write(io::RunWriter& writer, std::int64_t first, std::int64_t last) {
     const SimulationState state = samples::state(first, kParticles);
     for (std::int64_t step = first; step <= last; ++step) {
       ASSERT_TRUE(writer.write_series(samples::series_row(step)));
@@ -76,7 +76,7 @@ class WriterThread : public testing::Test {
   }
 
   static void expect_steps(const fs::path& at, std::int64_t first, std::int64_t last) {
-    const auto reader = RunReader::open(at);
+    const auto reader = io::RunReader::open(at);
     ASSERT_TRUE(reader) << reader.error().text();
     ASSERT_EQ(static_cast<std::int64_t>(reader->size()), last - first + 1);
     for (std::int64_t step = first; step <= last; ++step) {
@@ -84,13 +84,13 @@ class WriterThread : public testing::Test {
       ASSERT_TRUE(snapshot) << snapshot.error().text();
       EXPECT_TRUE(samples::same(*snapshot, samples::snapshot(step, kParticles))) << step;
     }
-    const auto checkpoint = read_checkpoint(at);
+    const auto checkpoint = io::read_checkpoint(at);
     ASSERT_TRUE(checkpoint) << checkpoint.error().text();
     EXPECT_EQ(checkpoint->state.step, last - last % 5);
   }
 
   // Expects that all calls after a failure give the same error.
-  static void expect_failed(RunWriter& writer, const std::string& why) {
+  static void expect_failed(io::RunWriter& writer, const std::string& why) {
     for (int tries = 0; tries < 2; ++tries) {
       for (const Expected<void>& done : {writer.write_snapshot(samples::snapshot(1'000'000 + tries, kParticles)),
                                          writer.write_checkpoint(samples::state(1, kParticles)), writer.flush()}) {
@@ -109,7 +109,7 @@ class WriterThread : public testing::Test {
 };
 
 TEST_F(WriterThread, WritesWhatComesInQuickSuccession) {
-  RunWriter writer = create(run);
+  io::RunWriter writer = create(run);
   write(writer, 0, 30);
   ASSERT_TRUE(writer.finish());
   expect_steps(run, 0, 30);
@@ -120,14 +120,14 @@ TEST_F(WriterThread, WritesWhatComesInQuickSuccession) {
 
 TEST_F(WriterThread, RunsFollowEachOtherInOneProcess) {
   for (int round = 0; round < 4; ++round) {
-    RunWriter writer = create(run);
+    io::RunWriter writer = create(run);
     write(writer, 0, 5);
     EXPECT_TRUE(round % 2 == 0 || writer.flush());
     EXPECT_TRUE(round < 2 || writer.finish());
     // The next writer replaces a writer that may still be writing.
     writer = create(folder / "other");
     write(writer, 5, 8);
-    writer = RunWriter(std::move(writer));
+    writer = io::RunWriter(std::move(writer));
     ASSERT_TRUE(writer.finish());
     expect_steps(run, 0, 5);
     expect_steps(folder / "other", 5, 8);
@@ -137,17 +137,17 @@ TEST_F(WriterThread, RunsFollowEachOtherInOneProcess) {
 TEST_F(WriterThread, DestructionWritesWhatWaits) {
   for (const std::int64_t last : {0, 1, 5}) {
     {
-      RunWriter writer = create(run);
+      io::RunWriter writer = create(run);
       write(writer, 0, last);
     }
     expect_steps(run, 0, last);
   }
-  { const RunWriter idle = create(run); }
-  EXPECT_EQ(RunReader::open(run)->size(), 0U);
+  { const io::RunWriter idle = create(run); }
+  EXPECT_EQ(io::RunReader::open(run)->size(), 0U);
 }
 
 TEST_F(WriterThread, ReadersAndOtherWritersOfTheProcessGoOnMeanwhile) {
-  RunWriter writer = create(run);
+  io::RunWriter writer = create(run);
   write(writer, 0, 0);
   ASSERT_TRUE(writer.flush());
   std::atomic<bool> written{false};
@@ -156,21 +156,21 @@ TEST_F(WriterThread, ReadersAndOtherWritersOfTheProcessGoOnMeanwhile) {
     std::size_t before = 1;
     for (bool last = false; !last;) {
       last = written;
-      const auto description = describe_file(run);
+      const auto description = io::describe_file(run);
       ASSERT_TRUE(description) << description.error().text();
-      const auto opened = RunReader::open(run);
+      const auto opened = io::RunReader::open(run);
       ASSERT_TRUE(opened) << opened.error().text();
       ASSERT_GE(opened->size(), before);
       before = opened->size();
       const auto snapshot = opened->read(before - 1);
       ASSERT_TRUE(snapshot) << snapshot.error().text();
       EXPECT_TRUE(samples::same(*snapshot, samples::snapshot(snapshot->step, kParticles)));
-      ASSERT_TRUE(read_checkpoint(run));
+      ASSERT_TRUE(io::read_checkpoint(run));
     }
     EXPECT_EQ(before, 21U);
   });
   std::thread other([&] {
-    RunWriter another = create(folder / "other");
+    io::RunWriter another = create(folder / "other");
     write(another, 0, 20);
     EXPECT_TRUE(another.finish());
   });
@@ -185,26 +185,26 @@ TEST_F(WriterThread, ReadersAndOtherWritersOfTheProcessGoOnMeanwhile) {
 
 // A reader gets one whole checkpoint, however often the file is replaced meanwhile.
 TEST_F(WriterThread, ACheckpointIsReadAndDescribedWhileItIsReplaced) {
-  RunWriter writer = create(run);
+  io::RunWriter writer = create(run);
   write(writer, 0, 0);
   ASSERT_TRUE(writer.flush());
   for (const std::size_t n : {1U, 1000U}) {
-    ASSERT_TRUE(write_checkpoint(folder / std::to_string(n), samples::state(static_cast<std::int64_t>(n), n),
-                                 samples::run_info()));
+    ASSERT_TRUE(io::write_checkpoint(folder / std::to_string(n), samples::state(static_cast<std::int64_t>(n), n),
+                                     samples::run_info()));
   }
   std::atomic<bool> done{false};
   std::thread replacer([&] {
     while (!done) {
       for (const char* const name : {"1", "1000"}) {
         fs::create_hard_link(folder / name, run / "next");
-        fs::rename(run / "next", run / kCheckpointFile);
+        fs::rename(run / "next", run / io::kCheckpointFile);
       }
     }
   });
   for (int i = 0; i < 100; ++i) {
-    const auto description = describe_file(run);
+    const auto description = io::describe_file(run);
     EXPECT_TRUE(description) << description.error().text();
-    const auto checkpoint = read_checkpoint(run);
+    const auto checkpoint = io::read_checkpoint(run);
     EXPECT_TRUE(checkpoint) << checkpoint.error().text();
   }
   done = true;
@@ -213,11 +213,11 @@ TEST_F(WriterThread, ACheckpointIsReadAndDescribedWhileItIsReplaced) {
 
 // One snapshot is being written, one waits: the caller of a third has to wait.
 TEST_F(WriterThread, ASlowWriterMakesTheCallerWait) {
-  RunWriter writer = create(run);
+  io::RunWriter writer = create(run);
   std::atomic<std::int64_t> taken{0};
   std::thread caller;
   {
-    const auto nobody_writes = hdf5::lock();
+    const auto nobody_writes = io::hdf5::lock();
     caller = std::thread([&] {
       for (std::int64_t step = 0; step < 10; ++step) {
         ASSERT_TRUE(writer.write_snapshot(samples::snapshot(step, kParticles)));
@@ -231,15 +231,15 @@ TEST_F(WriterThread, ASlowWriterMakesTheCallerWait) {
   caller.join();
   EXPECT_EQ(taken, 10);
   ASSERT_TRUE(writer.finish());
-  EXPECT_EQ(RunReader::open(run)->size(), 10U);
+  EXPECT_EQ(io::RunReader::open(run)->size(), 10U);
 }
 
 TEST_F(WriterThread, AFullDiskIsSaidByTheNextCall) {
-  RunWriter writer = create(run);
+  io::RunWriter writer = create(run);
   write(writer, 0, 3);
   ASSERT_TRUE(writer.flush());
   {
-    const FullDisk disk(fs::file_size(run / kParticlesFile) + 20'000);
+    const FullDisk disk(fs::file_size(run / io::kParticlesFile) + 20'000);
     Expected<void> written;
     for (std::int64_t step = 4; written && step < 1000; ++step) {
       written = writer.write_snapshot(samples::snapshot(step, kParticles));
@@ -247,8 +247,8 @@ TEST_F(WriterThread, AFullDiskIsSaidByTheNextCall) {
     ASSERT_FALSE(written);
   }
   // Free space does not help afterwards: there would be a gap.
-  expect_failed(writer, (run / kParticlesFile).string() + ": can't be written: File too large");
-  const auto reader = RunReader::open(run);
+  expect_failed(writer, (run / io::kParticlesFile).string() + ": can't be written: File too large");
+  const auto reader = io::RunReader::open(run);
   ASSERT_TRUE(reader) << reader.error().text();
   ASSERT_GE(reader->size(), 4U);
   for (std::size_t k = 0; k < reader->size(); ++k) {
@@ -257,18 +257,18 @@ TEST_F(WriterThread, AFullDiskIsSaidByTheNextCall) {
 }
 
 TEST_F(WriterThread, AFolderThatGoesAwayIsSaidByTheNextCall) {
-  RunWriter writer = create(run);
+  io::RunWriter writer = create(run);
   fs::remove_all(run);
   Expected<void> written;
   for (std::int64_t step = 0; written && step < 1000; ++step) {
     written = writer.write_snapshot(samples::snapshot(step, kParticles));
   }
   ASSERT_FALSE(written);
-  expect_failed(writer, (run / kParticlesFile).string() + ": can't be written: No such file or directory");
+  expect_failed(writer, (run / io::kParticlesFile).string() + ": can't be written: No such file or directory");
 }
 
 TEST_F(WriterThread, ACheckpointThatCanNotBeWrittenIsSaidByTheNextCall) {
-  RunWriter writer = create(run);
+  io::RunWriter writer = create(run);
   // A folder in the way of the file: root, too, can't write there.
   fs::create_directories(run / "checkpoint.h5.unfinished" / "full");
   ASSERT_TRUE(writer.write_snapshot(samples::snapshot(0, kParticles)));
@@ -276,14 +276,14 @@ TEST_F(WriterThread, ACheckpointThatCanNotBeWrittenIsSaidByTheNextCall) {
   const auto flushed = writer.flush();
   ASSERT_FALSE(flushed);
   expect_failed(writer, flushed.error().text());
-  EXPECT_EQ(flushed.error().findings.front().where, (run / kCheckpointFile).string());
-  EXPECT_EQ(RunReader::open(run)->size(), 1U);
+  EXPECT_EQ(flushed.error().findings.front().where, (run / io::kCheckpointFile).string());
+  EXPECT_EQ(io::RunReader::open(run)->size(), 1U);
 }
 
 // The caller never asks for the error; whatever still waits to be written is dropped.
 TEST_F(WriterThread, DestructionAfterAFailureEnds) {
   for (int round = 0; round < 5; ++round) {
-    RunWriter writer = create(folder / "gone");
+    io::RunWriter writer = create(folder / "gone");
     fs::remove_all(folder / "gone");
     for (std::int64_t step = 0; step < round; ++step) {
       (void)writer.write_snapshot(samples::snapshot(step, kParticles));  // may fail already

@@ -19,7 +19,7 @@ double around(const std::map<std::int64_t, double>& by_step, std::int64_t step) 
 
 }  // namespace
 
-Limits::Limits(const LammpsCase& lammps_case, const LoadedScene& loaded, Precision precision)
+Limits::Limits(const LammpsCase& lammps_case, const scene::LoadedScene& loaded, Precision precision)
     : name_(lammps_case.name),
       precision_(precision),
       radius_(loaded.scene.materials.front().radius),

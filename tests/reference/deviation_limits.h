@@ -22,7 +22,7 @@ struct Limit {
 /// measured deviations of plain float engines.
 class Limits {
  public:
-  Limits(const LammpsCase& lammps_case, const LoadedScene& scene, Precision precision);
+  Limits(const LammpsCase& lammps_case, const scene::LoadedScene& scene, Precision precision);
 
   Limit at(std::int64_t step) const;
 

@@ -86,10 +86,10 @@ Table read_table(const fs::path& file) {
   return table;
 }
 
-LoadedScene LammpsCase::load(const std::vector<std::string>& overrides) const {
-  LoadOptions options;
+scene::LoadedScene LammpsCase::load(const std::vector<std::string>& overrides) const {
+  scene::LoadOptions options;
   options.overrides = overrides;
-  auto loaded = load_scene(folder / "scene.json", options);
+  auto loaded = scene::load_scene(folder / "scene.json", options);
   if (!loaded) throw std::runtime_error(loaded.error().text());
   return std::move(*loaded);
 }

@@ -41,7 +41,7 @@ struct LammpsCase {
   std::filesystem::path folder;
 
   /// The scene, with `overrides` as of --set.
-  LoadedScene load(const std::vector<std::string>& overrides = {}) const;
+  scene::LoadedScene load(const std::vector<std::string>& overrides = {}) const;
   bool has(const std::string& file) const { return std::filesystem::exists(folder / file); }
   /// Instants of expected.csv, or of every expected_stepN.csv, by step, with the table that each came from.
   std::vector<std::pair<ExpectedInstant, Table>> instants(const std::string& file = "expected.csv") const;

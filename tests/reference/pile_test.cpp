@@ -50,7 +50,7 @@ class Pile : public testing::TestWithParam<std::tuple<LammpsCase, Engine>> {
 // README.md of the pile: "accept phi_bulk +-0.003, Z_bulk +-0.06, height and zcm +-0.4 %, mean overlap per slab +-5 %,
 // max overlap +-20 %". Only full slabs count: the topmost slab holds the surface.
 TEST_P(Pile, SettlesAsInLammps) {
-  const LoadedScene loaded = pile().load();
+  const scene::LoadedScene loaded = pile().load();
   const double radius = loaded.scene.materials.front().radius;
   auto expected = read_summary(pile());
   Simulation simulation = simulate(loaded.scene, loaded.particles, std::get<1>(GetParam()));
@@ -105,7 +105,7 @@ GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Pile);
 // The figures above mean the same as LAMMPS's: from LAMMPS's final positions they give LAMMPS's summary.
 TEST(PileStatistics, OfTheExpectedPositionsAreTheExpectedSummary) {
   for (const LammpsCase& pile : pile_cases()) {
-    const LoadedScene loaded = pile.load();
+    const scene::LoadedScene loaded = pile.load();
     auto expected = read_summary(pile);
     const PileStatistics s = expected_final(pile, loaded.scene);
     // Positions are written to 5 decimals, a twentieth of the mean overlap: one contact in a hundred comes or goes.

@@ -78,7 +78,7 @@ class LammpsOtherIntegrator : public Lammps {};
 class LammpsSeries : public Lammps {};
 
 TEST_P(Lammps, IsFollowedAtEveryStepGiven) {
-  const LoadedScene loaded = reference().load();
+  const scene::LoadedScene loaded = reference().load();
   const Limits limits(reference(), loaded, engine().precision);
   Simulation simulation = simulate(loaded.scene, loaded.particles, engine());
   for (const auto& [expected, table] : reference().instants()) {
@@ -89,7 +89,7 @@ TEST_P(Lammps, IsFollowedAtEveryStepGiven) {
 
 // expected_semi_implicit_euler.csv is not LAMMPS but a small independent program with the other integrator.
 TEST_P(LammpsOtherIntegrator, IsFollowedAtEveryStepGiven) {
-  const LoadedScene loaded = reference().load({"time.integrator=symplectic-euler"});
+  const scene::LoadedScene loaded = reference().load({"time.integrator=symplectic-euler"});
   const Limits limits(reference(), loaded, engine().precision);
   Simulation simulation = simulate(loaded.scene, loaded.particles, engine());
   for (const auto& [expected, table] : reference().instants(kEulerFile)) {
@@ -100,7 +100,7 @@ TEST_P(LammpsOtherIntegrator, IsFollowedAtEveryStepGiven) {
 
 // The height of the centre of mass, m, at each row of `series`: the mean over runs. Their starts differ by the rounding
 // of a float, 1e-7 of each coordinate, so that the chance of a single run averages out.
-std::vector<double> mean_heights(const LoadedScene& loaded, const Engine& engine, const Table& series) {
+std::vector<double> mean_heights(const scene::LoadedScene& loaded, const Engine& engine, const Table& series) {
   constexpr std::uint64_t kRuns = 16;
   std::vector<double> mean(series.rows.size(), 0);
   for (std::uint64_t run = 0; run < kRuns; ++run) {
@@ -122,7 +122,7 @@ std::vector<double> mean_heights(const LoadedScene& loaded, const Engine& engine
 
 // Where the paths of single particles have diverged, the figures of all particles together still agree.
 TEST_P(LammpsSeries, IsFollowed) {
-  const LoadedScene loaded = reference().load();
+  const scene::LoadedScene loaded = reference().load();
   const Table series = read_table(reference().folder / kSeriesFile);
   const double radius = loaded.scene.materials.front().radius;
   const bool dam_break = series.has("front_position");
@@ -184,7 +184,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, LammpsSeries, testing::ValuesIn(cases_with(kSeri
 // Two implementations of the same specification end a case on the same bits.
 TEST(LammpsCases, EndOnTheSameBitsOnBothBackEnds) {
   for (const LammpsCase& reference : trajectory_cases()) {
-    const LoadedScene loaded = reference.load();
+    const scene::LoadedScene loaded = reference.load();
     if (loaded.particles.size() > kMostForReference) continue;
     Simulation a = simulate(loaded.scene, loaded.particles, kReference);
     Simulation b = simulate(loaded.scene, loaded.particles, kCpuDouble);

@@ -26,7 +26,7 @@ TEST(ShapeSurface, LiesOnTheShapeAndFacesOutward) {
                           DiscShape{{0.1, 0.2, 0}, {1, 2, -1}, 0.9}};
   for (const Shape& shape : shapes) {
     const ShapeGeometry<double> g = geometry_of(shape, false, {0, 0, 0});
-    const TriangleMesh mesh = shape_surface(shape, domain());
+    const TriangleMesh mesh = render::shape_surface(shape, domain());
     ASSERT_GT(mesh.triangles.size(), 0U) << shape.index();
     for (const Vec3d& x : mesh.vertices) EXPECT_NEAR(shape_distance(g, x).distance, 0, 1e-12) << shape.index();
     double area = 0;
@@ -55,12 +55,12 @@ TEST(ColliderMeshes, MoveWithTheirColliders) {
   scene.colliders.resize(1);
   scene.colliders[0].shape = BoxShape{{0, 0, 0}, {2, 1, 1}};
   scene.colliders[0].motion = SteadyMotion{{1, 0, 0}, {0, 0, M_PI / 2}, Vec3d{0, 0, 0}};
-  const std::vector<ShadedMesh> meshes = collider_meshes(scene, 1, {10, 0, 0});
+  const std::vector<render::ShadedMesh> meshes = render::collider_meshes(scene, 1, {10, 0, 0});
   ASSERT_EQ(meshes.size(), 1U);
   // After a quarter of a turn about 0 the box spans x = -1 to 0 and goes up to y = 2; it is moved by 1, and positions
   // are relative to (10, 0, 0).
   float low = 1e9f, high = -1e9f, top = -1e9f;
-  for (const ShadedMesh::Corner& corner : meshes[0].corners) {
+  for (const render::ShadedMesh::Corner& corner : meshes[0].corners) {
     low = std::min(low, corner.position.x);
     high = std::max(high, corner.position.x);
     top = std::max(top, corner.position.y);
@@ -69,9 +69,9 @@ TEST(ColliderMeshes, MoveWithTheirColliders) {
   EXPECT_NEAR(low, -10, 1e-5);
   EXPECT_NEAR(high, -9, 1e-5);
   EXPECT_NEAR(top, 2, 1e-5);
-  EXPECT_EQ(meshes[0].sides, ShadedMesh::Sides::both);
+  EXPECT_EQ(meshes[0].sides, render::ShadedMesh::Sides::both);
   scene.colliders[0].hollow = true;
-  EXPECT_EQ(collider_meshes(scene, 1, {0, 0, 0})[0].sides, ShadedMesh::Sides::inner);
+  EXPECT_EQ(render::collider_meshes(scene, 1, {0, 0, 0})[0].sides, render::ShadedMesh::Sides::inner);
 }
 
 }  // namespace

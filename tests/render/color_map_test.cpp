@@ -13,24 +13,26 @@
 namespace hooke {
 
 // How GoogleTest shows it.
-static void PrintTo(const Color& c, std::ostream* out) {
+static void PrintTo(const render::Color& c, std::ostream* out) {
   *out << '(' << +c.red << ", " << +c.green << ", " << +c.blue << ')';
 }
 
 namespace {
 
-double distance(Color p, Color q) {
-  const Oklab a = to_oklab(p), b = to_oklab(q);
+double distance(render::Color p, render::Color q) {
+  const render::Oklab a = render::to_oklab(p), b = render::to_oklab(q);
   return std::hypot(a.lightness - b.lightness, a.a - b.a, a.b - b.b);
 }
 
 // 8 bits a channel round a colour by up to 0.004 here, so steps are compared over a sixteenth of the map.
 constexpr int kSteps = 16;
-Color step(int k) { return map_color(static_cast<double>(k) / kSteps); }
+render::Color step(int k) { return render::map_color(static_cast<double>(k) / kSteps); }
 
 TEST(ColorMap, LightnessRises) {
   for (int k = 1; k <= 64; ++k) {
-    EXPECT_GT(to_oklab(map_color(k / 64.0)).lightness, to_oklab(map_color((k - 1) / 64.0)).lightness) << k;
+    EXPECT_GT(render::to_oklab(render::map_color(k / 64.0)).lightness,
+              render::to_oklab(render::map_color((k - 1) / 64.0)).lightness)
+        << k;
   }
 }
 
@@ -45,11 +47,11 @@ TEST(ColorMap, EqualStepsLookEqual) {
 }
 
 TEST(ColorMap, GoesFromDarkVioletToBrightYellow) {
-  const Color first = map_color(0), last = map_color(1);
-  EXPECT_LT(to_oklab(first).lightness, 0.3);
+  const render::Color first = render::map_color(0), last = render::map_color(1);
+  EXPECT_LT(render::to_oklab(first).lightness, 0.3);
   EXPECT_GT(first.blue, first.red);
   EXPECT_GT(first.red, first.green);
-  EXPECT_GT(to_oklab(last).lightness, 0.9);
+  EXPECT_GT(render::to_oklab(last).lightness, 0.9);
   EXPECT_GT(last.red, 220);
   EXPECT_GT(last.green, 220);
   EXPECT_LT(last.blue, 150);
@@ -57,23 +59,23 @@ TEST(ColorMap, GoesFromDarkVioletToBrightYellow) {
 
 TEST(ColorMap, ClampsAndShowsNoNumberAsGrey) {
   const double infinity = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(map_color(-0.1), map_color(0));
-  EXPECT_EQ(map_color(-infinity), map_color(0));
-  EXPECT_EQ(map_color(1.1), map_color(1));
-  EXPECT_EQ(map_color(infinity), map_color(1));
-  EXPECT_EQ(map_color(std::numeric_limits<double>::quiet_NaN()), (Color{128, 128, 128}));
+  EXPECT_EQ(render::map_color(-0.1), render::map_color(0));
+  EXPECT_EQ(render::map_color(-infinity), render::map_color(0));
+  EXPECT_EQ(render::map_color(1.1), render::map_color(1));
+  EXPECT_EQ(render::map_color(infinity), render::map_color(1));
+  EXPECT_EQ(render::map_color(std::numeric_limits<double>::quiet_NaN()), (render::Color{128, 128, 128}));
 }
 
 // Values from the article that defines the space.
 TEST(ColorMap, OklabOfKnownColors) {
   struct Known {
-    Color color;
-    Oklab lab;
+    render::Color color;
+    render::Oklab lab;
   };
   for (const Known& known :
        {Known{{255, 255, 255}, {1, 0, 0}}, Known{{0, 0, 0}, {0, 0, 0}}, Known{{255, 0, 0}, {0.628, 0.2249, 0.1258}},
         Known{{0, 255, 0}, {0.8664, -0.2339, 0.1795}}, Known{{0, 0, 255}, {0.452, -0.0325, -0.3115}}}) {
-    const Oklab lab = to_oklab(known.color);
+    const render::Oklab lab = render::to_oklab(known.color);
     EXPECT_NEAR(lab.lightness, known.lab.lightness, 5e-4) << +known.color.red << ' ' << +known.color.green;
     EXPECT_NEAR(lab.a, known.lab.a, 5e-4) << +known.color.red << ' ' << +known.color.green;
     EXPECT_NEAR(lab.b, known.lab.b, 5e-4) << +known.color.red << ' ' << +known.color.green;
@@ -81,15 +83,15 @@ TEST(ColorMap, OklabOfKnownColors) {
 }
 
 TEST(ParseColor, ReadsSixDigits) {
-  EXPECT_EQ(parse_color("#2f7fd6"), (Color{0x2f, 0x7f, 0xd6}));
-  EXPECT_EQ(parse_color("#FF00aB"), (Color{255, 0, 0xab}));
-  EXPECT_EQ(parse_color("#000000"), (Color{0, 0, 0}));
+  EXPECT_EQ(render::parse_color("#2f7fd6"), (render::Color{0x2f, 0x7f, 0xd6}));
+  EXPECT_EQ(render::parse_color("#FF00aB"), (render::Color{255, 0, 0xab}));
+  EXPECT_EQ(render::parse_color("#000000"), (render::Color{0, 0, 0}));
 }
 
 TEST(ParseColor, IsGreyWhereThereIsNone) {
   for (const char* text :
        {"", "#", "red", "2f7fd6", "#2f7fd", "#2f7fd60", "#2f7fdg", "#-12345", "# 12345", "#0x1234"}) {
-    EXPECT_EQ(parse_color(text), (Color{128, 128, 128})) << text;
+    EXPECT_EQ(render::parse_color(text), (render::Color{128, 128, 128})) << text;
   }
 }
 

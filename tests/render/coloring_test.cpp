@@ -32,17 +32,17 @@ struct Sample {
 
 TEST(ColorValues, AreTheQuantities) {
   const Sample s;
-  const Box3d action = action_box(s.scene, s.particles);
-  const auto values = [&](ColorBy by) { return color_values(s.scene, s.particles, 0, action, by); };
-  EXPECT_TRUE(values(ColorBy::material).empty());
-  EXPECT_EQ(values(ColorBy::speed), (std::vector<double>{0, 0, 7}));
-  EXPECT_EQ(values(ColorBy::id), (std::vector<double>{3, 8, 12}));
-  EXPECT_EQ(values(ColorBy::contacts), (std::vector<double>{1, 1, 0}));
-  const auto height = values(ColorBy::height);
+  const Box3d action = render::action_box(s.scene, s.particles);
+  const auto values = [&](render::ColorBy by) { return render::color_values(s.scene, s.particles, 0, action, by); };
+  EXPECT_TRUE(values(render::ColorBy::material).empty());
+  EXPECT_EQ(values(render::ColorBy::speed), (std::vector<double>{0, 0, 7}));
+  EXPECT_EQ(values(render::ColorBy::id), (std::vector<double>{3, 8, 12}));
+  EXPECT_EQ(values(render::ColorBy::contacts), (std::vector<double>{1, 1, 0}));
+  const auto height = values(render::ColorBy::height);
   ASSERT_EQ(height.size(), 3u);
   EXPECT_NEAR(height[0], 0.6, 1e-12);  // above the floor, which is at z = 3
   EXPECT_NEAR(height[2], 2, 1e-12);
-  const auto pressure = values(ColorBy::pressure);
+  const auto pressure = values(render::ColorBy::pressure);
   ASSERT_EQ(pressure.size(), 3u);
   EXPECT_GT(pressure[0], 0);
   EXPECT_NEAR(pressure[0], pressure[1], 1e-9 * pressure[0]);
@@ -52,7 +52,8 @@ TEST(ColorValues, AreTheQuantities) {
 TEST(ColorValues, HeightIsAgainstGravity) {
   Sample s;
   s.scene.gravity = {0, 0, 10};
-  const auto height = color_values(s.scene, s.particles, 0, action_box(s.scene, s.particles), ColorBy::height);
+  const auto height =
+      render::color_values(s.scene, s.particles, 0, render::action_box(s.scene, s.particles), render::ColorBy::height);
   ASSERT_EQ(height.size(), 3u);
   EXPECT_NEAR(height[0], 13 - 3.6, 1e-12);
 }
@@ -60,31 +61,31 @@ TEST(ColorValues, HeightIsAgainstGravity) {
 TEST(DefaultScale, SuitsTheRun) {
   const Sample s;
   const double reach = 1.15 * 2.5;  // a bit above the highest particle
-  const auto high = [&](ColorBy by) {
-    const ColorScale scale = default_scale(s.scene, s.particles, by);
+  const auto high = [&](render::ColorBy by) {
+    const render::ColorScale scale = render::default_scale(s.scene, s.particles, by);
     EXPECT_EQ(scale.by, by);
     EXPECT_EQ(scale.low, 0);
     return scale.high;
   };
-  EXPECT_NEAR(high(ColorBy::speed), std::sqrt(2 * 10 * reach), 1e-12);
-  EXPECT_NEAR(high(ColorBy::height), reach, 1e-12);
-  EXPECT_NEAR(high(ColorBy::pressure), 2 * 3 * 2 * 10.0 / (4 * 6), 1e-12);  // 2 n m g / area
-  EXPECT_EQ(high(ColorBy::contacts), 12);
-  EXPECT_EQ(high(ColorBy::id), 12);
+  EXPECT_NEAR(high(render::ColorBy::speed), std::sqrt(2 * 10 * reach), 1e-12);
+  EXPECT_NEAR(high(render::ColorBy::height), reach, 1e-12);
+  EXPECT_NEAR(high(render::ColorBy::pressure), 2 * 3 * 2 * 10.0 / (4 * 6), 1e-12);  // 2 n m g / area
+  EXPECT_EQ(high(render::ColorBy::contacts), 12);
+  EXPECT_EQ(high(render::ColorBy::id), 12);
 }
 
 TEST(DefaultScale, TheFastestParticleIsOnTheSpeedScale) {
   Sample s;
   s.particles.velocity[1] = {0, 30, 40};
-  EXPECT_EQ(default_scale(s.scene, s.particles, ColorBy::speed).high, 50);
+  EXPECT_EQ(render::default_scale(s.scene, s.particles, render::ColorBy::speed).high, 50);
 }
 
 TEST(DefaultScale, HasTwoEndsWhateverTheScene) {
   Sample s;
   s.scene.gravity = {0, 0, 0};
   for (const ParticleSet& particles : {ParticleSet{}, s.particles}) {
-    for (const ColorByName& name : kColorByNames) {
-      const ColorScale scale = default_scale(s.scene, particles, name.by);
+    for (const render::ColorByName& name : render::kColorByNames) {
+      const render::ColorScale scale = render::default_scale(s.scene, particles, name.by);
       EXPECT_GT(scale.high, scale.low) << name.name;
       EXPECT_TRUE(std::isfinite(scale.high)) << name.name;
     }
@@ -93,11 +94,11 @@ TEST(DefaultScale, HasTwoEndsWhateverTheScene) {
 
 TEST(ColorByNames, AreAllDifferentAndAllButMaterialHaveATitle) {
   std::set<std::string> names;
-  for (const ColorByName& name : kColorByNames) {
+  for (const render::ColorByName& name : render::kColorByNames) {
     names.insert(name.name);
-    EXPECT_EQ(std::strlen(title(name.by).quantity) == 0, name.by == ColorBy::material) << name.name;
+    EXPECT_EQ(std::strlen(title(name.by).quantity) == 0, name.by == render::ColorBy::material) << name.name;
   }
-  EXPECT_EQ(names.size(), std::size(kColorByNames));
+  EXPECT_EQ(names.size(), std::size(render::kColorByNames));
 }
 
 }  // namespace

@@ -23,10 +23,10 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr FilmSettings kSettings{64, 48, 25};
+constexpr render::FilmSettings kSettings{64, 48, 25};
 
-Image picture(int k) {
-  Image image(kSettings.width, kSettings.height);
+render::Image picture(int k) {
+  render::Image image(kSettings.width, kSettings.height);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       image.at(x, y)[0] = static_cast<std::uint8_t>(x < k % image.width ? 230 : 20);
@@ -55,7 +55,7 @@ class Film : public testing::Test {
     return names;
   }
 
-  static void add(FilmWriter& film, int count) {
+  static void add(render::FilmWriter& film, int count) {
     for (int k = 0; k < count; ++k) {
       const auto added = film.add(picture(k));
       ASSERT_TRUE(added) << added.error().text();
@@ -70,7 +70,7 @@ TEST_F(Film, HoldsEveryFrameForAsLongAsItLasts) {
   for (const char* extension : {".mp4", ".mov", ".mkv", ".webm", ".gif", ".MP4"}) {
     SCOPED_TRACE(extension);
     const auto file = path(std::string("f") + extension);
-    auto film = FilmWriter::create(file, kSettings);
+    auto film = render::FilmWriter::create(file, kSettings);
     ASSERT_TRUE(film) << film.error().text();
     add(*film, 35);
     EXPECT_EQ(film->frames(), 35);
@@ -90,7 +90,7 @@ TEST_F(Film, HoldsEveryFrameForAsLongAsItLasts) {
 
 TEST_F(Film, AnyFrameRate) {
   for (const double rate : {0.5, 23.976, 60.0, 1000.0}) {
-    auto film = FilmWriter::create(path("f.mp4"), {64, 48, rate});
+    auto film = render::FilmWriter::create(path("f.mp4"), {64, 48, rate});
     ASSERT_TRUE(film) << film.error().text();
     add(*film, 5);
     ASSERT_TRUE(film->finish());
@@ -101,10 +101,10 @@ TEST_F(Film, AnyFrameRate) {
 }
 
 TEST_F(Film, RefusesWhatIsNoFilm) {
-  const auto refused = [&](const std::string& name, const FilmSettings& settings) {
-    const auto checked = check_film(path(name), settings);
+  const auto refused = [&](const std::string& name, const render::FilmSettings& settings) {
+    const auto checked = render::check_film(path(name), settings);
     EXPECT_FALSE(checked);
-    const auto film = FilmWriter::create(path(name), settings);
+    const auto film = render::FilmWriter::create(path(name), settings);
     EXPECT_FALSE(film);
     EXPECT_EQ(film.error().kind, Error::Kind::bad_input);
     EXPECT_EQ(film.error().text(), checked.error().text());
@@ -118,7 +118,7 @@ TEST_F(Film, RefusesWhatIsNoFilm) {
 }
 
 TEST_F(Film, SaysThatTheFileCanNotBeWritten) {
-  const auto film = FilmWriter::create(path("nowhere/f.mp4"), kSettings);
+  const auto film = render::FilmWriter::create(path("nowhere/f.mp4"), kSettings);
   ASSERT_FALSE(film);
   EXPECT_EQ(film.error().kind, Error::Kind::bad_input);
   EXPECT_THAT(film.error().text(), HasSubstr("can't be written: No such file or directory"));
@@ -126,7 +126,7 @@ TEST_F(Film, SaysThatTheFileCanNotBeWritten) {
 
 TEST_F(Film, SaysThatFfmpegIsMissing) {
   const test::EnvironmentVariable nowhere("PATH", path("").string());
-  const auto film = FilmWriter::create(path("f.mp4"), kSettings);
+  const auto film = render::FilmWriter::create(path("f.mp4"), kSettings);
   ASSERT_FALSE(film);
   EXPECT_EQ(film.error().kind, Error::Kind::bad_input);
   EXPECT_THAT(film.error().text(), HasSubstr("ffmpeg: is not installed"));
@@ -134,10 +134,10 @@ TEST_F(Film, SaysThatFfmpegIsMissing) {
 }
 
 TEST_F(Film, AnImageOfAnotherSizeIsRefused) {
-  auto film = FilmWriter::create(path("f.mp4"), kSettings);
+  auto film = render::FilmWriter::create(path("f.mp4"), kSettings);
   ASSERT_TRUE(film);
   add(*film, 3);
-  EXPECT_FALSE(film->add(Image(64, 50)));
+  EXPECT_FALSE(film->add(render::Image(64, 50)));
   EXPECT_EQ(film->frames(), 3);
   ASSERT_TRUE(film->finish());
   EXPECT_EQ(test::probe_film(path("f.mp4")).frames, 3);
@@ -145,7 +145,7 @@ TEST_F(Film, AnImageOfAnotherSizeIsRefused) {
 
 TEST_F(Film, WithoutAFinishItPlaysToo) {
   {
-    auto film = FilmWriter::create(path("f.mp4"), kSettings);
+    auto film = render::FilmWriter::create(path("f.mp4"), kSettings);
     ASSERT_TRUE(film);
     add(*film, 12);
   }
@@ -154,12 +154,12 @@ TEST_F(Film, WithoutAFinishItPlaysToo) {
 
 TEST_F(Film, WithoutAFrameThereIsNoFile) {
   {
-    const auto film = FilmWriter::create(path("f.mp4"), kSettings);
+    const auto film = render::FilmWriter::create(path("f.mp4"), kSettings);
     ASSERT_TRUE(film);
   }
   EXPECT_TRUE(files().empty());
   {
-    auto film = FilmWriter::create(path("g.mp4"), kSettings);
+    auto film = render::FilmWriter::create(path("g.mp4"), kSettings);
     ASSERT_TRUE(film);
     const auto finished = film->finish();
     ASSERT_FALSE(finished);
@@ -172,7 +172,7 @@ TEST_F(Film, WithoutAFrameThereIsNoFile) {
 TEST_F(Film, AFullDiskIsAnError) {
   // /dev/full: every write fails as on a full disk.
   std::filesystem::create_symlink("/dev/full", path("f.mkv"));
-  auto film = FilmWriter::create(path("f.mkv"), kSettings);
+  auto film = render::FilmWriter::create(path("f.mkv"), kSettings);
   ASSERT_TRUE(film) << film.error().text();
   Expected<void> good;
   for (int k = 0; k < 100 && good; ++k) good = film->add(picture(k));
@@ -189,7 +189,7 @@ TEST_F(Film, AKillLeavesTheFramesAddedBefore) {
   for (const char* name : {"f.mp4", "f.mov", "f.mkv"}) {
     const pid_t child = fork();
     if (child == 0) {
-      auto film = FilmWriter::create(path(name), kSettings);
+      auto film = render::FilmWriter::create(path(name), kSettings);
       for (int k = 0; film && k < kFrames; ++k) {
         if (!film->add(picture(k))) _exit(1);
       }
@@ -210,10 +210,10 @@ TEST_F(Film, AKillLeavesTheFramesAddedBefore) {
 }
 
 TEST_F(Film, AMovedWriterGoesOn) {
-  auto film = FilmWriter::create(path("f.mp4"), kSettings);
+  auto film = render::FilmWriter::create(path("f.mp4"), kSettings);
   ASSERT_TRUE(film);
   add(*film, 2);
-  FilmWriter other = std::move(*film);
+  render::FilmWriter other = std::move(*film);
   add(other, 2);
   ASSERT_TRUE(other.finish());
   EXPECT_EQ(test::probe_film(path("f.mp4")).frames, 4);

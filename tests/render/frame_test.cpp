@@ -42,13 +42,14 @@ TEST(MakeFrame, SurfacesAreDrawnInPlaceOfTheirParticles) {
   auto structure = std::make_shared<Structure>();
   structure->surfaces = {{"linen", {1, 2, 3, 77}, {0, 1, 2, 0, 2, 3}}};  // there is no particle 77 any more
   scene.structure = structure;
-  const Frame frame = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
+  const render::Frame frame =
+      render::make_frame(scene, particles, 0, render::make_look(scene, particles, render::ColorBy::material), 1.5);
   ASSERT_EQ(frame.spheres.size(), 1u) << "particle 4";
   ASSERT_EQ(frame.meshes.size(), 1u);
-  const ShadedMesh& mesh = frame.meshes[0];
+  const render::ShadedMesh& mesh = frame.meshes[0];
   ASSERT_EQ(mesh.corners.size(), 3u) << "one triangle is left";
   EXPECT_EQ(mesh.corners[0].normal, (Vec3f{0, -1, 0}));
-  EXPECT_EQ(mesh.color, (Color{0xc0, 0x20, 0x40}));
+  EXPECT_EQ(mesh.color, (render::Color{0xc0, 0x20, 0x40}));
   EXPECT_EQ(mesh.corners[2].position, vec_cast<float>(particles.position[2] - frame.origin));
 
   // A triangle is a hole where a spring along its edge, 1 m long here, is stretched so far that it breaks.
@@ -56,7 +57,8 @@ TEST(MakeFrame, SurfacesAreDrawnInPlaceOfTheirParticles) {
     auto tearable = std::make_shared<Structure>(*structure);
     tearable->springs.push_back({2, 1, 0.8, 100, 0, break_strain});
     scene.structure = tearable;
-    const Frame torn = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
+    const render::Frame torn =
+        render::make_frame(scene, particles, 0, render::make_look(scene, particles, render::ColorBy::material), 1.5);
     EXPECT_EQ(torn.meshes[0].corners.size(), break_strain < 0.25 ? 0u : 3u);
   }
   scene.structure = structure;
@@ -64,8 +66,8 @@ TEST(MakeFrame, SurfacesAreDrawnInPlaceOfTheirParticles) {
   // The two ends of an edge across a periodic face are neighbours, but far apart in a picture.
   scene.domain.boundary = {Boundary::periodic, Boundary::periodic, Boundary::periodic};
   particles.position[1].x = scene.domain.min.x + 0.9 * scene.domain.length(0);
-  const Look look = make_look(scene, particles, ColorBy::material);
-  EXPECT_TRUE(make_frame(scene, particles, 0, look, 1.5).meshes[0].corners.empty());
+  const render::Look look = render::make_look(scene, particles, render::ColorBy::material);
+  EXPECT_TRUE(render::make_frame(scene, particles, 0, look, 1.5).meshes[0].corners.empty());
 }
 
 TEST(MakeFrame, TheSkyOfStarsIsBlack) {
@@ -77,7 +79,8 @@ TEST(MakeFrame, TheSkyOfStarsIsBlack) {
   particles.position = {{0.5, 0.5, 0.5}};
   particles.velocity = {{0, 0, 0}};
   const auto is_night = [&] {
-    return make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1).night;
+    return render::make_frame(scene, particles, 0, render::make_look(scene, particles, render::ColorBy::material), 1)
+        .night;
   };
   scene.gravity = {0, 0, 0};
   EXPECT_FALSE(is_night());
@@ -90,17 +93,18 @@ TEST(MakeFrame, TheSkyOfStarsIsBlack) {
 TEST(MakeFrame, SpheresArePlacedColouredAndSizedByTheirParticles) {
   const Scene scene = tank();
   const ParticleSet particles = one_of_each();
-  const Frame frame = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
+  const render::Frame frame =
+      render::make_frame(scene, particles, 0, render::make_look(scene, particles, render::ColorBy::material), 1.5);
   ASSERT_EQ(frame.spheres.size(), 4u);
   EXPECT_FALSE(frame.scale);
   for (std::size_t i = 0; i < 4; ++i) {
-    const Sphere& s = frame.spheres[i];
+    const render::Sphere& s = frame.spheres[i];
     const Vec3d expected = particles.position[i] - frame.origin;
     EXPECT_NEAR(s.x, expected.x, 1e-6);
     EXPECT_NEAR(s.y, expected.y, 1e-6);
     EXPECT_NEAR(s.z, expected.z, 1e-6);
   }
-  EXPECT_EQ(frame.spheres[0].color, (Color{0xc0, 0x20, 0x40}));
+  EXPECT_EQ(frame.spheres[0].color, (render::Color{0xc0, 0x20, 0x40}));
   EXPECT_NE(frame.spheres[1].color, frame.spheres[2].color);  // materials without a colour of their own differ
   EXPECT_EQ(frame.spheres[0].radius, 0.25f);
   EXPECT_EQ(frame.spheres[1].radius, 0.5f);
@@ -109,12 +113,12 @@ TEST(MakeFrame, SpheresArePlacedColouredAndSizedByTheirParticles) {
 TEST(MakeFrame, SparksGlowAtNight) {
   Scene scene = tank();
   const ParticleSet particles = one_of_each();
-  const Look look = make_look(scene, particles, ColorBy::material);
-  Frame frame = make_frame(scene, particles, 0, look, 1.5);
+  const render::Look look = render::make_look(scene, particles, render::ColorBy::material);
+  render::Frame frame = render::make_frame(scene, particles, 0, look, 1.5);
   EXPECT_EQ(frame.daylight, 1);
-  for (const Sphere& sphere : frame.spheres) EXPECT_FALSE(sphere.glows);
+  for (const render::Sphere& sphere : frame.spheres) EXPECT_FALSE(sphere.glows);
   scene.materials[1].look = MaterialLook::spark;
-  frame = make_frame(scene, particles, 0, look, 1.5);
+  frame = render::make_frame(scene, particles, 0, look, 1.5);
   EXPECT_LT(frame.daylight, 0.5);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(frame.spheres[i].glows, i == 1);
 }
@@ -135,8 +139,10 @@ ParticleSet block_and_drop() {
 TEST(MakeFrame, WaterFoamsWhereItChurns) {
   Scene scene = tank();
   ParticleSet particles = block_and_drop();
-  const Look look = make_look(scene, particles, ColorBy::material);
-  const auto foam_at = [&](std::size_t i) { return int{make_frame(scene, particles, 0, look, 1.5).spheres[i].foam}; };
+  const render::Look look = render::make_look(scene, particles, render::ColorBy::material);
+  const auto foam_at = [&](std::size_t i) {
+    return int{render::make_frame(scene, particles, 0, look, 1.5).spheres[i].foam};
+  };
   EXPECT_EQ(foam_at(555), 1) << "clear, but water";
   EXPECT_EQ(foam_at(1000), 1);
 
@@ -163,12 +169,13 @@ TEST(MakeFrame, WaterFoamsWhereItChurns) {
 TEST(MakeFrame, OnlyWaterIsDrawnAsWater) {
   const Scene scene = tank();
   const ParticleSet particles = one_of_each();
-  Frame frame = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
+  render::Frame frame =
+      render::make_frame(scene, particles, 0, render::make_look(scene, particles, render::ColorBy::material), 1.5);
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_EQ(kind_of(frame.spheres[i]), i == 3 ? SphereKind::water : SphereKind::ball) << i;
+    EXPECT_EQ(render::kind_of(frame.spheres[i]), i == 3 ? render::SphereKind::water : render::SphereKind::ball) << i;
   }
   // Coloured by a quantity, water is drawn as balls like everything else.
-  frame = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::speed), 1.5);
+  frame = render::make_frame(scene, particles, 0, render::make_look(scene, particles, render::ColorBy::speed), 1.5);
   EXPECT_EQ(frame.spheres[3].foam, 0);
   EXPECT_EQ(frame.spheres[3].radius, 0.2f);
 }
@@ -176,12 +183,16 @@ TEST(MakeFrame, OnlyWaterIsDrawnAsWater) {
 TEST(MakeFrame, DropsAreSmallAndSheetsWide) {
   const Scene scene = tank();
   const ParticleSet particles = block_and_drop();
-  const Frame frame = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
+  const render::Frame frame =
+      render::make_frame(scene, particles, 0, render::make_look(scene, particles, render::ColorBy::material), 1.5);
   EXPECT_LT(frame.spheres[1000].radius, 0.2f);
   EXPECT_NEAR(frame.spheres[555].radius, 1.25f * 0.2f, 1e-4);
   ParticleSet sheet = particles;
   for (std::size_t k = 0; k < 1000; ++k) sheet.position[k].y = k < 100 ? 3 : 5.5;
-  EXPECT_GT(make_frame(scene, sheet, 0, make_look(scene, particles, ColorBy::material), 1.5).spheres[55].radius, 0.26f);
+  EXPECT_GT(render::make_frame(scene, sheet, 0, render::make_look(scene, particles, render::ColorBy::material), 1.5)
+                .spheres[55]
+                .radius,
+            0.26f);
 }
 
 TEST(MakeFrame, SkinIsWiderThanItsParticlesAndOpaque) {
@@ -189,8 +200,9 @@ TEST(MakeFrame, SkinIsWiderThanItsParticlesAndOpaque) {
   scene.materials[0].look = MaterialLook::skin;
   scene.materials[0].roughness = 0;
   const ParticleSet particles = one_of_each();
-  const Frame frame = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
-  EXPECT_EQ(kind_of(frame.spheres[0]), SphereKind::skin);
+  const render::Frame frame =
+      render::make_frame(scene, particles, 0, render::make_look(scene, particles, render::ColorBy::material), 1.5);
+  EXPECT_EQ(render::kind_of(frame.spheres[0]), render::SphereKind::skin);
   EXPECT_GT(frame.spheres[0].radius, 0.25f);
   EXPECT_EQ(frame.spheres[0].roughness, 0);
   EXPECT_EQ(frame.spheres[1].roughness, 128) << "half by default";
@@ -200,7 +212,7 @@ TEST(MakeFrame, ThePictureIsAsTheSceneWantsIt) {
   Scene scene = tank();
   const ParticleSet particles = one_of_each();
   const auto frame = [&] {
-    return make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
+    return render::make_frame(scene, particles, 0, render::make_look(scene, particles, render::ColorBy::material), 1.5);
   };
   EXPECT_TRUE(frame().tank.walls[0]);
   EXPECT_TRUE(frame().ground);
@@ -210,12 +222,12 @@ TEST(MakeFrame, ThePictureIsAsTheSceneWantsIt) {
   scene.picture.ground_color = "#102030";
   scene.picture.sun = Vec3d{0, 0, 5};
   scene.picture.sunlight = 2;
-  const Frame own = frame();
+  const render::Frame own = frame();
   EXPECT_FALSE(own.tank.walls[0]);
   EXPECT_FALSE(own.ground);
   EXPECT_FALSE(own.ground_lines);
-  EXPECT_EQ(own.background, (Color{255, 128, 0}));
-  EXPECT_EQ(own.ground_color, (Color{16, 32, 48}));
+  EXPECT_EQ(own.background, (render::Color{255, 128, 0}));
+  EXPECT_EQ(own.ground_color, (render::Color{16, 32, 48}));
   EXPECT_EQ(own.to_sun, (Vec3d{0, 0, 1}));
   EXPECT_EQ(own.sunlight, 2);
   scene.picture.background = "sky";
@@ -232,45 +244,46 @@ TEST(MakeFrame, SpringsAreDrawnOnDemand) {
   particles.position[1] = particles.position[0] + Vec3d{1.05, 0, 0};
   particles.position[2] = particles.position[1] + Vec3d{1.05, 0, 0};
   const auto frame = [&] {
-    return make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
+    return render::make_frame(scene, particles, 0, render::make_look(scene, particles, render::ColorBy::material), 1.5);
   };
   EXPECT_TRUE(frame().meshes.empty());
   scene.picture.springs = SpringLook::rods;
   ASSERT_EQ(frame().meshes.size(), 2u) << "a colour each";
-  EXPECT_EQ(frame().meshes[0].color, (Color{0xc0, 0x20, 0x40}));
+  EXPECT_EQ(frame().meshes[0].color, (render::Color{0xc0, 0x20, 0x40}));
   EXPECT_EQ(frame().spheres.size(), 4u);
   scene.picture.springs = SpringLook::strain;
-  const Color half = frame().meshes[0].color;
-  EXPECT_EQ(half, strain_color(0.5)) << "5 % of the 10 % that are coloured fully";
+  const render::Color half = frame().meshes[0].color;
+  EXPECT_EQ(half, render::strain_color(0.5)) << "5 % of the 10 % that are coloured fully";
   EXPECT_GT(half.red, half.blue);
   particles.position[2].x += 0.2;
   EXPECT_EQ(frame().meshes.size(), 1u) << "the other is broken";
   particles.position[1].x -= 0.2;
-  EXPECT_EQ(frame().meshes[0].color, strain_color(-1)) << "pushed together";
+  EXPECT_EQ(frame().meshes[0].color, render::strain_color(-1)) << "pushed together";
 }
 
 TEST(MakeFrame, ColoursFollowTheScale) {
   const Scene scene = tank();
   ParticleSet particles = one_of_each();
   particles.velocity = {{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {0, 0, 9}};
-  const Look look = make_look(scene, particles, ColorBy::speed, std::array{1.0, 3.0});
-  const Frame frame = make_frame(scene, particles, 0, look, 1.5);
+  const render::Look look = render::make_look(scene, particles, render::ColorBy::speed, std::array{1.0, 3.0});
+  const render::Frame frame = render::make_frame(scene, particles, 0, look, 1.5);
   ASSERT_TRUE(frame.scale);
   EXPECT_EQ(frame.scale->low, 1);
   EXPECT_EQ(frame.scale->high, 3);
-  EXPECT_EQ(frame.spheres[0].color, map_color(0));
-  EXPECT_EQ(frame.spheres[1].color, map_color(0.5));
-  EXPECT_EQ(frame.spheres[2].color, map_color(1));
-  EXPECT_EQ(frame.spheres[3].color, map_color(1));
+  EXPECT_EQ(frame.spheres[0].color, render::map_color(0));
+  EXPECT_EQ(frame.spheres[1].color, render::map_color(0.5));
+  EXPECT_EQ(frame.spheres[2].color, render::map_color(1));
+  EXPECT_EQ(frame.spheres[3].color, render::map_color(1));
 }
 
 TEST(MakeFrame, FarFromTheOriginNothingIsLost) {
   const Vec3d far{1e6, -2e6, 3e6};
   const Scene scene = tank(far), near_scene = tank();
   const ParticleSet particles = one_of_each(far), near_particles = one_of_each();
-  const Frame frame = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
-  const Frame near =
-      make_frame(near_scene, near_particles, 0, make_look(near_scene, near_particles, ColorBy::material), 1.5);
+  const render::Frame frame =
+      render::make_frame(scene, particles, 0, render::make_look(scene, particles, render::ColorBy::material), 1.5);
+  const render::Frame near = render::make_frame(
+      near_scene, near_particles, 0, render::make_look(near_scene, near_particles, render::ColorBy::material), 1.5);
   for (std::size_t i = 0; i < frame.spheres.size(); ++i) {
     EXPECT_NEAR(frame.spheres[i].x, near.spheres[i].x, 1e-6);
     EXPECT_NEAR(frame.spheres[i].y, near.spheres[i].y, 1e-6);
@@ -286,20 +299,21 @@ TEST(MakeFrame, FarFromTheOriginNothingIsLost) {
 TEST(MakeFrame, TheGroundIsTheFloorAndWallsAreThoseThatPushBack) {
   Scene scene = tank({1, 2, 3});
   const ParticleSet particles = one_of_each({1, 2, 3});
-  Frame frame = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
+  render::Frame frame =
+      render::make_frame(scene, particles, 0, render::make_look(scene, particles, render::ColorBy::material), 1.5);
   EXPECT_EQ(frame.tank.walls, (std::array{true, false, false}));
   ASSERT_TRUE(frame.ground);
   EXPECT_NEAR(*frame.ground + frame.origin.y, 2, 1e-12);
   EXPECT_EQ(frame.up, (Vec3d{0, 1, 0}));
   scene.gravity = {0, 0, 0};  // no weight, no ground
-  frame = make_frame(scene, particles, 0, make_look(scene, particles, ColorBy::material), 1.5);
+  frame = render::make_frame(scene, particles, 0, render::make_look(scene, particles, render::ColorBy::material), 1.5);
   EXPECT_FALSE(frame.ground);
 }
 
 TEST(MakeFrame, NoParticlesIsAPictureToo) {
   const Scene scene = tank();
-  for (const ColorByName& name : kColorByNames) {
-    const Frame frame = make_frame(scene, {}, 0, make_look(scene, {}, name.by), 1.5);
+  for (const render::ColorByName& name : render::kColorByNames) {
+    const render::Frame frame = render::make_frame(scene, {}, 0, render::make_look(scene, {}, name.by), 1.5);
     EXPECT_TRUE(frame.spheres.empty());
     EXPECT_TRUE(std::isfinite(frame.camera.eye.x)) << name.name;
   }

@@ -35,42 +35,43 @@ class GlRenderer : public testing::Test {
  protected:
   static void SetUpTestSuite() { use_software_gl(); }
 
-  static Renderer& renderer() {
-    static const std::unique_ptr<Renderer> shared = make({kWidth, kHeight, 2});
+  static render::Renderer& renderer() {
+    static const std::unique_ptr<render::Renderer> shared = make({kWidth, kHeight, 2});
     return *shared;
   }
 
   // Throws, with the reason, where there is no OpenGL: the machine is not set up (tools/setup.sh).
-  static std::unique_ptr<Renderer> make(const RenderSettings& settings) {
-    auto made = make_gl_renderer(settings);
+  static std::unique_ptr<render::Renderer> make(const render::RenderSettings& settings) {
+    auto made = render::make_gl_renderer(settings);
     if (!made) throw std::runtime_error(made.error().text());
     return std::move(*made);
   }
 
-  static Image draw(const Frame& frame) {
+  static render::Image draw(const render::Frame& frame) {
     auto image = renderer().render(frame);
     if (!image) throw std::runtime_error(image.error().text());
     return std::move(*image);
   }
 };
 
-Frame frame_of(const PictureScene& p) {
-  return make_frame(p.scene, p.particles, p.time, make_look(p.scene, p.particles, p.by), kAspect);
+render::Frame frame_of(const PictureScene& p) {
+  return render::make_frame(p.scene, p.particles, p.time, render::make_look(p.scene, p.particles, p.by), kAspect);
 }
 
 // Red balls, radius 0.5, in a tank of 8 x 4 x 6 m.
-Frame red_balls(const std::vector<Vec3d>& at, const char* color = "#e01010") {
+render::Frame red_balls(const std::vector<Vec3d>& at, const char* color = "#e01010") {
   PictureScene p{"", ball_tank({8, 4, 6}, 0.5, color), {}};
   ParticleSet high;  // gives the same camera for any balls
   add(high, {4, 3.5, 3});
   for (const Vec3d& position : at) add(p.particles, position);
-  return make_frame(p.scene, p.particles, 0, make_look(p.scene, high, ColorBy::material), kAspect);
+  return render::make_frame(p.scene, p.particles, 0, render::make_look(p.scene, high, render::ColorBy::material),
+                            kAspect);
 }
 
 // The pixel that the centre of a sphere falls on.
-std::array<int, 2> pixel_of(const Frame& frame, std::size_t index) {
-  const Projection view = project(frame.camera, kWidth, kHeight);
-  const Sphere& s = frame.spheres.at(index);
+std::array<int, 2> pixel_of(const render::Frame& frame, std::size_t index) {
+  const render::Projection view = render::project(frame.camera, kWidth, kHeight);
+  const render::Sphere& s = frame.spheres.at(index);
   const Vec3f to{s.x - view.eye.x, s.y - view.eye.y, s.z - view.eye.z};
   const float scale = view.scale / -dot(to, view.back);
   return {static_cast<int>(0.5f * kWidth + scale * dot(to, view.right)),
@@ -78,7 +79,7 @@ std::array<int, 2> pixel_of(const Frame& frame, std::size_t index) {
 }
 
 using Pixel = std::array<int, 3>;
-Pixel at(const Image& image, int x, int y) {
+Pixel at(const render::Image& image, int x, int y) {
   const std::uint8_t* p = image.at(x, y);
   return {p[0], p[1], p[2]};
 }
@@ -87,7 +88,7 @@ bool is_red(const Pixel& p) { return p[0] > 2 * p[1] && p[0] > 2 * p[2] && p[0] 
 bool is_green(const Pixel& p) { return p[1] > 2 * p[0] && p[1] > 2 * p[2] && p[1] > 25; }
 
 template <class Is>
-int count(const Image& image, const Is& is) {
+int count(const render::Image& image, const Is& is) {
   int n = 0;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) n += is(at(image, x, y)) ? 1 : 0;
@@ -96,7 +97,7 @@ int count(const Image& image, const Is& is) {
 }
 
 // The same tank with a collider of a green material around or beside the balls.
-Frame with_collider(const std::vector<Vec3d>& balls, const Shape& shape, bool hollow) {
+render::Frame with_collider(const std::vector<Vec3d>& balls, const Shape& shape, bool hollow) {
   PictureScene p{"", ball_tank({8, 4, 6}, 0.5, "#e01010"), {}};
   ParticleSet high;
   add(high, {4, 3.5, 3});
@@ -109,11 +110,13 @@ Frame with_collider(const std::vector<Vec3d>& balls, const Shape& shape, bool ho
   p.scene.colliders[0].shape = shape;
   p.scene.colliders[0].hollow = hollow;
   p.scene.colliders[0].material = p.scene.materials.size() - 1;
-  return make_frame(p.scene, p.particles, 0, make_look(p.scene, high, ColorBy::material), kAspect);
+  return render::make_frame(p.scene, p.particles, 0, render::make_look(p.scene, high, render::ColorBy::material),
+                            kAspect);
 }
 
 TEST_F(GlRenderer, ASphereOfACollidersIsDrawnLikeABall) {
-  const Image ball = draw(red_balls({{4, 1, 3}})), sphere = draw(with_collider({}, SphereShape{{4, 1, 3}, 0.5}, false));
+  const render::Image ball = draw(red_balls({{4, 1, 3}})),
+                      sphere = draw(with_collider({}, SphereShape{{4, 1, 3}, 0.5}, false));
   const double area = count(ball, is_red);
   EXPECT_GT(area, 200);
   EXPECT_NEAR(count(sphere, is_green) / area, 1, 0.05) << "a polygon of 96 sides, and darker at its edge";
@@ -122,8 +125,8 @@ TEST_F(GlRenderer, ASphereOfACollidersIsDrawnLikeABall) {
 
 TEST_F(GlRenderer, ASolidColliderHidesWhatIsInItAndAHollowOneShowsIt) {
   const Shape box = BoxShape{{3, 0.1, 2}, {5, 2.1, 4}};
-  const Image solid = draw(with_collider({{4, 1, 3}}, box, false)),
-              hollow = draw(with_collider({{4, 1, 3}}, box, true));
+  const render::Image solid = draw(with_collider({{4, 1, 3}}, box, false)),
+                      hollow = draw(with_collider({{4, 1, 3}}, box, true));
   EXPECT_EQ(count(solid, is_red), 0);
   EXPECT_GT(count(solid, is_green), 500);
   EXPECT_GT(count(hollow, is_red), 0.95 * count(draw(red_balls({{4, 1, 3}})), is_red));
@@ -133,15 +136,15 @@ TEST_F(GlRenderer, ASolidColliderHidesWhatIsInItAndAHollowOneShowsIt) {
 TEST_F(GlRenderer, DrawsWithTheSoftwareDriver) { EXPECT_THAT(renderer().device(), testing::HasSubstr("llvmpipe")); }
 
 TEST_F(GlRenderer, ABallIsWhereItIsAndNowhereElse) {
-  const Frame frame = red_balls({{2, 0.5, 3}, {6, 3, 2}});
-  const Image image = draw(frame), empty = draw(red_balls({}));
+  const render::Frame frame = red_balls({{2, 0.5, 3}, {6, 3, 2}});
+  const render::Image image = draw(frame), empty = draw(red_balls({}));
   EXPECT_EQ(count(empty, is_red), 0);
   double area = 0;
   for (std::size_t i = 0; i < 2; ++i) {
     const auto [x, y] = pixel_of(frame, i);
     EXPECT_TRUE(is_red(at(image, x, y))) << testing::PrintToString(at(image, x, y));
-    const Projection view = project(frame.camera, kWidth, kHeight);
-    const Sphere& s = frame.spheres[i];
+    const render::Projection view = render::project(frame.camera, kWidth, kHeight);
+    const render::Sphere& s = frame.spheres[i];
     const float depth = -dot(Vec3f{s.x, s.y, s.z} - view.eye, view.back);
     const double radius = static_cast<double>(view.scale * s.radius / depth);
     area += std::numbers::pi * radius * radius;
@@ -156,17 +159,17 @@ TEST_F(GlRenderer, ABallIsWhereItIsAndNowhereElse) {
 }
 
 TEST_F(GlRenderer, WithoutParticlesNothingIsDrawn) {
-  const Image image = draw(red_balls({}));
+  const render::Image image = draw(red_balls({}));
   EXPECT_EQ(renderer().figures().spheres_drawn, 0u);
   EXPECT_EQ(count(image, [](const Pixel& p) { return is_red(p) || is_green(p); }), 0);
   EXPECT_GT(count(image, [](const Pixel& p) { return p[0] + p[1] + p[2] > 30; }), kWidth * kHeight / 2);
 }
 
 TEST_F(GlRenderer, WhatIsHiddenDoesNotShow) {
-  Frame frame = red_balls({{4, 2, 3}, {4, 2, 3}});
+  render::Frame frame = red_balls({{4, 2, 3}, {4, 2, 3}});
   // The second ball, green and smaller, is right behind the first.
-  const Vec3d back = axes(frame.camera).back;
-  Sphere& hidden = frame.spheres[1];
+  const Vec3d back = render::axes(frame.camera).back;
+  render::Sphere& hidden = frame.spheres[1];
   const auto put = [&](double distance) {
     const Vec3f place = vec_cast<float>(distance * back);
     hidden = {frame.spheres[0].x + place.x,
@@ -187,7 +190,7 @@ TEST_F(GlRenderer, WhatIsHiddenDoesNotShow) {
 }
 
 TEST_F(GlRenderer, ABallCastsAShadowOnTheGround) {
-  const Image with = draw(red_balls({{4, 2.5, 3}})), without = draw(red_balls({}));
+  const render::Image with = draw(red_balls({{4, 2.5, 3}})), without = draw(red_balls({}));
   int darker = 0;
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
@@ -199,7 +202,7 @@ TEST_F(GlRenderer, ABallCastsAShadowOnTheGround) {
 }
 
 TEST_F(GlRenderer, FromInsideOfABallItIsNotSeen) {
-  Frame frame = red_balls({{4, 2, 3}});
+  render::Frame frame = red_balls({{4, 2, 3}});
   frame.camera.eye = {frame.spheres[0].x + 0.1, frame.spheres[0].y, frame.spheres[0].z};
   EXPECT_EQ(count(draw(frame), is_red), 0);
 }
@@ -210,9 +213,9 @@ TEST_F(GlRenderer, ChurnedWaterIsWhite) {
   for (int k = 0; k < 40 * 20 * 30; ++k) {
     add(p.particles, {0.1 * (k % 40) + 0.05, 0.1 * (k / 1200) + 0.05, 0.1 * (k / 40 % 30) + 0.05});
   }
-  const Look look = make_look(p.scene, p.particles, ColorBy::material);
+  const render::Look look = render::make_look(p.scene, p.particles, render::ColorBy::material);
   const auto middle = [&] {
-    const Image image = draw(make_frame(p.scene, p.particles, 0, look, kAspect));
+    const render::Image image = draw(render::make_frame(p.scene, p.particles, 0, look, kAspect));
     return at(image, kWidth / 2, kHeight / 2);
   };
   const Pixel still = middle();
@@ -227,11 +230,11 @@ TEST_F(GlRenderer, ChurnedWaterIsWhite) {
 
 // A drop is clear: what is behind it shows, so a red ball is seen through it.
 TEST_F(GlRenderer, WaterIsSeenThrough) {
-  Frame frame = red_balls({{4, 2, 3}, {4, 2, 3}});
-  Sphere& drop = frame.spheres[1];
-  const Vec3f towards = vec_cast<float>(0.9 * axes(frame.camera).back);
+  render::Frame frame = red_balls({{4, 2, 3}, {4, 2, 3}});
+  render::Sphere& drop = frame.spheres[1];
+  const Vec3f towards = vec_cast<float>(0.9 * render::axes(frame.camera).back);
   drop = {drop.x + towards.x, drop.y + towards.y, drop.z + towards.z, 0.25f, {0xd0, 0xe4, 0xf4}, 1, false, false, 255};
-  const Image both = draw(frame);
+  const render::Image both = draw(frame);
   EXPECT_EQ(renderer().figures().spheres_drawn, 2u);
   const auto [x, y] = pixel_of(frame, 1);
   const Pixel through = at(both, x, y);
@@ -254,7 +257,8 @@ TEST_F(GlRenderer, GlassIsSeenThrough) {
     p.scene.colliders.resize(1);
     p.scene.colliders[0].shape = BoxShape{{3, 0.1, 2}, {5, 2.1, 4}};
     p.scene.colliders[0].material = p.scene.materials.size() - 1;
-    return draw(make_frame(p.scene, p.particles, 0, make_look(p.scene, high, ColorBy::material), kAspect));
+    return draw(render::make_frame(p.scene, p.particles, 0, render::make_look(p.scene, high, render::ColorBy::material),
+                                   kAspect));
   };
   const int alone = count(with_opacity(0), is_red);
   EXPECT_EQ(alone, count(draw(red_balls({{4, 1, 3}})), is_red)) << "not drawn";
@@ -268,7 +272,7 @@ TEST_F(GlRenderer, SkinIsSmooth) {
   for (int k = 0; k < 20 * 12; ++k) add(p.particles, {2 + 0.2 * (k % 20), 0.5 + 0.2 * (k / 20), 3});
   // How much the picture's brightness varies over the wall of balls.
   const auto roughness = [&] {
-    const Image image = draw(frame_of(p));
+    const render::Image image = draw(frame_of(p));
     double sum = 0;
     for (int x = kWidth / 2 - 30; x < kWidth / 2 + 30; ++x) {
       sum += std::abs(at(image, x + 1, kHeight / 2)[0] - at(image, x, kHeight / 2)[0]);
@@ -290,12 +294,12 @@ TEST_F(GlRenderer, ABackgroundIsItsColour) {
 }
 
 TEST_F(GlRenderer, AlphaTellsWhereSomethingIs) {
-  Frame frame = red_balls({{4, 2, 3}});
+  render::Frame frame = red_balls({{4, 2, 3}});
   EXPECT_EQ(draw(frame).at(2, 2)[3], 255);
   frame.transparent = true;
   frame.ground.reset();
   frame.tank.walls = {};
-  const Image image = draw(frame);
+  const render::Image image = draw(frame);
   const auto [x, y] = pixel_of(frame, 0);
   EXPECT_EQ(image.at(x, y)[3], 255);
   EXPECT_TRUE(is_red(at(image, x, y)));
@@ -304,7 +308,7 @@ TEST_F(GlRenderer, AlphaTellsWhereSomethingIs) {
 
 // At night, balls that do not glow are dark, and balls that glow are as bright as their colour.
 TEST_F(GlRenderer, SparksShineByThemselves) {
-  Frame frame = red_balls({{4, 2, 3}});
+  render::Frame frame = red_balls({{4, 2, 3}});
   frame.daylight = 0.12f;
   EXPECT_EQ(count(draw(frame), [](const Pixel& p) { return p[0] > 150 && p[2] < 120; }), 0);
   frame.spheres[0].glows = true;
@@ -313,7 +317,7 @@ TEST_F(GlRenderer, SparksShineByThemselves) {
 
 TEST_F(GlRenderer, APictureDoesNotDependOnThoseBefore) {
   const auto scenes = picture_scenes();
-  const Image first = draw(frame_of(scenes[0]));
+  const render::Image first = draw(frame_of(scenes[0]));
   for (const PictureScene& other : scenes) draw(frame_of(other));
   draw(red_balls({}));
   EXPECT_EQ(draw(frame_of(scenes[0])).pixels, first.pixels);
@@ -322,8 +326,8 @@ TEST_F(GlRenderer, APictureDoesNotDependOnThoseBefore) {
 
 TEST_F(GlRenderer, LeavesOutWhatCanNotBeSeenAndNothingElse) {
   for (const PictureScene& p : picture_scenes()) {
-    const Image image = draw(frame_of(p));
-    const RenderFigures figures = renderer().figures();
+    const render::Image image = draw(frame_of(p));
+    const render::RenderFigures figures = renderer().figures();
     EXPECT_LE(figures.spheres_drawn, p.particles.size()) << p.name;
     EXPECT_GT(figures.spheres_drawn, p.particles.size() / 20) << p.name;
     EXPECT_GT(figures.total_seconds, figures.cull_seconds);
@@ -334,14 +338,14 @@ TEST_F(GlRenderer, OddSizesAndAllSamples) {
   PictureScene p = picture_scenes()[1];
   for (const auto& [width, height] : {std::pair{1, 1}, {2, 3}, {101, 7}, {16384, 1}, {1, 4096}}) {
     const auto renderer = make({width, height, 1});
-    const auto image = renderer->render(
-        make_frame(p.scene, p.particles, 0, make_look(p.scene, p.particles, p.by), 1.0 * width / height));
+    const auto image = renderer->render(render::make_frame(
+        p.scene, p.particles, 0, render::make_look(p.scene, p.particles, p.by), 1.0 * width / height));
     ASSERT_TRUE(image) << image.error().text();
     EXPECT_EQ(image->width, width);
     EXPECT_EQ(image->height, height);
     EXPECT_EQ(image->pixels.size(), 4u * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   }
-  const Image expected = draw(frame_of(p));
+  const render::Image expected = draw(frame_of(p));
   for (int samples = 1; samples <= 4; ++samples) {
     const auto image = make({kWidth, kHeight, samples})->render(frame_of(p));
     ASSERT_TRUE(image);
@@ -350,9 +354,9 @@ TEST_F(GlRenderer, OddSizesAndAllSamples) {
 }
 
 TEST_F(GlRenderer, RefusesSizesThatCanNotBe) {
-  for (const RenderSettings& settings :
-       {RenderSettings{0, 10, 1}, {10, 0, 1}, {10, 10, 0}, {10, 10, 5}, {1 << 20, 10, 1}, {16384, 10, 4}}) {
-    const auto made = make_gl_renderer(settings);
+  for (const render::RenderSettings& settings :
+       {render::RenderSettings{0, 10, 1}, {10, 0, 1}, {10, 10, 0}, {10, 10, 5}, {1 << 20, 10, 1}, {16384, 10, 4}}) {
+    const auto made = render::make_gl_renderer(settings);
     ASSERT_FALSE(made) << settings.width;
     EXPECT_EQ(made.error().kind, Error::Kind::bad_input);
     EXPECT_THAT(made.error().text(), testing::HasSubstr("size"));
@@ -362,24 +366,24 @@ TEST_F(GlRenderer, RefusesSizesThatCanNotBe) {
 // Compares with the stored picture; keeps the drawn picture where they differ.
 class StoredPicture : public GlRenderer, public testing::WithParamInterface<PictureScene> {};
 
-Image read_png(const std::filesystem::path& file) {
+render::Image read_png(const std::filesystem::path& file) {
   std::ostringstream bytes;
   bytes << std::ifstream(file, std::ios::binary).rdbuf();
-  auto image = decode_png(bytes.str());
-  return image ? std::move(*image) : Image();
+  auto image = render::decode_png(bytes.str());
+  return image ? std::move(*image) : render::Image();
 }
 
-void write_png(const std::filesystem::path& file, const Image& image) {
-  const auto bytes = encode_png(image);
+void write_png(const std::filesystem::path& file, const render::Image& image) {
+  const auto bytes = render::encode_png(image);
   std::ofstream(file, std::ios::binary) << *bytes;
 }
 
 TEST_P(StoredPicture, LooksTheSame) {
   const PictureScene& p = GetParam();
-  const Frame frame = frame_of(p);
-  Image image = draw(frame);
-  if (frame.scale) draw_legend(image, *frame.scale);
-  draw_caption(image, p.name);
+  const render::Frame frame = frame_of(p);
+  render::Image image = draw(frame);
+  if (frame.scale) render::draw_legend(image, *frame.scale);
+  render::draw_caption(image, p.name);
   const auto stored = std::filesystem::path(HOOKE_SOURCE_DIR) / "tests/render/images" / (p.name + ".png");
   if (std::getenv("HOOKE_UPDATE_IMAGES") != nullptr) return write_png(stored, image);
   const double alike = similarity(image, read_png(stored));
@@ -401,7 +405,7 @@ INSTANTIATE_TEST_SUITE_P(All, StoredPicture, testing::ValuesIn(picture_scenes())
 
 // The stored pictures show different scenes: swapped files would be noticed.
 TEST(StoredPictures, AreAllDifferent) {
-  std::vector<Image> images;
+  std::vector<render::Image> images;
   for (const PictureScene& p : picture_scenes()) {
     images.push_back(read_png(std::filesystem::path(HOOKE_SOURCE_DIR) / "tests/render/images" / (p.name + ".png")));
     EXPECT_EQ(images.back().width, kWidth) << p.name;

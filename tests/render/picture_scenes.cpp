@@ -69,7 +69,7 @@ PictureScene splash() {
 }
 
 PictureScene by_speed() {
-  PictureScene picture{"speed", ball_tank({8, 4, 4}, 0.12, ""), {}, ColorBy::speed};
+  PictureScene picture{"speed", ball_tank({8, 4, 4}, 0.12, ""), {}, render::ColorBy::speed};
   for_lattice({0.15, 0.12, 0.15}, {7.85, 1.9, 3.85}, 0.24, [&](const Vec3d& at, std::uint64_t k) {
     if (at.y < 0.4 + 1.5 * at.x / 8) add(picture.particles, jittered(at, 0.03, k), 0, {1.1 * at.x, -at.y, 0});
   });

@@ -17,7 +17,7 @@ struct PictureScene {
   std::string name;  ///< also names the stored picture: images/NAME.png
   Scene scene;
   ParticleSet particles;
-  ColorBy by = ColorBy::material;
+  render::ColorBy by = render::ColorBy::material;
   double time = 0;  ///< s
 };
 

@@ -9,8 +9,8 @@
 namespace hooke {
 namespace {
 
-Image noise(int width, int height) {
-  Image image(width, height);
+render::Image noise(int width, int height) {
+  render::Image image(width, height);
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     image.pixels[i] = static_cast<std::uint8_t>(256 * uniform4(1, i, 0)[0]);
   }
@@ -19,10 +19,10 @@ Image noise(int width, int height) {
 
 TEST(Png, EveryPixelComesBack) {
   for (const auto& [width, height] : {std::pair{1, 1}, {17, 5}, {1, 300}, {640, 2}}) {
-    const Image image = noise(width, height);
-    const auto bytes = encode_png(image);
+    const render::Image image = noise(width, height);
+    const auto bytes = render::encode_png(image);
     ASSERT_TRUE(bytes) << bytes.error().text();
-    const auto back = decode_png(*bytes);
+    const auto back = render::decode_png(*bytes);
     ASSERT_TRUE(back) << back.error().text();
     ASSERT_EQ(back->width, width);
     ASSERT_EQ(back->height, height);
@@ -35,7 +35,7 @@ TEST(Png, EveryPixelComesBack) {
 }
 
 TEST(Png, IsAnRgbFileOfEightBits) {
-  const auto bytes = encode_png(noise(3, 2));
+  const auto bytes = render::encode_png(noise(3, 2));
   ASSERT_TRUE(bytes);
   EXPECT_EQ(bytes->substr(1, 3), "PNG");
   EXPECT_EQ(bytes->substr(12, 4), "IHDR");
@@ -43,11 +43,11 @@ TEST(Png, IsAnRgbFileOfEightBits) {
 }
 
 TEST(Png, BrokenBytesAreAnError) {
-  auto bytes = encode_png(noise(30, 20));
+  auto bytes = render::encode_png(noise(30, 20));
   ASSERT_TRUE(bytes);
   for (const std::string& broken :
        {std::string(), std::string("no picture"), bytes->substr(0, 20), bytes->substr(0, bytes->size() / 2)}) {
-    const auto read = decode_png(broken);
+    const auto read = render::decode_png(broken);
     ASSERT_FALSE(read);
     EXPECT_EQ(read.error().kind, Error::Kind::bad_input);
   }

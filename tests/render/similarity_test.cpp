@@ -14,8 +14,8 @@ namespace hooke::test {
 namespace {
 
 // Soft waves of different lengths: edges, slopes and flat parts.
-Image waves() {
-  Image image(96, 64);
+render::Image waves() {
+  render::Image image(96, 64);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       for (int c = 0; c < 3; ++c) {
@@ -28,8 +28,8 @@ Image waves() {
 }
 
 template <class Change>
-Image changed(const Change& change) {
-  Image image = waves();
+render::Image changed(const Change& change) {
+  render::Image image = waves();
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       for (int c = 0; c < 3; ++c) {
@@ -44,7 +44,7 @@ constexpr double kThreshold = 0.97;  // of the image tests
 
 TEST(Similarity, IsOneForTheSame) {
   EXPECT_DOUBLE_EQ(similarity(waves(), waves()), 1);
-  const Image flat(16, 16);
+  const render::Image flat(16, 16);
   EXPECT_DOUBLE_EQ(similarity(flat, flat), 1);
 }
 
@@ -57,31 +57,33 @@ TEST(Similarity, ForgivesTheLastBit) {
 }
 
 TEST(Similarity, FallsWithNoiseShiftAndBrightness) {
-  const Image original = waves();
-  const Image noisy = changed([](int x, int y, int, double v) {
+  const render::Image original = waves();
+  const render::Image noisy = changed([](int x, int y, int, double v) {
     return v + 60 * (uniform4(1, static_cast<std::uint64_t>(x + 100 * y), 0)[0] - 0.5);
   });
-  const Image shifted = changed([&](int x, int y, int c, double) { return original.at(std::min(x + 3, 95), y)[c]; });
-  const Image brighter = changed([](int, int, int, double v) { return v + 60; });
-  const Image inverse = changed([](int, int, int, double v) { return 255 - v; });
-  for (const Image* other : {&noisy, &shifted, &brighter, &inverse})
+  const render::Image shifted =
+      changed([&](int x, int y, int c, double) { return original.at(std::min(x + 3, 95), y)[c]; });
+  const render::Image brighter = changed([](int, int, int, double v) { return v + 60; });
+  const render::Image inverse = changed([](int, int, int, double v) { return 255 - v; });
+  for (const render::Image* other : {&noisy, &shifted, &brighter, &inverse})
     EXPECT_LT(similarity(original, *other), kThreshold);
   EXPECT_LT(similarity(original, inverse), 0);
 }
 
 TEST(Similarity, SeesOneColourAndOneCorner) {
-  const Image red = changed([](int x, int y, int c, double v) { return c == 0 && x < 32 && y < 32 ? 255 - v : v; });
+  const render::Image red =
+      changed([](int x, int y, int c, double v) { return c == 0 && x < 32 && y < 32 ? 255 - v : v; });
   EXPECT_LT(similarity(waves(), red), kThreshold);
 }
 
 TEST(Similarity, IsSymmetric) {
-  const Image other = changed([](int x, int, int, double v) { return v + x; });
+  const render::Image other = changed([](int x, int, int, double v) { return v + x; });
   EXPECT_DOUBLE_EQ(similarity(waves(), other), similarity(other, waves()));
 }
 
 TEST(Similarity, IsNoneWhereSizesDiffer) {
-  EXPECT_EQ(similarity(Image(16, 16), Image(16, 17)), 0);
-  EXPECT_EQ(similarity(Image(4, 4), Image(4, 4)), 0);
+  EXPECT_EQ(similarity(render::Image(16, 16), render::Image(16, 17)), 0);
+  EXPECT_EQ(similarity(render::Image(4, 4), render::Image(4, 4)), 0);
 }
 
 }  // namespace

@@ -22,9 +22,9 @@ namespace {
 
 constexpr int kWidth = 93, kHeight = 53;
 
-std::vector<Sphere> random_spheres(std::size_t count, const Vec3d& half_size, double smallest, double largest,
-                                   std::uint64_t seed) {
-  std::vector<Sphere> spheres;
+std::vector<render::Sphere> random_spheres(std::size_t count, const Vec3d& half_size, double smallest, double largest,
+                                           std::uint64_t seed) {
+  std::vector<render::Sphere> spheres;
   for (std::size_t i = 0; i < count; ++i) {
     const auto u = uniform4(seed, i, 0);
     const Vec3f at = vec_cast<float>(
@@ -35,12 +35,12 @@ std::vector<Sphere> random_spheres(std::size_t count, const Vec3d& half_size, do
   return spheres;
 }
 
-Vec3d across(double x, double y, const Projection& view) {
+Vec3d across(double x, double y, const render::Projection& view) {
   return x * vec_cast<double>(view.right) + y * vec_cast<double>(view.up);
 }
 
 // The spheres seen at the centre of any pixel. A sphere shows only its outside, from the projection's nearest depth on.
-std::set<std::uint32_t> owners(const std::vector<Sphere>& spheres, const Projection& view) {
+std::set<std::uint32_t> owners(const std::vector<render::Sphere>& spheres, const render::Projection& view) {
   std::set<std::uint32_t> all;
   const Vec3d ahead = -1.0 * vec_cast<double>(view.back);
   for (int row = 0; row < static_cast<int>(view.height); ++row) {
@@ -54,7 +54,7 @@ std::set<std::uint32_t> owners(const std::vector<Sphere>& spheres, const Project
       std::uint32_t owner = 0;
       const double a = dot(ray, ray);
       for (std::uint32_t i = 0; i < spheres.size(); ++i) {
-        const Sphere& s = spheres[i];
+        const render::Sphere& s = spheres[i];
         const Vec3d to = Vec3d{s.x, s.y, s.z} - from;
         const double radius = static_cast<double>(s.radius), b = dot(ray, to);
         const double discriminant = b * b - a * (dot(to, to) - radius * radius);
@@ -72,12 +72,12 @@ std::set<std::uint32_t> owners(const std::vector<Sphere>& spheres, const Project
 
 struct Case {
   std::string name;
-  std::vector<Sphere> spheres;
-  Camera camera;
+  std::vector<render::Sphere> spheres;
+  render::Camera camera;
   bool parallel = false;
 
-  Projection view() const {
-    Projection view = project(camera, kWidth, kHeight);
+  render::Projection view() const {
+    render::Projection view = render::project(camera, kWidth, kHeight);
     if (!parallel) return view;
     view.parallel = true;
     view.nearest = 0;
@@ -86,13 +86,16 @@ struct Case {
   }
 };
 
-Camera looking(const Vec3d& eye, double field_of_view) { return {eye, {0.1, -0.2, 0.05}, {0, 1, 0}, field_of_view}; }
+render::Camera looking(const Vec3d& eye, double field_of_view) {
+  return {eye, {0.1, -0.2, 0.05}, {0, 1, 0}, field_of_view};
+}
 
 std::vector<Case> cases() {
   const Vec3d cube{1, 1, 1};
   std::vector<Case> all;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const auto add = [&](const char* name, std::vector<Sphere> spheres, const Camera& camera, bool parallel = false) {
+    const auto add = [&](const char* name, std::vector<render::Sphere> spheres, const render::Camera& camera,
+                         bool parallel = false) {
       all.push_back({name + (", seed " + std::to_string(seed)), std::move(spheres), camera, parallel});
     };
     const auto equal = random_spheres(4000, cube, 0.06, 0.06, seed);
@@ -116,7 +119,7 @@ std::vector<Case> cases() {
 TEST(VisibleSpheres, NoneIsMissed) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
-    const auto visible = visible_spheres(c.spheres, c.view());
+    const auto visible = render::visible_spheres(c.spheres, c.view());
     const auto owning = owners(c.spheres, c.view());
     EXPECT_EQ(owning.empty(), c.name.starts_with("all behind"));
     EXPECT_TRUE(std::is_sorted(visible.begin(), visible.end()));
@@ -129,25 +132,28 @@ TEST(VisibleSpheres, NoneIsMissed) {
 }
 
 TEST(VisibleSpheres, AHiddenSphereIsLeftOut) {
-  const Camera camera{{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 35};
-  const Sphere front{0, 0, 0, 1, {}, 0}, hidden{0.2f, 0.1f, -3, 0.5f, {}, 0}, beside{2, 0, -3, 0.5f, {}, 0},
+  const render::Camera camera{{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 35};
+  const render::Sphere front{0, 0, 0, 1, {}, 0}, hidden{0.2f, 0.1f, -3, 0.5f, {}, 0}, beside{2, 0, -3, 0.5f, {}, 0},
       before{0, 0, 3, 0.1f, {}, 0}, outside{9, 0, 0, 1, {}, 0}, behind{0, 0, 12, 1, {}, 0};
   const std::vector spheres{hidden, front, outside, beside, before, behind};
-  EXPECT_EQ(visible_spheres(spheres, project(camera, kWidth, kHeight)), (std::vector<std::uint32_t>{1, 3, 4}));
+  EXPECT_EQ(render::visible_spheres(spheres, render::project(camera, kWidth, kHeight)),
+            (std::vector<std::uint32_t>{1, 3, 4}));
 }
 
 TEST(VisibleSpheres, NothingHidesWhatReachesBeforeIt) {
   // A small ball that sticks out of the front of a large one.
-  const Camera camera{{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 35};
-  const std::vector<Sphere> spheres{{0, 0, 0, 1, {}, 0}, {0, 0, 0.95f, 0.2f, {}, 0}};
-  EXPECT_EQ(visible_spheres(spheres, project(camera, kWidth, kHeight)).size(), 2u);
+  const render::Camera camera{{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 35};
+  const std::vector<render::Sphere> spheres{{0, 0, 0, 1, {}, 0}, {0, 0, 0.95f, 0.2f, {}, 0}};
+  EXPECT_EQ(render::visible_spheres(spheres, render::project(camera, kWidth, kHeight)).size(), 2u);
 }
 
-TEST(VisibleSpheres, OfNoneNone) { EXPECT_TRUE(visible_spheres({}, project(Camera{}, kWidth, kHeight)).empty()); }
+TEST(VisibleSpheres, OfNoneNone) {
+  EXPECT_TRUE(render::visible_spheres({}, render::project(render::Camera{}, kWidth, kHeight)).empty());
+}
 
 // 100,000 balls on a slightly jittered cubic lattice, a box of 50 x 40 x 50.
-std::vector<Sphere> dense_pile() {
-  std::vector<Sphere> pile;
+std::vector<render::Sphere> dense_pile() {
+  std::vector<render::Sphere> pile;
   for (std::size_t i = 0; i < 100'000; ++i) {
     const auto u = uniform4(5, i, 0);
     const auto at = [&](std::size_t k, double random, double half) {
@@ -160,8 +166,8 @@ std::vector<Sphere> dense_pile() {
 
 TEST(VisibleSpheres, OfADensePileFewAreKept) {
   const auto pile = dense_pile();
-  const Camera camera{{40, 45, 90}, {0, 0, 0}, {0, 1, 0}, 35};
-  const auto visible = visible_spheres(pile, project(camera, 1280, 720));
+  const render::Camera camera{{40, 45, 90}, {0, 0, 0}, {0, 1, 0}, 35};
+  const auto visible = render::visible_spheres(pile, render::project(camera, 1280, 720));
   EXPECT_LT(visible.size(), pile.size() * 15 / 100);
   EXPECT_GT(visible.size(), 50u * 50u);  // at least the upper side
 }
@@ -169,17 +175,17 @@ TEST(VisibleSpheres, OfADensePileFewAreKept) {
 TEST(VisibleSpheres, AnyNumberOfThreadsGivesTheSame) {
   const auto pile = dense_pile();
   const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);  // than the machine has
-  const Projection view = project({{40, 45, 90}, {0, 0, 0}, {0, 1, 0}, 35}, 640, 360);
-  const auto expected = visible_spheres(pile, view);
+  const render::Projection view = render::project({{40, 45, 90}, {0, 0, 0}, {0, 1, 0}, 35}, 640, 360);
+  const auto expected = render::visible_spheres(pile, view);
   for (const int threads : {1, 2, 3, 8}) {
     tbb::task_arena arena(threads);
-    EXPECT_EQ(arena.execute([&] { return visible_spheres(pile, view); }), expected) << threads << " threads";
+    EXPECT_EQ(arena.execute([&] { return render::visible_spheres(pile, view); }), expected) << threads << " threads";
   }
 }
 
 TEST(Project, PutsTheTargetInTheMiddleAndTheFieldOfViewFromBottomToTop) {
-  const Camera camera{{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 60};
-  const Projection view = project(camera, 1280, 720);
+  const render::Camera camera{{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 60};
+  const render::Projection view = render::project(camera, 1280, 720);
   EXPECT_EQ(view.width, 1280);
   EXPECT_EQ(view.height, 720);
   EXPECT_FALSE(view.parallel);

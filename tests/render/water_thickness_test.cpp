@@ -18,18 +18,19 @@ namespace {
 constexpr int kColumns = 20, kRows = 12;
 
 // Looks along -z; a cell is a metre.
-Projection from_above() {
-  Projection view =
-      project({{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 35}, kColumns * WaterThickness::kCell, kRows * WaterThickness::kCell);
+render::Projection from_above() {
+  render::Projection view =
+      render::project({{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 35}, kColumns * render::WaterThickness::kCell,
+                      kRows * render::WaterThickness::kCell);
   view.parallel = true;
-  view.scale = WaterThickness::kCell;
+  view.scale = render::WaterThickness::kCell;
   view.nearest = 0;
   return view;
 }
 
 // 64 balls of radius 0.1 m in every cubic metre of a slab over the whole picture, `depth` metres deep.
-std::vector<Sphere> slab(int depth, std::uint8_t foam) {
-  std::vector<Sphere> spheres;
+std::vector<render::Sphere> slab(int depth, std::uint8_t foam) {
+  std::vector<render::Sphere> spheres;
   for (int z = 0; z < 4 * depth; ++z) {
     for (int y = -2 * kRows; y < 2 * kRows; ++y) {
       for (int x = -2 * kColumns; x < 2 * kColumns; ++x) {
@@ -45,7 +46,7 @@ TEST(WaterThickness, IsTheDepthOfWhatIsPackedAtRandom) {
   // A frame's water spheres are larger by a quarter than the particles; the particles fill this share of a metre.
   const double own = 64 * 4 * std::numbers::pi / 3 * std::pow(0.1 / 1.25, 3);
   for (const int depth : {1, 3}) {
-    const WaterThickness thickness = water_thickness(slab(depth, 1), from_above());
+    const render::WaterThickness thickness = render::water_thickness(slab(depth, 1), from_above());
     EXPECT_EQ(thickness.columns, kColumns);
     EXPECT_EQ(thickness.rows, kRows);
     ASSERT_EQ(thickness.meters.size(), static_cast<std::size_t>(kColumns * kRows));
@@ -55,13 +56,13 @@ TEST(WaterThickness, IsTheDepthOfWhatIsPackedAtRandom) {
 
 TEST(WaterThickness, OnlyWaterBeforeTheEyeCounts) {
   auto spheres = slab(1, 0);
-  for (const float meters : water_thickness(spheres, from_above()).meters) EXPECT_EQ(meters, 0);
-  for (Sphere& sphere : spheres) {
+  for (const float meters : render::water_thickness(spheres, from_above()).meters) EXPECT_EQ(meters, 0);
+  for (render::Sphere& sphere : spheres) {
     sphere.foam = 200;
     sphere.z = 11;
   }
-  for (const float meters : water_thickness(spheres, from_above()).meters) EXPECT_EQ(meters, 0);
-  EXPECT_EQ(water_thickness({}, from_above()).meters.size(), static_cast<std::size_t>(kColumns * kRows));
+  for (const float meters : render::water_thickness(spheres, from_above()).meters) EXPECT_EQ(meters, 0);
+  EXPECT_EQ(render::water_thickness({}, from_above()).meters.size(), static_cast<std::size_t>(kColumns * kRows));
 }
 
 TEST(WaterThickness, AnyNumberOfThreadsGivesTheSame) {
@@ -70,10 +71,11 @@ TEST(WaterThickness, AnyNumberOfThreadsGivesTheSame) {
     spheres[i].radius *= static_cast<float>(0.5 + uniform4(1, i, 0)[0]);
   }
   const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);  // than the machine has
-  const auto expected = water_thickness(spheres, from_above()).meters;
+  const auto expected = render::water_thickness(spheres, from_above()).meters;
   for (const int threads : {1, 2, 3, 8}) {
     tbb::task_arena arena(threads);
-    EXPECT_EQ(arena.execute([&] { return water_thickness(spheres, from_above()).meters; }), expected) << threads;
+    EXPECT_EQ(arena.execute([&] { return render::water_thickness(spheres, from_above()).meters; }), expected)
+        << threads;
   }
 }
 

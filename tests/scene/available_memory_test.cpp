@@ -9,14 +9,14 @@ namespace hooke {
 namespace {
 
 TEST(AvailableMemory, IsSomethingOnLinux) {
-  EXPECT_GT(available_memory(), std::uint64_t{1} << 20U);
-  EXPECT_LT(available_memory(), std::uint64_t{1} << 50U);
+  EXPECT_GT(scene::available_memory(), std::uint64_t{1} << 20U);
+  EXPECT_LT(scene::available_memory(), std::uint64_t{1} << 50U);
 }
 
 TEST(AvailableMemory, IsSaidInHandyUnits) {
-  EXPECT_EQ(in_bytes(260), "260 bytes");
-  EXPECT_EQ(in_bytes(1536), "1.5 KiB");
-  EXPECT_EQ(in_bytes(3.0 * 1024 * 1024 * 1024), "3.0 GiB");
+  EXPECT_EQ(scene::in_bytes(260), "260 bytes");
+  EXPECT_EQ(scene::in_bytes(1536), "1.5 KiB");
+  EXPECT_EQ(scene::in_bytes(3.0 * 1024 * 1024 * 1024), "3.0 GiB");
 }
 
 }  // namespace

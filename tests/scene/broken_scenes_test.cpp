@@ -30,7 +30,7 @@ std::vector<std::string> names() {
 }
 
 std::string read(const fs::path& file) {
-  const auto text = read_text_file(file, std::uint64_t{1} << 20U);
+  const auto text = scene::read_text_file(file, std::uint64_t{1} << 20U);
   return text ? *text : "";
 }
 
@@ -39,9 +39,10 @@ class BrokenScene : public testing::TestWithParam<std::string> {};
 TEST_P(BrokenScene, IsRefusedWithItsMessage) {
   // Without OpenVDB, errors of a distance field are not found.
   if (GetParam() == "bodies-meshes" || GetParam() == "emitters-meshes") HOOKE_NEEDS_OPENVDB();
-  LoadOptions options;
+  scene::LoadOptions options;
   options.memory_limit = std::uint64_t{1} << 30U;
-  const auto loaded = parse_scene(read(kFolder / (GetParam() + ".json")), GetParam() + ".json", kFolder, options);
+  const auto loaded =
+      scene::parse_scene(read(kFolder / (GetParam() + ".json")), GetParam() + ".json", kFolder, options);
   ASSERT_FALSE(loaded) << "was taken for good";
   EXPECT_EQ(loaded.error().kind, Error::Kind::bad_input);
   EXPECT_EQ(loaded.error().text() + "\n", read(kFolder / (GetParam() + ".expected")));

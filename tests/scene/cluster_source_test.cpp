@@ -14,8 +14,8 @@ namespace {
 constexpr std::uint64_t kCount = 20'000;
 constexpr double kMass = 0.01, kScale = 2, kConstant = 3;
 
-ClusterParticles make(ClusterSource::Profile profile, double companion = 0) {
-  ClusterSource cluster;
+scene::ClusterParticles make(scene::ClusterSource::Profile profile, double companion = 0) {
+  scene::ClusterSource cluster;
   cluster.profile = profile;
   cluster.center = {1, -2, 5};
   cluster.scale = kScale;
@@ -24,7 +24,7 @@ ClusterParticles make(ClusterSource::Profile profile, double companion = 0) {
   cluster.companion = companion;
   Attraction attraction;
   attraction.constant = kConstant;
-  ClusterParticles made = make_cluster(cluster, kMass, attraction);
+  scene::ClusterParticles made = scene::make_cluster(cluster, kMass, attraction);
   for (Vec3d& x : made.position) x -= cluster.center;
   return made;
 }
@@ -33,7 +33,7 @@ ClusterParticles make(ClusterSource::Profile profile, double companion = 0) {
 constexpr double kAllowed = 4 / 141.0;
 
 TEST(PlummerCluster, IsInEquilibrium) {
-  const ClusterParticles made = make(ClusterSource::Profile::plummer);
+  const scene::ClusterParticles made = make(scene::ClusterSource::Profile::plummer);
   std::vector<double> radius;
   double kinetic = 0;
   Vec3d momentum{0, 0, 0};
@@ -54,7 +54,7 @@ TEST(PlummerCluster, IsInEquilibrium) {
 
 TEST(DiscCluster, TurnsOnCircles) {
   const double companion = 100, total = kCount * kMass + companion;
-  const ClusterParticles made = make(ClusterSource::Profile::disc, companion);
+  const scene::ClusterParticles made = make(scene::ClusterSource::Profile::disc, companion);
   std::size_t within = 0;
   for (std::size_t i = 0; i < kCount; ++i) {
     const Vec3d& x = made.position[i];
@@ -73,9 +73,9 @@ TEST(DiscCluster, TurnsOnCircles) {
 }
 
 TEST(Clusters, AreAtRestWithoutAttraction) {
-  ClusterSource cluster;
+  scene::ClusterSource cluster;
   cluster.count = 10;
-  for (const Vec3d& v : make_cluster(cluster, 1, std::nullopt).velocity) EXPECT_EQ(v, (Vec3d{0, 0, 0}));
+  for (const Vec3d& v : scene::make_cluster(cluster, 1, std::nullopt).velocity) EXPECT_EQ(v, (Vec3d{0, 0, 0}));
 }
 
 }  // namespace

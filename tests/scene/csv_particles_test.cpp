@@ -13,15 +13,15 @@ namespace {
 
 class CsvParticlesTest : public testing::Test {
  protected:
-  FileParticles read(std::string_view text) {
-    return read_particle_file(folder_.write("p.csv", text), "p.csv", rules_, findings_, warnings_);
+  scene::FileParticles read(std::string_view text) {
+    return scene::read_particle_file(folder_.write("p.csv", text), "p.csv", rules_, findings_, warnings_);
   }
   std::string complaints() { return Error{Error::Kind::bad_input, findings_.take()}.text(); }
 
   ScratchFolder folder_;
   std::vector<Material> materials_{{"water", 0.5, 1, {}, 0, ""}, {"oil", 0.5, 1, {}, 0, ""}};
-  ParticleFileRules rules_{materials_, std::uint16_t{0}, {1, 2, 3}, {}, {}};
-  Findings findings_{"scene.json"};
+  scene::ParticleFileRules rules_{materials_, std::uint16_t{0}, {1, 2, 3}, {}, {}};
+  scene::Findings findings_{"scene.json"};
   std::vector<Finding> warnings_;
 };
 
@@ -92,7 +92,7 @@ TEST_F(CsvParticlesTest, HoldsBackWhatRepeatsItself) {
 }
 
 TEST_F(CsvParticlesTest, NamesAFileThatCannotBeRead) {
-  read_particle_file(folder_.path() / "none.csv", "none.csv", rules_, findings_, warnings_);
+  scene::read_particle_file(folder_.path() / "none.csv", "none.csv", rules_, findings_, warnings_);
   EXPECT_EQ(complaints(), "none.csv: can't be opened: No such file or directory");
 }
 
@@ -102,7 +102,7 @@ TEST_F(CsvParticlesTest, ReadsHalfAMillionRowsQuickly) {
     text += std::to_string(i) + ",12.345678901,2.3456789012,33.456789012,0.125,-9.8,1e-05\n";
   const auto file = folder_.write("p.csv", text);
   const auto start = std::chrono::steady_clock::now();
-  const auto p = read_particle_file(file, "p.csv", rules_, findings_, warnings_);
+  const auto p = scene::read_particle_file(file, "p.csv", rules_, findings_, warnings_);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   EXPECT_EQ(p.position.size(), 512000U);
   RecordProperty("seconds", std::to_string(seconds.count()));

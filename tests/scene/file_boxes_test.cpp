@@ -16,7 +16,7 @@ class FileBoxes : public testing::Test {
   /// What is said of a file in a domain of 4 m with these walls: errors, or else warnings.
   std::string said_of(const std::string& name, const std::string& text, const std::string& walls) const {
     folder_.write(name, text);
-    const auto loaded = parse_scene(
+    const auto loaded = scene::parse_scene(
         R"({"hooke":1,"time":{"step":0.01,"steps":1},"domain":{"min":[0,0,0],"max":[4,4,4],"walls":)" + walls +
             R"(},"materials":{"grain":{"radius":0.25,"mass":1,"stiffness":1}},"particles":[{"file":")" + name +
             R"(","material":"grain"}]})",

@@ -17,10 +17,10 @@ namespace hooke {
 /// Reads texts as files of particles, for a scene with water and "salt water" of radius 0.5 and mass 2.
 class FileReading : public testing::Test {
  protected:
-  FileParticles read(const std::string& name, std::string_view text) {
-    findings_ = Findings("scene.json");
+  scene::FileParticles read(const std::string& name, std::string_view text) {
+    findings_ = scene::Findings("scene.json");
     warnings_.clear();
-    return read_particle_file(folder_.write(name, text), name, rules_, findings_, warnings_);
+    return scene::read_particle_file(folder_.write(name, text), name, rules_, findings_, warnings_);
   }
   /// The errors of the file that was read last, a finding a line.
   std::string complaints() { return Error{Error::Kind::bad_input, findings_.take()}.text(); }
@@ -34,7 +34,7 @@ class FileReading : public testing::Test {
   /// Reads every beginning of a valid file of `count` particles, and the file with each byte changed. The result is
   /// findings or all particles, and never a value that is not allowed in a file.
   void damage(const std::string& name, const std::string& text, std::size_t count) {
-    const auto check = [&](const FileParticles& p, bool complete) {
+    const auto check = [&](const scene::FileParticles& p, bool complete) {
       if (complete && findings_.empty()) {
         EXPECT_EQ(p.position.size(), count);
       }
@@ -63,8 +63,8 @@ class FileReading : public testing::Test {
 
   ScratchFolder folder_;
   std::vector<Material> materials_{{"water", 0.5, 2, {}, 0, ""}, {"salt water", 0.5, 2, {}, 0, ""}};
-  ParticleFileRules rules_{materials_, {}, {7, 8, 9}, {}, {}};
-  Findings findings_{"scene.json"};
+  scene::ParticleFileRules rules_{materials_, {}, {7, 8, 9}, {}, {}};
+  scene::Findings findings_{"scene.json"};
   std::vector<Finding> warnings_;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 TEST(FileScanner, ReadsLinesOfEveryForm) {
   const ScratchFolder folder;
-  FileScanner in(folder.write("f", "one\r\n\ntwo\nthree"));
+  scene::FileScanner in(folder.write("f", "one\r\n\ntwo\nthree"));
   EXPECT_EQ(in.remaining(), 15U);
   EXPECT_EQ(in.line(), "one");
   EXPECT_EQ(in.line(), "");
@@ -31,18 +31,18 @@ TEST(FileScanner, ReadsLinesOfEveryForm) {
 
 TEST(FileScanner, ReadsLinesThatEndWithCr) {
   const ScratchFolder folder;
-  FileScanner in(folder.write("f", "one\r\rtwo\rthree\r"));
+  scene::FileScanner in(folder.write("f", "one\r\rtwo\rthree\r"));
   for (const char* line : {"one", "", "two", "three"}) EXPECT_EQ(in.line(), line);
   EXPECT_EQ(in.line(), std::nullopt);
   EXPECT_EQ(in.line_number(), 4U);
   // Binary data that begins with the byte of an LF.
-  FileScanner binary(folder.write("g", "ply\rend_header\r\n123"));
+  scene::FileScanner binary(folder.write("g", "ply\rend_header\r\n123"));
   EXPECT_EQ(binary.line(), "ply");
   EXPECT_EQ(binary.line(), "end_header");
   EXPECT_EQ(std::string_view(binary.bytes(4), 4), "\n123");
   // Ends of all kinds, and one at the end of a piece.
-  const std::string longest(FileScanner::kLongestLine, 'x');
-  FileScanner mixed(folder.write("h", "a\r\nb\rc\n" + longest + "\r\nd"));
+  const std::string longest(scene::FileScanner::kLongestLine, 'x');
+  scene::FileScanner mixed(folder.write("h", "a\r\nb\rc\n" + longest + "\r\nd"));
   for (const std::string& line : {std::string("a"), std::string("b"), std::string("c"), longest, std::string("d")}) {
     EXPECT_EQ(mixed.line(), line);
   }
@@ -50,15 +50,15 @@ TEST(FileScanner, ReadsLinesThatEndWithCr) {
 
 TEST(FileScanner, PassesAByteOrderMark) {
   const ScratchFolder folder;
-  FileScanner in(folder.write("f",
-                              "\xef\xbb\xbf"
-                              "one\ntwo"));
+  scene::FileScanner in(folder.write("f",
+                                     "\xef\xbb\xbf"
+                                     "one\ntwo"));
   const auto start = in.place();
   EXPECT_EQ(in.line(), "one");
   in.go_back(start);
   EXPECT_EQ(in.line(), "one");
-  EXPECT_EQ(FileScanner(folder.write("g", "\xef\xbb\xbf")).line(), std::nullopt);
-  EXPECT_THROW(FileScanner(folder.write("h", "\xff\xfex")), FileFault);
+  EXPECT_EQ(scene::FileScanner(folder.write("g", "\xef\xbb\xbf")).line(), std::nullopt);
+  EXPECT_THROW(scene::FileScanner(folder.write("h", "\xff\xfex")), scene::FileFault);
 }
 
 // Lines and bytes that cross the pieces in which a file is read stay whole.
@@ -66,7 +66,7 @@ TEST(FileScanner, JoinsItsPieces) {
   const ScratchFolder folder;
   std::string text;
   for (int i = 0; i < 300000; ++i) text += std::to_string(i) + "\n";
-  FileScanner in(folder.write("f", text));
+  scene::FileScanner in(folder.write("f", text));
   for (int i = 0; i < 300000; ++i) ASSERT_EQ(in.line(), std::to_string(i));
   EXPECT_EQ(in.offset(), text.size());
   in.go_back({});
@@ -84,17 +84,17 @@ TEST(FileScanner, JoinsItsPieces) {
 
 TEST(FileScanner, RefusesALineWithoutEnd) {
   const ScratchFolder folder;
-  const std::string longest(FileScanner::kLongestLine, 'x');
-  FileScanner good(folder.write("good", "a\n" + longest + "\nb"));
+  const std::string longest(scene::FileScanner::kLongestLine, 'x');
+  scene::FileScanner good(folder.write("good", "a\n" + longest + "\nb"));
   EXPECT_EQ(good.line(), "a");
   EXPECT_EQ(good.line(), longest);
   EXPECT_EQ(good.line(), "b");
-  FileScanner bad(folder.write("bad", "a\n" + longest + "x\n"));
+  scene::FileScanner bad(folder.write("bad", "a\n" + longest + "x\n"));
   EXPECT_EQ(bad.line(), "a");
   try {
     bad.line();
     FAIL() << "took it";
-  } catch (const FileFault& fault) {
+  } catch (const scene::FileFault& fault) {
     EXPECT_EQ(fault.place(), 2U);
     EXPECT_STREQ(fault.what(), "is longer than 1048576 bytes: no line of particles");
   }

@@ -9,7 +9,7 @@ namespace hooke {
 namespace {
 
 TEST(Findings, ComeInTheOrderOfTheText) {
-  Findings findings("s.json");
+  scene::Findings findings("s.json");
   findings.set_text("{\n\"a\": 1,\n\"b\": {\"c\": 2}}");
   findings.forget_lines("b.c");
   findings.add_elsewhere("p.csv:7", "is odd");
@@ -29,20 +29,20 @@ TEST(Findings, ComeInTheOrderOfTheText) {
 }
 
 TEST(Findings, StopWhereTheyWouldBuryEachOther) {
-  Findings findings("s.json");
-  for (std::size_t i = 0; i < Findings::kMost; ++i) findings.add("a" + std::to_string(i), "is wrong");
+  scene::Findings findings("s.json");
+  for (std::size_t i = 0; i < scene::Findings::kMost; ++i) findings.add("a" + std::to_string(i), "is wrong");
   EXPECT_FALSE(findings.overflows());
   EXPECT_FALSE(findings.touches("b"));
   findings.add("b", "is wrong");
   EXPECT_TRUE(findings.overflows());
   EXPECT_TRUE(findings.touches("c")) << "which may be among those that are left out";
   const auto all = findings.take();
-  ASSERT_EQ(all.size(), Findings::kMost + 1);
+  ASSERT_EQ(all.size(), scene::Findings::kMost + 1);
   EXPECT_EQ(all.back(), (Finding{"s.json", "has more findings, which are left out here"}));
 }
 
 TEST(Findings, ShowPlacesThatATerminalCanTake) {
-  Findings findings("s.json");
+  scene::Findings findings("s.json");
   findings.add_elsewhere("a\x1b[2J.csv:1", "is odd");
   findings.add(std::string(100000, 'k'), "is wrong");
   const auto all = findings.take();

@@ -24,9 +24,9 @@ class GalleryLedger : public testing::TestWithParam<std::string> {};
 TEST_P(GalleryLedger, KineticEnergyBalances) {
   const std::filesystem::path file = bundled_folder() / (GetParam() + ".json");
   if (has_mesh(file)) HOOKE_NEEDS_OPENVDB();
-  LoadOptions options;
+  scene::LoadOptions options;
   options.overrides = bundled_overrides(GetParam());
-  const auto loaded = load_scene(file, options);
+  const auto loaded = scene::load_scene(file, options);
   ASSERT_TRUE(loaded) << loaded.error().text();
   Scene scene = loaded->scene;
   if (!scene.emitters.empty()) scene.gravity = {0, 0, 0};

@@ -18,7 +18,7 @@ TEST(Gallery, ListsScenesByNameOfFile) {
   folder.write("other.json", R"({"version": 3})");
   folder.write("broken.json", "{");
   folder.write("notes.txt", R"({"hooke": 1})");
-  const auto scenes = list_scenes(folder.path());
+  const auto scenes = scene::list_scenes(folder.path());
   ASSERT_TRUE(scenes);
   ASSERT_EQ(scenes->size(), 2U);
   EXPECT_EQ((*scenes)[0].title, "a");
@@ -29,14 +29,14 @@ TEST(Gallery, ListsScenesByNameOfFile) {
 }
 
 TEST(Gallery, EveryBundledSceneSaysWhatThereIsToSee) {
-  const auto scenes = list_scenes(HOOKE_SOURCE_DIR "/scenes");
+  const auto scenes = scene::list_scenes(HOOKE_SOURCE_DIR "/scenes");
   ASSERT_TRUE(scenes);
   EXPECT_GE(scenes->size(), 4U);
-  for (const GalleryScene& scene : *scenes) EXPECT_FALSE(scene.description.empty()) << scene.file;
+  for (const scene::GalleryScene& scene : *scenes) EXPECT_FALSE(scene.description.empty()) << scene.file;
 }
 
 TEST(Gallery, NamesAFolderThatIsNotThere) {
-  const auto scenes = list_scenes("/nowhere/at/all");
+  const auto scenes = scene::list_scenes("/nowhere/at/all");
   ASSERT_FALSE(scenes);
   EXPECT_EQ(scenes.error().findings.front().where, "/nowhere/at/all");
 }

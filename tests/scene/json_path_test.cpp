@@ -12,25 +12,25 @@ TEST(JsonPath, TextAndPathAreTheSame) {
   for (const char* text : {"time", "time.step", "particles[0].block.min[2]", "materials[\"salt water\"].radius",
                            "materials[\"a.b\"]", "materials[\"say \\\"hi\\\"\"].mass", "x[1][2]", "$schema",
                            "materials[\"\\u001b[31m\"]", "materials[\"a\\nb\"]", "a[\"\"]", "a[\"\\u009b\"].b"}) {
-    const auto path = parse_path(text);
+    const auto path = scene::parse_path(text);
     ASSERT_TRUE(path) << text;
-    EXPECT_EQ(to_text(*path), text);
+    EXPECT_EQ(scene::to_text(*path), text);
   }
 }
 
 TEST(JsonPath, RefusesWhatIsNone) {
   for (const char* text : {"", ".", "a.", ".a", "a..b", "a[", "a[]", "a[-1]", "a[x]", "[0]", "a[\"b]", "a b", "a[1"}) {
-    EXPECT_FALSE(parse_path(text)) << text;
+    EXPECT_FALSE(scene::parse_path(text)) << text;
   }
 }
 
 TEST(JsonPath, EscapesNameCharacters) {
-  EXPECT_EQ(*parse_path(R"(["\u001b\n\u00f6\x"])"), (JsonPath{std::string("\x1b\n\xc3\xb6x")}));
-  EXPECT_EQ(join_path("", "a\tb"), R"(["a\tb"])");
+  EXPECT_EQ(*scene::parse_path(R"(["\u001b\n\u00f6\x"])"), (scene::JsonPath{std::string("\x1b\n\xc3\xb6x")}));
+  EXPECT_EQ(scene::join_path("", "a\tb"), R"(["a\tb"])");
 }
 
 TEST(PathSet, KnowsWhatLiesAboveAndBelow) {
-  PathSet set;
+  scene::PathSet set;
   EXPECT_FALSE(set.contains_at_or_above("time"));
   EXPECT_FALSE(set.contains_at_or_below(""));
   for (const char* path : {"time.step", "materials[\"a.b[0]\"].radius", "particles[1]", "materials.water-2"}) {
@@ -55,12 +55,12 @@ TEST(PathSet, KnowsWhatLiesAboveAndBelow) {
 }
 
 TEST(JsonPath, KnowsWhatLiesBelow) {
-  EXPECT_TRUE(is_at_or_below("time.step", "time"));
-  EXPECT_TRUE(is_at_or_below("particles[0]", "particles"));
-  EXPECT_TRUE(is_at_or_below("time", "time"));
-  EXPECT_TRUE(is_at_or_below("time", ""));
-  EXPECT_FALSE(is_at_or_below("timely", "time"));
-  EXPECT_FALSE(is_at_or_below("time", "time.step"));
+  EXPECT_TRUE(scene::is_at_or_below("time.step", "time"));
+  EXPECT_TRUE(scene::is_at_or_below("particles[0]", "particles"));
+  EXPECT_TRUE(scene::is_at_or_below("time", "time"));
+  EXPECT_TRUE(scene::is_at_or_below("time", ""));
+  EXPECT_FALSE(scene::is_at_or_below("timely", "time"));
+  EXPECT_FALSE(scene::is_at_or_below("time", "time.step"));
 }
 
 }  // namespace

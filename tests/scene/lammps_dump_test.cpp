@@ -40,7 +40,7 @@ TEST_F(LammpsDumpTest, ReadsTheLastFrameUnlessAskedForAnother) {
   EXPECT_EQ(p.position, (std::vector<Vec3d>{{3.125, 4, 0.902}, {0.26, 1.48, 2.001}, {-0.5, 2.03, 3}}));
   EXPECT_EQ(p.velocity, (std::vector<Vec3d>{{0, 0, -9.8}, {1, -2, 0.1}, {1e-5, 3, 0}}));
   EXPECT_EQ(p.place, (std::vector<std::uint64_t>{28, 29, 30}));
-  rules_.frame = kLastFrame;
+  rules_.frame = scene::kLastFrame;
   EXPECT_EQ(read("p.dump", kTwoFrames).position, p.position);
   rules_.frame = 0;
   EXPECT_EQ(read("p.dump", kTwoFrames).position, (std::vector<Vec3d>{{3.125, 4, 1}, {0.25, 1.5, 2}, {-0.5, 2, 3}}));

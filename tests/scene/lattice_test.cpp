@@ -11,7 +11,7 @@
 namespace hooke {
 namespace {
 
-std::vector<Vec3d> sites(const Lattice& lattice, std::uint64_t count = ~std::uint64_t{0}) {
+std::vector<Vec3d> sites(const scene::Lattice& lattice, std::uint64_t count = ~std::uint64_t{0}) {
   std::vector<Vec3d> all;
   lattice.append_sites(count, all);
   return all;
@@ -29,17 +29,17 @@ double smallest_distance(const std::vector<Vec3d>& points) {
 }
 
 TEST(UpDirection, IsAgainstGravity) {
-  EXPECT_EQ(up_against({0, -9.8, 0}).axis, 1);
-  EXPECT_TRUE(up_against({0, -9.8, 0}).positive);
-  EXPECT_EQ(up_against({2, -1, -9.8}).axis, 2);
-  EXPECT_EQ(up_against({9.8, 0, 0}).axis, 0);
-  EXPECT_FALSE(up_against({9.8, 0, 0}).positive);
-  EXPECT_EQ(up_against({0, 0, 0}).axis, 1);
-  EXPECT_TRUE(up_against({0, 0, 0}).positive);
+  EXPECT_EQ(scene::up_against({0, -9.8, 0}).axis, 1);
+  EXPECT_TRUE(scene::up_against({0, -9.8, 0}).positive);
+  EXPECT_EQ(scene::up_against({2, -1, -9.8}).axis, 2);
+  EXPECT_EQ(scene::up_against({9.8, 0, 0}).axis, 0);
+  EXPECT_FALSE(scene::up_against({9.8, 0, 0}).positive);
+  EXPECT_EQ(scene::up_against({0, 0, 0}).axis, 1);
+  EXPECT_TRUE(scene::up_against({0, 0, 0}).positive);
 }
 
 TEST(Lattice, CubicFillsTheBoxWithBothFaces) {
-  const Lattice lattice(LatticeKind::cubic, {{0, 0, 0}, {1, 2, 3}}, 1, {});
+  const scene::Lattice lattice(scene::LatticeKind::cubic, {{0, 0, 0}, {1, 2, 3}}, 1, {});
   EXPECT_EQ(lattice.site_count(), 2U * 3U * 4U);
   const auto all = sites(lattice);
   ASSERT_EQ(all.size(), 24U);
@@ -51,15 +51,15 @@ TEST(Lattice, CubicFillsTheBoxWithBothFaces) {
 TEST(Lattice, CountsDespiteRounding) {
   // 9.999999 spacings hold eleven sites; the last one is drawn back to the face.
   const Box3d box{{0, 0, 0}, {9.999999, 0, 0}};
-  const Lattice lattice(LatticeKind::cubic, box, 1, {});
+  const scene::Lattice lattice(scene::LatticeKind::cubic, box, 1, {});
   EXPECT_EQ(lattice.site_count(), 11U);
   for (const Vec3d& x : sites(lattice)) EXPECT_LE(x.x, box.max.x);
-  EXPECT_EQ(Lattice(LatticeKind::cubic, {{0, 0, 0}, {0.7, 0, 0}}, 0.1, {}).site_count(), 8U);
-  EXPECT_EQ(Lattice(LatticeKind::cubic, {{0, 0, 0}, {9.99, 0, 0}}, 1, {}).site_count(), 10U);
+  EXPECT_EQ(scene::Lattice(scene::LatticeKind::cubic, {{0, 0, 0}, {0.7, 0, 0}}, 0.1, {}).site_count(), 8U);
+  EXPECT_EQ(scene::Lattice(scene::LatticeKind::cubic, {{0, 0, 0}, {9.99, 0, 0}}, 1, {}).site_count(), 10U);
 }
 
 TEST(Lattice, HcpIsClosePacked) {
-  const Lattice lattice(LatticeKind::hcp, {{0, 0, 0}, {5, 5, 5}}, 1, {});
+  const scene::Lattice lattice(scene::LatticeKind::hcp, {{0, 0, 0}, {5, 5, 5}}, 1, {});
   const auto all = sites(lattice);
   EXPECT_EQ(all.size(), lattice.site_count());
   EXPECT_NEAR(smallest_distance(all), 1, 1e-12);
@@ -83,9 +83,10 @@ TEST(Lattice, HcpIsClosePacked) {
 }
 
 TEST(Lattice, ComesInWholeLayersLowestFirst) {
-  for (const UpDirection up : {UpDirection{1, true}, UpDirection{2, true}, UpDirection{0, false}}) {
-    for (const LatticeKind kind : {LatticeKind::cubic, LatticeKind::hcp}) {
-      const auto all = sites(Lattice(kind, {{0, 0, 0}, {4, 4, 4}}, 1, up));
+  for (const scene::UpDirection up :
+       {scene::UpDirection{1, true}, scene::UpDirection{2, true}, scene::UpDirection{0, false}}) {
+    for (const scene::LatticeKind kind : {scene::LatticeKind::cubic, scene::LatticeKind::hcp}) {
+      const auto all = sites(scene::Lattice(kind, {{0, 0, 0}, {4, 4, 4}}, 1, up));
       double last = -INFINITY;
       for (const Vec3d& x : all) {
         const double height = up.positive ? component(x, up.axis) : -component(x, up.axis);
@@ -98,7 +99,7 @@ TEST(Lattice, ComesInWholeLayersLowestFirst) {
 }
 
 TEST(Lattice, StopsAtTheCount) {
-  const Lattice lattice(LatticeKind::cubic, {{0, 0, 0}, {9, 9, 9}}, 1, {});
+  const scene::Lattice lattice(scene::LatticeKind::cubic, {{0, 0, 0}, {9, 9, 9}}, 1, {});
   const auto some = sites(lattice, 250);
   ASSERT_EQ(some.size(), 250U);
   EXPECT_EQ(some[99].y, 0);
@@ -107,9 +108,9 @@ TEST(Lattice, StopsAtTheCount) {
 }
 
 TEST(Lattice, CountsMoreThanThereCouldBe) {
-  const Lattice lattice(LatticeKind::cubic, {{0, 0, 0}, {1e12, 1e12, 1e12}}, 1e-3, {});
+  const scene::Lattice lattice(scene::LatticeKind::cubic, {{0, 0, 0}, {1e12, 1e12, 1e12}}, 1e-3, {});
   EXPECT_GE(lattice.site_count(), std::uint64_t{1} << 62U);
-  EXPECT_EQ(Lattice(LatticeKind::hcp, {{0, 0, 0}, {1, -1, 1}}, 1, {}).site_count(), 0U);
+  EXPECT_EQ(scene::Lattice(scene::LatticeKind::hcp, {{0, 0, 0}, {1, -1, 1}}, 1, {}).site_count(), 0U);
 }
 
 }  // namespace

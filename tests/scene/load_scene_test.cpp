@@ -16,14 +16,14 @@ namespace hooke {
 namespace {
 
 // The minimal scene with some of it replaced.
-Expected<LoadedScene> load(std::vector<std::string> overrides, const std::filesystem::path& folder = ".") {
-  LoadOptions options;
+Expected<scene::LoadedScene> load(std::vector<std::string> overrides, const std::filesystem::path& folder = ".") {
+  scene::LoadOptions options;
   options.overrides = std::move(overrides);
-  return parse_scene(kMinimalScene, "scene.json", folder, options);
+  return scene::parse_scene(kMinimalScene, "scene.json", folder, options);
 }
 
 // The minimal scene with this one source.
-LoadedScene with_source(const std::string& source, std::vector<std::string> overrides = {}) {
+scene::LoadedScene with_source(const std::string& source, std::vector<std::string> overrides = {}) {
   overrides.push_back("particles=[" + source + "]");
   auto loaded = load(std::move(overrides));
   if (loaded) return std::move(*loaded);
@@ -34,7 +34,7 @@ LoadedScene with_source(const std::string& source, std::vector<std::string> over
 TEST(LoadScene, FillsInEveryDefault) {
   const auto loaded = load({});
   ASSERT_TRUE(loaded) << loaded.error().text();
-  const Json resolved = Json::parse(loaded->resolved);
+  const scene::Json resolved = scene::Json::parse(loaded->resolved);
   EXPECT_EQ(resolved.at("time").at("integrator"), "symplectic-euler");
   EXPECT_EQ(resolved.at("precision"), "single");
   EXPECT_EQ(resolved.at("domain").at("walls"), "spring");
@@ -69,7 +69,7 @@ TEST(LoadScene, AttractsOnlyWhereTheSceneSaysSo) {
 }
 
 TEST(LoadScene, ReadsEmittersAndSinks) {
-  const auto loaded = parse_scene(R"({
+  const auto loaded = scene::parse_scene(R"({
   "hooke": 1,
   "time": { "step": 0.01, "end": 1 },
   "domain": { "min": [0, 0, 0], "max": [10, 10, 10] },
@@ -83,7 +83,7 @@ TEST(LoadScene, ReadsEmittersAndSinks) {
       "count": 100000, "respawn": true, "seed": 7, "motion": { "velocity": [0, 1, 0] } } ],
   "sinks": [ { "shape": { "plane": { "point": [0, 1, 0], "normal": [0, 1, 0] } } } ]
 })",
-                                  "scene.json", ".");
+                                         "scene.json", ".");
   ASSERT_TRUE(loaded) << loaded.error().text();
   const Scene& scene = loaded->scene;
   EXPECT_TRUE(scene.materials[0].interacts);
@@ -155,7 +155,7 @@ TEST(LoadScene, ContactsTakeTheMixedValueWhereTheyNameNone) {
   EXPECT_EQ(loaded->scene.contacts[1].coefficients, (ContactCoefficients<double>{300, 0, 4}));
   EXPECT_EQ(loaded->scene.contacts[1].a, 1U);
   EXPECT_EQ(loaded->scene.contacts[1].b, ContactEntry::kWall);
-  EXPECT_EQ(Json::parse(loaded->resolved).at("contacts")[0].at("stiffness"), 150);
+  EXPECT_EQ(scene::Json::parse(loaded->resolved).at("contacts")[0].at("stiffness"), 150);
 }
 
 TEST(LoadScene, CountFillsWholeLayersFromTheLowest) {
@@ -245,15 +245,15 @@ TEST(LoadScene, SourcesWithoutIdsNumberOn) {
 }
 
 TEST(LoadScene, WithoutParticlesNothingIsRead) {
-  LoadOptions options;
+  scene::LoadOptions options;
   options.with_particles = false;
   options.overrides = {"particles[0]={\"material\":\"water\",\"file\":\"not-there.csv\"}",
                        "particles[1]={\"material\":\"wine\",\"file\":\"not-there.csv\"}"};
-  const auto refused = parse_scene(kMinimalScene, "scene.json", "/nowhere", options);
+  const auto refused = scene::parse_scene(kMinimalScene, "scene.json", "/nowhere", options);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().findings.size(), 1U);
   options.overrides.pop_back();
-  const auto loaded = parse_scene(kMinimalScene, "scene.json", "/nowhere", options);
+  const auto loaded = scene::parse_scene(kMinimalScene, "scene.json", "/nowhere", options);
   ASSERT_TRUE(loaded) << loaded.error().text();
   EXPECT_TRUE(loaded->particles.empty());
 }
@@ -267,16 +267,16 @@ TEST(LoadScene, ASceneMayHaveNoParticles) {
 TEST(LoadScene, LoadsTheSameFromTheCurrentFolder) {
   const ScratchFolder folder;
   const auto file = folder.write("scene.json", kMinimalScene);
-  const auto loaded = load_scene(file);
+  const auto loaded = scene::load_scene(file);
   ASSERT_TRUE(loaded) << loaded.error().text();
   EXPECT_EQ(loaded->particles.size(), 2U);
 }
 
 TEST(LoadScene, NamesAFileThatCannotBeRead) {
-  const auto missing = load_scene("/nowhere/scene.json");
+  const auto missing = scene::load_scene("/nowhere/scene.json");
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().text(), "/nowhere/scene.json: can't be opened: No such file or directory");
-  const auto folder = load_scene("/tmp");
+  const auto folder = scene::load_scene("/tmp");
   ASSERT_FALSE(folder);
   EXPECT_EQ(folder.error().text(), "/tmp: can't be read: it is a folder");
 }

@@ -89,9 +89,9 @@ TEST(BouncingBall, GoesTheSameWayOverAMeshOfAShape) {
 TEST(DistanceField, HasTheSameBitsEveryTime) {
   HOOKE_NEEDS_OPENVDB();
   const TriangleMesh mesh = ball_mesh(0, 1, 64);
-  const DistanceField a = make_distance_field(mesh, {0.07, 0.2, true}).value();
+  const DistanceField a = volumes::make_distance_field(mesh, {0.07, 0.2, true}).value();
   for (int i = 0; i < 3; ++i) {
-    const DistanceField b = make_distance_field(mesh, {0.07, 0.2, true}).value();
+    const DistanceField b = volumes::make_distance_field(mesh, {0.07, 0.2, true}).value();
     EXPECT_EQ(a.samples, b.samples);
     EXPECT_EQ(a.keys, b.keys);
   }
@@ -106,7 +106,7 @@ TEST(MeshCollider, KeepsFeaturesOfOneRadius) {
   sheet.triangles = {{0, 2, 1}, {0, 3, 2}};
   for (const TriangleMesh& mesh : {box_mesh({-2, -0.5, -2}, {2, 0, 2}), sheet}) {
     for (const double side : {1.0, -1.0}) {
-      const bool open = count_open_edges(mesh) > 0;
+      const bool open = scene::count_open_edges(mesh) > 0;
       Scene scene = open_scene();
       scene.gravity = {0, -9.8 * side, 0};
       scene.colliders.resize(1);
@@ -146,18 +146,18 @@ TEST(MeshFile, IsReadInEveryFormatWithItsPlace) {
   folder.write("box.ply", ply);
   folder.write("box.stl", stl + "endsolid box\n");
   for (const char* name : {"box.obj", "box.stl", "box.ply"}) {
-    const auto read = read_mesh(folder.path() / name);
+    const auto read = scene::read_mesh(folder.path() / name);
     ASSERT_TRUE(read) << name << ": " << read.error().text();
     EXPECT_EQ(read->vertices.size(), 8U) << name << ": corners become one";
     EXPECT_EQ(read->triangles.size(), 12U) << name;
-    EXPECT_EQ(count_open_edges(*read), 0U) << name;
+    EXPECT_EQ(scene::count_open_edges(*read), 0U) << name;
     const std::string scene = R"({ "hooke": 1, "time": { "step": 0.01, "end": 1 },
       "domain": { "min": [0, 0, 0], "max": [10, 10, 10] },
       "materials": { "water": { "radius": 0.5, "mass": 2, "stiffness": 100 } }, "particles": [],
       "colliders": [ { "shape": { "mesh": { "file": ")" +
                               std::string(name) +
                               R"(", "scale": 2, "rotate": [0, 0, 3, 90], "translate": [5, 1, 1] } } } ] })";
-    const auto loaded = parse_scene(scene, "scene.json", folder.path());
+    const auto loaded = scene::parse_scene(scene, "scene.json", folder.path());
     ASSERT_TRUE(loaded) << loaded.error().text();
     const Box3d bounds = bounds_of(loaded->scene.colliders.at(0).shape);
     // 2 x 4 x 6 m; a quarter of a turn about z brings x to y and y to -x.
@@ -174,11 +174,11 @@ TEST(MeshCollider, SaysThatAMeshIsOpen) {
   HOOKE_NEEDS_OPENVDB();
   const ScratchFolder folder;
   folder.write("funnel.obj", obj_text(turned({{2, 2}, {0.5, 0}}, 32)));
-  const auto loaded = parse_scene(R"({ "hooke": 1, "time": { "step": 0.01, "end": 1 },
+  const auto loaded = scene::parse_scene(R"({ "hooke": 1, "time": { "step": 0.01, "end": 1 },
       "domain": { "min": [-5, -5, -5], "max": [5, 5, 5] },
       "materials": { "water": { "radius": 0.1, "mass": 2, "stiffness": 100 } }, "particles": [],
       "colliders": [ { "shape": { "mesh": { "file": "funnel.obj" } } } ] })",
-                                  "scene.json", folder.path());
+                                         "scene.json", folder.path());
   ASSERT_TRUE(loaded) << loaded.error().text();
   ASSERT_EQ(loaded->warnings.size(), 1U);
   EXPECT_EQ(loaded->warnings[0].where, "colliders[0].shape.mesh.file");

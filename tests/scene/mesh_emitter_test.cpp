@@ -96,7 +96,7 @@ TEST(MeshEmitter, IsTheSameOnEveryBackEnd) {
   const ScratchFolder folder;
   folder.write("ball.obj", obj_text(ball_mesh(0, 1, 48)));
   folder.write("sheet.obj", obj_text(turned({{1, 0.3}, {0.2, 0}}, 24)));
-  const auto loaded = parse_scene(R"({ "hooke": 1, "time": { "step": 0.001, "end": 1 }, "precision": "double",
+  const auto loaded = scene::parse_scene(R"({ "hooke": 1, "time": { "step": 0.001, "end": 1 }, "precision": "double",
       "domain": { "min": [-5, -5, -5], "max": [5, 5, 5] }, "gravity": [0, -9.8, 0],
       "materials": { "water": { "radius": 0.05, "mass": 1, "stiffness": 1000, "damping": 1 } }, "particles": [],
       "emitters": [
@@ -104,7 +104,7 @@ TEST(MeshEmitter, IsTheSameOnEveryBackEnd) {
           "direction": [0, -1, 0], "motion": { "velocity": [0.5, 0, 0], "angular_velocity": [0, 2, 0] } },
         { "material": "water", "rate": 2000, "shape": { "mesh": { "file": "sheet.obj", "translate": [3, 0, 0] } } } ],
       "sinks": [ { "shape": { "mesh": { "file": "ball.obj", "translate": [0, -1.5, 0] } } } ] })",
-                                  "scene.json", folder.path());
+                                         "scene.json", folder.path());
   ASSERT_TRUE(loaded) << loaded.error().text();
   EXPECT_TRUE(loaded->warnings.empty());
   EXPECT_EQ(loaded->files.size(), 3U);

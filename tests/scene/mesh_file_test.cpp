@@ -120,7 +120,7 @@ class MeshFileTest : public testing::Test {
  protected:
   Expected<TriangleMesh> read(const std::string& name, std::string_view bytes) {
     warnings_.clear();
-    return read_mesh(folder_.write(name, bytes), &warnings_);
+    return scene::read_mesh(folder_.write(name, bytes), &warnings_);
   }
   std::string refusal(const std::string& name, std::string_view bytes) {
     const auto mesh = read(name, bytes);
@@ -131,7 +131,7 @@ class MeshFileTest : public testing::Test {
     ASSERT_TRUE(mesh) << name << ": " << mesh.error().text();
     EXPECT_EQ(mesh->vertices.size(), 8U) << name;
     EXPECT_EQ(mesh->triangles.size(), 12U) << name;
-    EXPECT_EQ(count_open_edges(*mesh), 0U) << name;
+    EXPECT_EQ(scene::count_open_edges(*mesh), 0U) << name;
     double volume = 0;
     for (const auto& t : mesh->triangles) {
       volume += dot(mesh->vertices[t[0]], cross(mesh->vertices[t[1]], mesh->vertices[t[2]])) / 6;
@@ -139,14 +139,15 @@ class MeshFileTest : public testing::Test {
     EXPECT_DOUBLE_EQ(volume, 1) << name;
   }
   // A scene with a ball above the mesh in `file`.
-  Expected<LoadedScene> load(const std::string& file, const std::string& extra = "", const LoadOptions& options = {}) {
-    return parse_scene(R"({ "hooke": 1, "time": { "step": 0.001, "steps": 1500 }, "precision": "double",
+  Expected<scene::LoadedScene> load(const std::string& file, const std::string& extra = "",
+                                    const scene::LoadOptions& options = {}) {
+    return scene::parse_scene(R"({ "hooke": 1, "time": { "step": 0.001, "steps": 1500 }, "precision": "double",
         "gravity": [0, -9.81, 0], "domain": { "min": [-1, -1, -1], "max": [3, 3, 3], "walls": "open" },
         "materials": { "grain": { "radius": 0.25, "mass": 1, "stiffness": 10000, "damping": 60 } },
         "particles": [ { "material": "grain", "block": { "min": [0.5, 1.4, 0.5], "max": [0.5, 1.4, 0.5], "spacing": 1 } } ],
         "colliders": [ { "shape": { "mesh": { "file": ")" +
-                           file + "\"" + extra + " } } } ] }",
-                       "scene.json", folder_.path(), options);
+                                  file + "\"" + extra + " } } } ] }",
+                              "scene.json", folder_.path(), options);
   }
 
   ScratchFolder folder_;
@@ -191,7 +192,7 @@ TEST_F(MeshFileTest, ReadsObjInDouble) {
   EXPECT_EQ(mesh->vertices.size(), 8U);
   EXPECT_EQ(mesh->vertices[0].x, 500000.123456);
   EXPECT_EQ(mesh->vertices[1].x, 500000.123457);
-  EXPECT_EQ(count_open_edges(*mesh), 0U);
+  EXPECT_EQ(scene::count_open_edges(*mesh), 0U);
 }
 
 TEST_F(MeshFileTest, CutsConcaveFacesIntoTrianglesInsideThem) {
@@ -337,7 +338,7 @@ TEST_F(MeshFileTest, WeldsSlits) {
   const auto mesh = read("slit.stl", bytes);
   ASSERT_TRUE(mesh);
   EXPECT_EQ(mesh->vertices.size(), 8U);
-  EXPECT_EQ(count_open_edges(*mesh), 0U);
+  EXPECT_EQ(scene::count_open_edges(*mesh), 0U);
   EXPECT_THAT(warnings_,
               ElementsAre("has open edges with 3 vertices within 1.7e-05 of others, in the file's unit; they "
                           "are welded"));
@@ -345,7 +346,7 @@ TEST_F(MeshFileTest, WeldsSlits) {
   append_facet(bytes, {1, 6, 5}, 1e-3F);
   const auto open = read("gap.stl", bytes);
   ASSERT_TRUE(open);
-  EXPECT_EQ(count_open_edges(*open), 6U);
+  EXPECT_EQ(scene::count_open_edges(*open), 6U);
   EXPECT_TRUE(warnings_.empty());
 }
 
@@ -368,11 +369,11 @@ TEST_F(MeshFileTest, LeavesDetailsOfClosedSurfacesAlone) {
 TEST_F(MeshFileTest, TellsWhichEdgesAreOpen) {
   TriangleMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
   mesh.triangles.push_back({mesh.triangles[0][0], mesh.triangles[0][2], mesh.triangles[0][1]});  // from the other side
-  OpenEdges open = open_edges(mesh);
+  scene::OpenEdges open = scene::open_edges(mesh);
   EXPECT_EQ(open.single, 0U);
   EXPECT_EQ(open.odd, 3U);
   mesh.triangles.resize(11);
-  open = open_edges(mesh);
+  open = scene::open_edges(mesh);
   EXPECT_EQ(open.single, 3U);
   EXPECT_EQ(open.odd, 0U);
 }
@@ -412,7 +413,7 @@ TEST_F(MeshFileTest, RefusesAtOnceWhatIsTooLarge) {
   EXPECT_THAT(load("long.obj").error().text(),
               HasSubstr("or more; at most 2.5e+08 are possible, so give a larger \"voxel\" or a smaller \"scale\""));
   folder_.write("cube.stl", binary_stl());
-  LoadOptions options;
+  scene::LoadOptions options;
   options.memory_limit = 1000;
   options.overrides = {"particles=[]"};
   EXPECT_THAT(load("cube.stl", "", options).error().text(), HasSubstr("1000 bytes are available"));

@@ -14,7 +14,7 @@ inline MeshShape shape_of(const TriangleMesh& mesh, double cell, double reach) {
   MeshShape shape;
   shape.surface = std::make_shared<const TriangleMesh>(mesh);
   shape.field = std::make_shared<const DistanceField>(
-      make_distance_field(mesh, {cell, reach, count_open_edges(mesh) == 0}).value());
+      volumes::make_distance_field(mesh, {cell, reach, scene::count_open_edges(mesh) == 0}).value());
   return shape;
 }
 

@@ -18,9 +18,9 @@ namespace {
 class Names : public FileReading {
  protected:
   std::string refusal_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
-    LoadOptions options;
+    scene::LoadOptions options;
     options.overrides = overrides;
-    const auto loaded = parse_scene(text, "scene.json", folder_.path(), options);
+    const auto loaded = scene::parse_scene(text, "scene.json", folder_.path(), options);
     return loaded ? "" : loaded.error().text();
   }
 };
@@ -86,7 +86,7 @@ TEST_F(Names, OfVeryManyWrongKeysAreCountedOff) {
   for (int i = 0; i < 100000; ++i) keys += "\"w" + std::to_string(i) + "\":1,";
   scene.replace(scene.find("\"water\": {"), 10, keys);
   const std::string text = refusal_of(scene);
-  EXPECT_EQ(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')), Findings::kMost);
+  EXPECT_EQ(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')), scene::Findings::kMost);
   EXPECT_NE(text.find("scene.json: has more findings, which are left out here"), std::string::npos);
   EXPECT_LT(text.size(), 1000000U);
   std::string particles = "0";

@@ -11,10 +11,10 @@
 namespace hooke {
 namespace {
 
-Expected<LoadedScene> load_with(std::vector<std::string> overrides) {
-  LoadOptions options;
+Expected<scene::LoadedScene> load_with(std::vector<std::string> overrides) {
+  scene::LoadOptions options;
   options.overrides = std::move(overrides);
-  return parse_scene(kMinimalScene, "scene.json", ".", options);
+  return scene::parse_scene(kMinimalScene, "scene.json", ".", options);
 }
 
 std::string complaints(std::vector<std::string> overrides) {

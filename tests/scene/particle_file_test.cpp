@@ -18,10 +18,10 @@ namespace {
 
 class ParticleFileTest : public FileReading {
  protected:
-  Expected<LoadedScene> load(const std::string& source) {
-    LoadOptions options;
+  Expected<scene::LoadedScene> load(const std::string& source) {
+    scene::LoadOptions options;
     options.overrides = {"materials.oil={\"radius\":0.5,\"mass\":2,\"stiffness\":1}", "particles=[" + source + "]"};
-    return parse_scene(kMinimalScene, "scene.json", folder_.path(), options);
+    return scene::parse_scene(kMinimalScene, "scene.json", folder_.path(), options);
   }
 };
 
@@ -127,9 +127,9 @@ TEST_F(ParticleFileTest, ReadsHalfAMillionQuickly) {
                      rows("", " 1 ", ' ')}};
   for (const auto& [name, text] : files) {
     const auto file = folder_.write(name, text);
-    EXPECT_EQ(count_particles(file, rules_), static_cast<std::uint64_t>(kCount)) << name;
+    EXPECT_EQ(scene::count_particles(file, rules_), static_cast<std::uint64_t>(kCount)) << name;
     const auto start = std::chrono::steady_clock::now();
-    const auto p = read_particle_file(file, name, rules_, findings_, warnings_);
+    const auto p = scene::read_particle_file(file, name, rules_, findings_, warnings_);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     EXPECT_EQ(complaints(), "") << name;
     EXPECT_EQ(p.position.size(), static_cast<std::size_t>(kCount)) << name;

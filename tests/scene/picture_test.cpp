@@ -10,10 +10,10 @@
 namespace hooke {
 namespace {
 
-Expected<LoadedScene> load(std::vector<std::string> overrides) {
-  LoadOptions options;
+Expected<scene::LoadedScene> load(std::vector<std::string> overrides) {
+  scene::LoadOptions options;
   options.overrides = std::move(overrides);
-  return parse_scene(kMinimalScene, "scene.json", ".", options);
+  return scene::parse_scene(kMinimalScene, "scene.json", ".", options);
 }
 
 std::string error_of(std::vector<std::string> overrides) {

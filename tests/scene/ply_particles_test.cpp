@@ -68,7 +68,7 @@ std::string binary(bool big) {
   return text;
 }
 
-void expect_both(const FileParticles& p) {
+void expect_both(const scene::FileParticles& p) {
   EXPECT_EQ(p.id, (std::vector<std::uint64_t>{4000000000U, 4000000001U}));
   EXPECT_EQ(p.material, (std::vector<std::uint16_t>{1, 0}));
   EXPECT_EQ(p.position, (std::vector<Vec3d>{{0.1, 2, -3}, {1.1, 3, -4}}));
@@ -177,7 +177,7 @@ TEST_F(PlyParticlesTest, BelievesNoCount) {
     const std::string vertex =
         "element vertex 1000000000000000000\nproperty float x\nproperty float y\nproperty float z\n";
     const auto file = folder_.write("p.ply", head + vertex + "end_header\n");
-    EXPECT_LE(count_particles(file, rules_), 1U);
+    EXPECT_LE(scene::count_particles(file, rules_), 1U);
     EXPECT_NE(
         refusal("p.ply", head + vertex + "end_header\n").find("ends here, after 0 of 1000000000000000000 particles"),
         std::string::npos);

@@ -19,27 +19,27 @@ namespace {
 const Box3d kBox{{0, 0, 0}, {1, 1, 1}};
 
 TEST(ScenePreconditions, CentresAreApart) {
-  EXPECT_ASSERTS(Lattice(LatticeKind::cubic, kBox, 0, {}), "spacing = 0");
-  EXPECT_ASSERTS(Lattice(LatticeKind::cubic, kBox, 1, {3, true}), "up.axis = 3");
-  EXPECT_ASSERTS((void)random_packing(kBox, -1, 10, 1), "spacing = -1");
-  EXPECT_ASSERTS((void)random_packing_bound(kBox, 0), "spacing = 0");
-  BlockSource block;
+  EXPECT_ASSERTS(scene::Lattice(scene::LatticeKind::cubic, kBox, 0, {}), "spacing = 0");
+  EXPECT_ASSERTS(scene::Lattice(scene::LatticeKind::cubic, kBox, 1, {3, true}), "up.axis = 3");
+  EXPECT_ASSERTS((void)scene::random_packing(kBox, -1, 10, 1), "spacing = -1");
+  EXPECT_ASSERTS((void)scene::random_packing_bound(kBox, 0), "spacing = 0");
+  scene::BlockSource block;
   block.path = "particles[0].block";
   block.spacing = 0;
-  EXPECT_ASSERTS((void)expected_count(block), "block.path = \"particles[0].block\", block.spacing = 0");
+  EXPECT_ASSERTS((void)scene::expected_count(block), "block.path = \"particles[0].block\", block.spacing = 0");
 }
 
 TEST(ScenePreconditions, ClustersAreValid) {
-  ClusterSource cluster;
-  EXPECT_ASSERTS((void)make_cluster(cluster, 0, {}), "mass = 0");
+  scene::ClusterSource cluster;
+  EXPECT_ASSERTS((void)scene::make_cluster(cluster, 0, {}), "mass = 0");
   cluster.normal = {0, 0, 0};
-  EXPECT_ASSERTS((void)make_cluster(cluster, 1, {}), "cluster.normal = (0, 0, 0)");
+  EXPECT_ASSERTS((void)scene::make_cluster(cluster, 1, {}), "cluster.normal = (0, 0, 0)");
 }
 
 TEST(ScenePreconditions, PiecesOfFilesAreBounded) {
   const ScratchFolder folder;
-  FileScanner scanner(folder.write("some.csv", "x,y,z\n"));
-  EXPECT_ASSERTS((void)scanner.bytes(FileScanner::kLongestLine + 1), "count = 1048577");
+  scene::FileScanner scanner(folder.write("some.csv", "x,y,z\n"));
+  EXPECT_ASSERTS((void)scanner.bytes(scene::FileScanner::kLongestLine + 1), "count = 1048577");
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void expect_same(const LoadedScene& a, const LoadedScene& b) {
+void expect_same(const scene::LoadedScene& a, const scene::LoadedScene& b) {
   EXPECT_EQ(a.resolved, b.resolved);
   EXPECT_EQ(a.particles.id, b.particles.id);
   EXPECT_EQ(a.particles.material, b.particles.material);
@@ -25,13 +25,13 @@ void expect_same(const LoadedScene& a, const LoadedScene& b) {
   EXPECT_EQ(a.scene.time_step, b.scene.time_step);
 }
 
-LoadedScene load_and_reload(const fs::path& file) {
-  const auto loaded = load_scene(file);
+scene::LoadedScene load_and_reload(const fs::path& file) {
+  const auto loaded = scene::load_scene(file);
   if (!loaded) {
     ADD_FAILURE() << file << "\n" << loaded.error().text();
     return {};
   }
-  const auto again = parse_scene(loaded->resolved, "resolved", file.parent_path());
+  const auto again = scene::parse_scene(loaded->resolved, "resolved", file.parent_path());
   if (again) {
     expect_same(*loaded, *again);
   } else {
@@ -48,15 +48,15 @@ TEST(RealScenes, TheGalleryLoads) {
   EXPECT_EQ(load_and_reload(folder / "galaxy.json").particles.size(), 20000U);
   EXPECT_EQ(load_and_reload(folder / "fireworks.json").scene.emitters.size(), 29U);
   EXPECT_EQ(load_and_reload(folder / "fountain.json").scene.sinks.size(), 1U);
-  const LoadedScene mixed = load_and_reload(folder / "mixed.json");
+  const scene::LoadedScene mixed = load_and_reload(folder / "mixed.json");
   EXPECT_NEAR(static_cast<double>(mixed.particles.size()), 20000, 2000);
   EXPECT_EQ(mixed.scene.materials.size(), 2U);
 }
 
 TEST(RealScenes, TableSixOneIsLiteral) {
-  LoadOptions options;
+  scene::LoadOptions options;
   options.with_particles = false;
-  const auto loaded = load_scene(HOOKE_SOURCE_DIR "/scenes/table-6.1.json", options);
+  const auto loaded = scene::load_scene(HOOKE_SOURCE_DIR "/scenes/table-6.1.json", options);
   ASSERT_TRUE(loaded) << loaded.error().text();
   const Material& m = loaded->scene.materials.at(0);
   EXPECT_EQ(m.contact.stiffness, 0.4);
@@ -69,7 +69,7 @@ TEST(RealScenes, TableSixOneIsLiteral) {
 
 // The commented example of the reference page is a scene, and uses every key.
 TEST(RealScenes, TheExampleOfTheReferenceLoads) {
-  const auto loaded = load_scene(HOOKE_SOURCE_DIR "/schema/example.json");
+  const auto loaded = scene::load_scene(HOOKE_SOURCE_DIR "/schema/example.json");
   ASSERT_TRUE(loaded) << loaded.error().text();
   EXPECT_EQ(loaded->scene.materials.size(), 2U);
   EXPECT_GT(loaded->particles.size(), 0U);
@@ -82,7 +82,7 @@ TEST(RealScenes, EveryCaseOfTheReferenceSetLoads) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (!fs::exists(entry.path() / "scene.json")) continue;
     ++cases;
-    const LoadedScene loaded = load_and_reload(entry.path() / "scene.json");
+    const scene::LoadedScene loaded = load_and_reload(entry.path() / "scene.json");
     std::ifstream csv(entry.path() / "initial.csv");
     const auto rows = std::count(std::istreambuf_iterator<char>(csv), {}, '\n') - 1;
     EXPECT_EQ(loaded.particles.size(), static_cast<std::size_t>(rows)) << entry.path();

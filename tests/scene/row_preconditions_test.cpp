@@ -18,19 +18,23 @@ namespace {
 
 TEST(ScenePreconditions, RowsAreOfTheScenesMaterials) {
   const Material water;
-  Findings findings("");
+  scene::Findings findings("");
   std::vector<Finding> warnings;
-  ParticleFileRules rules;
+  scene::ParticleFileRules rules;
   rules.materials = std::span(&water, 1);
-  ParticleRows rows(rules, "some.csv", false, findings, warnings);
-  Row row = rows.blank();
+  scene::ParticleRows rows(rules, "some.csv", false, findings, warnings);
+  scene::Row row = rows.blank();
   row.material = 4;
   EXPECT_ASSERTS(rows.add(row, 12), "row.material = 4, rules_.materials.size() = 1, place = 12");
-  EXPECT_ASSERTS((void)row[Quantity::id], "field = 8");
-  EXPECT_TRUE(rows.set_columns({{Quantity::x, "x"}, {Quantity::y, "y"}, {Quantity::z, "z"}, {Quantity::material, "m"}}, 1));
+  EXPECT_ASSERTS((void)row[scene::Quantity::id], "field = 8");
+  EXPECT_TRUE(rows.set_columns({{scene::Quantity::x, "x"},
+                                {scene::Quantity::y, "y"},
+                                {scene::Quantity::z, "z"},
+                                {scene::Quantity::material, "m"}},
+                               1));
   EXPECT_ASSERTS(rows.set_labels({}), "columns_.size() = 4");
   rules.material = 1;
-  EXPECT_ASSERTS((void)read_particle_file("some.csv", "some.csv", rules, findings, warnings),
+  EXPECT_ASSERTS((void)scene::read_particle_file("some.csv", "some.csv", rules, findings, warnings),
                  "rules.materials.size() = 1");
 }
 

@@ -24,7 +24,7 @@ class ScenePathTest : public testing::Test {
     fs::create_symlink(home_ / "inside.csv", home_ / "data" / "alias.csv");
   }
   std::string refusal(const std::string& name, bool allow_outside = false) {
-    const auto found = find_scene_file(home_, name, allow_outside);
+    const auto found = scene::find_scene_file(home_, name, allow_outside);
     return found ? "" : found.error().findings.front().message;
   }
 

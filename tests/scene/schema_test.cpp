@@ -14,7 +14,7 @@ namespace {
 
 // Calls `look` with every part of the schema that constrains a value, and its path.
 template <class Look>
-void walk(const Json& schema, const std::string& path, Look look) {
+void walk(const scene::Json& schema, const std::string& path, Look look) {
   look(schema, path);
   for (const char* keyword : {"items", "additionalProperties"}) {
     if (schema.contains(keyword) && schema.at(keyword).is_object())
@@ -26,7 +26,7 @@ void walk(const Json& schema, const std::string& path, Look look) {
 }
 
 TEST(Schema, DescribesEveryKey) {
-  walk(schema_root(), "", [](const Json& part, const std::string& path) {
+  walk(scene::schema_root(), "", [](const scene::Json& part, const std::string& path) {
     if (path.size() >= 6 && path.substr(path.size() - 6) == ".items" && part.value("type", "") != "object") return;
     EXPECT_TRUE(part.contains("description")) << path;
     if (part.value("type", "") == "object") {
@@ -36,11 +36,11 @@ TEST(Schema, DescribesEveryKey) {
 }
 
 TEST(Schema, IsWhatIsPublished) {
-  EXPECT_EQ(Json::parse(scene_schema()).at("$schema"), "http://json-schema.org/draft-07/schema#");
+  EXPECT_EQ(scene::Json::parse(scene::scene_schema()).at("$schema"), "http://json-schema.org/draft-07/schema#");
 }
 
 TEST(Schema, DefaultsAreThoseOfTheStructs) {
-  const auto loaded = parse_scene(kMinimalScene, "scene.json", ".");
+  const auto loaded = scene::parse_scene(kMinimalScene, "scene.json", ".");
   ASSERT_TRUE(loaded) << loaded.error().text();
   const Scene plain;
   EXPECT_EQ(loaded->scene.integrator, plain.integrator);
@@ -54,19 +54,19 @@ TEST(Schema, DefaultsAreThoseOfTheStructs) {
 }
 
 TEST(Schema, DefaultsObeyIt) {
-  walk(schema_root(), "", [](const Json& part, const std::string& path) {
+  walk(scene::schema_root(), "", [](const scene::Json& part, const std::string& path) {
     if (!part.contains("default")) return;
-    const Json& branch = chosen_branch(part, part.at("default"));
-    EXPECT_TRUE(has_type(branch, part.at("default"))) << path;
+    const scene::Json& branch = scene::chosen_branch(part, part.at("default"));
+    EXPECT_TRUE(scene::has_type(branch, part.at("default"))) << path;
     if (branch.contains("enum")) {
-      const Json& names = branch.at("enum");
+      const scene::Json& names = branch.at("enum");
       EXPECT_NE(std::find(names.begin(), names.end(), part.at("default")), names.end()) << path;
     }
   });
 }
 
 TEST(Schema, SaysWhatIsAllowed) {
-  const auto allowed = [](const char* text) { return allowed_by(Json::parse(text)); };
+  const auto allowed = [](const char* text) { return scene::allowed_by(scene::Json::parse(text)); };
   EXPECT_EQ(allowed(R"({"type":"number","exclusiveMinimum":0,"unit":"m"})"), "a number > 0 (m)");
   EXPECT_EQ(allowed(R"({"type":"integer","minimum":1,"maximum":9})"), "a whole number >= 1 and <= 9");
   EXPECT_EQ(allowed(R"({"type":"string","enum":["a","b","c"]})"), R"("a", "b" or "c")");

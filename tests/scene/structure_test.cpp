@@ -17,10 +17,10 @@
 namespace hooke {
 namespace {
 
-LoadedScene load(std::vector<std::string> overrides, const std::filesystem::path& folder = ".") {
-  LoadOptions options;
+scene::LoadedScene load(std::vector<std::string> overrides, const std::filesystem::path& folder = ".") {
+  scene::LoadOptions options;
   options.overrides = std::move(overrides);
-  auto loaded = parse_scene(kMinimalScene, "scene.json", folder, options);
+  auto loaded = scene::parse_scene(kMinimalScene, "scene.json", folder, options);
   if (loaded) return std::move(*loaded);
   ADD_FAILURE() << loaded.error().text();
   return {};
@@ -36,7 +36,7 @@ std::map<double, int> counts(const Structure& structure) {
 TEST(SceneStructure, IsNullWhereThereIsNone) { EXPECT_EQ(load({}).scene.structure, nullptr); }
 
 TEST(SceneStructure, HoldsSpringsOfPairs) {
-  const LoadedScene loaded =
+  const scene::LoadedScene loaded =
       load({R"(particles=[{"material":"water","block":{"min":[1,1,1],"max":[3,1,1],"spacing":1}}])",
             R"(springs=[{"pairs":[[1,2],[3,2]],"stiffness":10},
                    {"pairs":[[1,3]],"stiffness":5,"damping":2,"rest_length":0.5,"mode":"extension","break_strain":0.25,
@@ -55,7 +55,7 @@ TEST(SceneStructure, HoldsSpringsOfPairs) {
 }
 
 TEST(SceneStructure, MeasuresRestLengthsAcrossPeriodicFaces) {
-  const LoadedScene loaded =
+  const scene::LoadedScene loaded =
       load({R"(particles=[{"material":"water","block":{"min":[1,1,1],"max":[9,1,1],"spacing":8}}])",
             R"(domain.walls=["periodic","spring","spring"])", R"(springs=[{"pairs":[[1,2]],"stiffness":10}])"});
   EXPECT_EQ(loaded.scene.structure->springs.rest_length, (std::vector<double>{2}));
@@ -66,7 +66,7 @@ TEST(SceneStructure, ReadsSpringsOfFiles) {
   folder.write("s.csv",
                "\xef\xbb\xbf"
                "stiffness,b,note,a\r\n7,2,x,1\r\n\r\n8,1,\"y, z\",3\r\n");
-  const LoadedScene loaded =
+  const scene::LoadedScene loaded =
       load({R"(particles=[{"material":"water","block":{"min":[1,1,1],"max":[3,1,1],"spacing":1}}])",
             R"(springs=[{"file":"s.csv","stiffness":10,"damping":3}])"},
            folder.path());
@@ -79,7 +79,7 @@ TEST(SceneStructure, ReadsSpringsOfFiles) {
 }
 
 TEST(SceneStructure, MakesAGridOfACloth) {
-  const LoadedScene loaded = load(
+  const scene::LoadedScene loaded = load(
       {R"(cloths=[{"material":"water","corner":[1,5,1],"edges":[[4,0,0],[0,0,3]],"cells":[4,3],"stretch":100,"shear":30,
                    "bend":5,"damping":0.5,"velocity":[0,-1,0],"pins":["corner:1,0","edge:2",6]}])"});
   const ParticleSet& p = loaded.particles;
@@ -112,7 +112,7 @@ TEST(SceneStructure, MakesAClothOfAMesh) {
   folder.write("m.obj",
                "o sheet\nv 1 1 1\nv 2 1 1\nv 3 1 1\nv 1 1 2\nv 2 1 2\nv 3 1 2\nvt 0 0\nvn 0 1 0\n"
                "f 1/1/1 2/1/1 5/1/1\nf 1//1 5//1 4//1\nf 2 3 6 -2\n");
-  const LoadedScene loaded =
+  const scene::LoadedScene loaded =
       load({R"(cloths=[{"material":"water","mesh":"m.obj","stretch":100,"bend":5,"pins":[0]}])"}, folder.path());
   ASSERT_EQ(loaded.particles.size(), 2U + 6);
   EXPECT_EQ(loaded.particles.position[4], (Vec3d{3, 1, 1}));
@@ -130,7 +130,7 @@ TEST(SceneStructure, WeldsSeamsOfACloth) {
   folder.write("m.obj",
                "v 1 1 1\nv 2 1 1\nv 3 1 1\nv 1 1 2\nv 2 1 2\nv 3 1 2\nv 2 1 1\nv 2 1 2\nv 5 5 5\n"
                "f 1 2 5 4\nf 7 3 6 8\n");
-  const LoadedScene loaded =
+  const scene::LoadedScene loaded =
       load({R"(cloths=[{"material":"water","mesh":"m.obj","stretch":100,"bend":5,"pins":[0,7]}])"}, folder.path());
   EXPECT_EQ(loaded.particles.size(), 2U + 6);
   EXPECT_EQ(counts(*loaded.scene.structure), (std::map<double, int>{{100, 9}, {5, 3}}));
@@ -145,9 +145,9 @@ TEST(SceneStructure, WeldsSeamsOfACloth) {
 TEST(SceneStructure, PinsNoCornerThatNoFaceUses) {
   const ScratchFolder folder;
   folder.write("m.obj", "v 1 1 1\nv 2 1 1\nv 3 1 2\nv 4 4 4\nf 1 2 3\n");
-  LoadOptions options;
+  scene::LoadOptions options;
   options.overrides = {R"(cloths=[{"material":"water","mesh":"m.obj","stretch":100,"pins":[3,4]}])"};
-  const auto loaded = parse_scene(kMinimalScene, "scene.json", folder.path(), options);
+  const auto loaded = scene::parse_scene(kMinimalScene, "scene.json", folder.path(), options);
   ASSERT_FALSE(loaded);
   EXPECT_EQ(loaded.error().text(),
             "cloths[0].pins[0]: is 3, a corner that no face uses: it is no particle\n"
@@ -157,8 +157,8 @@ TEST(SceneStructure, PinsNoCornerThatNoFaceUses) {
 TEST(SceneStructure, FillsBodiesWithTwelveNeighboursEach) {
   for (const char* shape :
        {R"({"sphere":{"center":[5,5,5],"radius":2}})", R"({"box":{"min":[3,3,3],"max":[7,6,5]}})"}) {
-    const LoadedScene loaded = load({std::string(R"(bodies=[{"material":"water","spacing":0.4,"stiffness":9,)") +
-                                     R"("break_strain":0.5,"velocity":[1,2,3],"shape":)" + shape + "}]"});
+    const scene::LoadedScene loaded = load({std::string(R"(bodies=[{"material":"water","spacing":0.4,"stiffness":9,)") +
+                                            R"("break_strain":0.5,"velocity":[1,2,3],"shape":)" + shape + "}]"});
     const ParticleSet& p = loaded.particles;
     const SpringSet& s = loaded.scene.structure->springs;
     // A site of a face-centred cubic lattice takes d^3/sqrt(2), so the ball of 33.5 m^3 holds some 740 sites. The box
@@ -199,11 +199,11 @@ TEST(SceneStructure, FillsMeshesWithBodies) {
                 folder.path());
   };
   // 23 planes of sites fit between the faces along each axis; every other crossing of planes is a site.
-  const LoadedScene upright = fill(R"("scale":4,"translate":[3,3,3])");
+  const scene::LoadedScene upright = fill(R"("scale":4,"translate":[3,3,3])");
   EXPECT_EQ(upright.particles.size(), 2U + (23 * 23 * 23 - 1) / 2);
   // The body's middle is four times as deep as the field of distances reaches.
   EXPECT_EQ(std::count(upright.particles.position.begin() + 2, upright.particles.position.end(), Vec3d{5, 5, 5}), 1);
-  const LoadedScene turned = fill(R"("scale":4,"rotate":[0,1,0,30],"translate":[3,3,5])");
+  const scene::LoadedScene turned = fill(R"("scale":4,"rotate":[0,1,0,30],"translate":[3,3,5])");
   std::size_t outside = 0;
   const double sine = 0.5, cosine = std::sqrt(0.75);
   for (std::size_t i = 2; i < turned.particles.size(); ++i) {
@@ -219,7 +219,7 @@ TEST(SceneStructure, FillsMeshesWithBodies) {
 }
 
 TEST(SceneStructure, NamesSpringsByTheEntriesThatMadeThem) {
-  const LoadedScene loaded =
+  const scene::LoadedScene loaded =
       load({R"(cloths=[{"material":"water","corner":[1,1,1],"edges":[[1,0,0],[0,0,1]],"cells":[1,1],"stretch":7}])",
             R"(bodies=[{"material":"water","shape":{"box":{"min":[4,4,4],"max":[6,6,6]}},"spacing":1,"stiffness":9}])",
             R"(springs=[{"pairs":[[1,5]],"stiffness":3},{"pairs":[[2,5],[2,6]],"stiffness":5}])"});
@@ -243,11 +243,11 @@ TEST(SceneStructure, NamesSpringsByTheEntriesThatMadeThem) {
 
 // A checkpoint brings the structure along with the particles.
 TEST(SceneStructure, IsNotMadeWithoutParticles) {
-  LoadOptions options;
+  scene::LoadOptions options;
   options.with_particles = false;
   options.overrides = {R"(springs=[{"pairs":[[1,2]],"stiffness":10}])",
                        R"(cloths=[{"material":"water","mesh":"not-there.obj","stretch":100}])"};
-  const auto loaded = parse_scene(kMinimalScene, "scene.json", ".", options);
+  const auto loaded = scene::parse_scene(kMinimalScene, "scene.json", ".", options);
   ASSERT_TRUE(loaded) << loaded.error().text();
   EXPECT_EQ(loaded->scene.structure, nullptr);
 }

@@ -30,14 +30,14 @@ TEST_F(XyzParticlesTest, ReadsTheColumnsThatPropertiesName) {
 }
 
 TEST_F(XyzParticlesTest, ReadsTheFrameThatIsAskedFor) {
-  for (const std::uint64_t frame : {std::uint64_t{1}, kLastFrame}) {
+  for (const std::uint64_t frame : {std::uint64_t{1}, scene::kLastFrame}) {
     rules_.frame = frame;
     const auto p = read("p.xyz", kExtended);
     EXPECT_EQ(complaints(), "");
     EXPECT_EQ(p.position, (std::vector<Vec3d>{{9, 9, 9}}));
     EXPECT_EQ(p.velocity, (std::vector<Vec3d>{{7, 8, 9}}));
     EXPECT_EQ(p.place, (std::vector<std::uint64_t>{7}));
-    EXPECT_EQ(count_particles(folder_.path() / "p.xyz", rules_), 1U);
+    EXPECT_EQ(scene::count_particles(folder_.path() / "p.xyz", rules_), 1U);
   }
   rules_.frame = 2;
   EXPECT_EQ(refusal("p.xyz", kExtended), "p.xyz: has no snapshot 2, counted from 0; it holds 2");

@@ -13,7 +13,7 @@
 
 /// Skips the test in a build without OpenVDB.
 #define HOOKE_NEEDS_OPENVDB() \
-  if (!hooke::has_openvdb()) GTEST_SKIP() << "needs OpenVDB, which is not in this build"
+  if (!hooke::volumes::has_openvdb()) GTEST_SKIP() << "needs OpenVDB, which is not in this build"
 
 namespace hooke::test {
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kWindow = 8;
 
-double similarity_of_window(const Image& a, const Image& b, int left, int top, int channel) {
+double similarity_of_window(const render::Image& a, const render::Image& b, int left, int top, int channel) {
   double sum_a = 0, sum_b = 0, sum_aa = 0, sum_bb = 0, sum_ab = 0;
   for (int y = top; y < top + kWindow; ++y) {
     for (int x = left; x < left + kWindow; ++x) {
@@ -33,7 +33,7 @@ double similarity_of_window(const Image& a, const Image& b, int left, int top, i
 
 }  // namespace
 
-double similarity(const Image& a, const Image& b) {
+double similarity(const render::Image& a, const render::Image& b) {
   if (a.width != b.width || a.height != b.height || a.width < kWindow || a.height < kWindow) return 0;
   double worst = 1;
   for (int channel = 0; channel < 3; ++channel) {

@@ -12,10 +12,10 @@
 
 namespace {
 
-hooke::Expected<hooke::Image> read(const char* file) {
+hooke::Expected<hooke::render::Image> read(const char* file) {
   std::ostringstream bytes;
   bytes << std::ifstream(file, std::ios::binary).rdbuf();
-  return hooke::decode_png(bytes.str());
+  return hooke::render::decode_png(bytes.str());
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ const std::vector<Action>& one_of_each() {
       Scatter{42},
       Reset{},
       LoadCheckpoint{"/somewhere/checkpoint.h5"},
-      ChangeScene{Json::parse(R"([{"op": "replace", "path": "/gravity/1", "value": -1.6}])")},
+      ChangeScene{scene::Json::parse(R"([{"op": "replace", "path": "/gravity/1", "value": -1.6}])")},
   };
   return actions;
 }
@@ -34,7 +34,7 @@ using Records = ViewTest;
 TEST_F(Records, HoldEveryKindOfActionBitForBit) {
   ASSERT_EQ(one_of_each().size(), std::variant_size_v<Action>);
   for (const Action& action : one_of_each()) {
-    const auto read = action_from_json(Json::parse(to_json(action).dump()));
+    const auto read = action_from_json(scene::Json::parse(to_json(action).dump()));
     ASSERT_TRUE(read) << read.error().text();
     EXPECT_EQ(read->index(), action.index());
     EXPECT_EQ(to_json(*read), to_json(action));

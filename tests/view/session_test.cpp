@@ -39,7 +39,7 @@ class Sessions : public ViewTest {
     session.act(HoldParticles{{5, 6, 7, 8}});
     session.act(Lead{{0.1, 0.4, 0}});
     advance(session, 33);
-    Json text = *session.wanted();
+    scene::Json text = *session.wanted();
     text["materials"]["red"]["stiffness"] = 300;
     session.change_scene(text);
     advance(session, 20);
@@ -150,12 +150,12 @@ TEST_F(Sessions, GoBackToTheSameBits) {
 
 TEST_F(Sessions, ChangeTheSceneUndoAndRedo) {
   const auto session = opened(options());
-  Json text = *session->wanted();
+  scene::Json text = *session->wanted();
   text["materials"]["red"]["mass"] = 0.3;
   session->change_scene(text);
   session->wait();
   EXPECT_EQ(session->scene()->materials[0].mass, 0.3);
-  text["colliders"][0]["motion"] = Json{{"velocity", {0.1, 0, 0}}};
+  text["colliders"][0]["motion"] = scene::Json{{"velocity", {0.1, 0, 0}}};
   session->change_scene(text);
   advance(*session, 10);
   EXPECT_TRUE(std::holds_alternative<SteadyMotion>(session->scene()->colliders[0].motion));
@@ -173,7 +173,7 @@ TEST_F(Sessions, ChangeTheSceneUndoAndRedo) {
 TEST_F(Sessions, RefuseWhatCanNotBeAndStayAsTheyWere) {
   const auto session = opened(options());
   const std::uint64_t before = session->finish();
-  Json text = *session->wanted();
+  scene::Json text = *session->wanted();
   text["materials"]["red"]["radius"] = -1;
   session->change_scene(text);
   session->wait();
@@ -197,7 +197,7 @@ TEST_F(Sessions, RefuseWhatCanNotBeAndStayAsTheyWere) {
 TEST_F(Sessions, OfferTheStateBeforeAFailure) {
   const auto session = opened(options());
   advance(*session, 40);
-  Json text = *session->wanted();
+  scene::Json text = *session->wanted();
   text["time"]["step"] = 0.2;  // far from stable
   session->change_scene(text);
   session->step(100);
@@ -219,7 +219,7 @@ TEST_F(Sessions, SaveWhatTheyAreAndGoOnFromIt) {
   session->save_checkpoint(path("here.h5"));
   session->wait();
   EXPECT_THAT(messages(*session), HasSubstr("saved"));
-  write("saved.json", pretty(session->text_to_save()));
+  write("saved.json", scene::pretty(session->text_to_save()));
   SessionOptions later = options();
   later.scene.file = path("saved.json");
   later.resume = path("here.h5");

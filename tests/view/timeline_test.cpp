@@ -20,7 +20,7 @@ class Timelines : public ViewTest {
     ASSERT_TRUE(opened) << opened.error().text();
     Timeline::Settings settings;
     settings.source = scene_source(options().scene, options().device);
-    settings.scene = Json::parse(opened->resolved);
+    settings.scene = scene::Json::parse(opened->resolved);
     simulation.emplace(std::move(opened->simulation));
     timeline.emplace(std::move(settings), *simulation);
   }

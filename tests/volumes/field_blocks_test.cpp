@@ -25,11 +25,11 @@ TEST(FieldBlocks, SumWhatReachesEachVoxel) {
     reach.push_back(i % 7 == 0 ? 1.1 : 0.3);  // the larger reach spans a whole block
     value.push_back({static_cast<float>(r[3])});
   }
-  const FieldBlocks blocks(position, reach, kVoxel);
+  const volumes::FieldBlocks blocks(position, reach, kVoxel);
   std::vector<std::size_t> all(blocks.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  std::vector<FieldBlocks::Sums<1>> sums(blocks.size());
-  blocks.sum<1>(all, value, [&](std::size_t b, const FieldBlocks::Sums<1>& found) { sums[b] = found; });
+  std::vector<volumes::FieldBlocks::Sums<1>> sums(blocks.size());
+  blocks.sum<1>(all, value, [&](std::size_t b, const volumes::FieldBlocks::Sums<1>& found) { sums[b] = found; });
 
   std::size_t reached = 0;
   for (int i = -30; i <= 30; ++i) {
@@ -44,7 +44,7 @@ TEST(FieldBlocks, SumWhatReachesEachVoxel) {
           weight += rest * rest * rest;
           weighted += rest * rest * rest * static_cast<double>(value[p][0]);
         }
-        const auto block = blocks.find(*FieldBlocks::block_at(x + Vec3d{0.01, 0.01, 0.01}, kVoxel));
+        const auto block = blocks.find(*volumes::FieldBlocks::block_at(x + Vec3d{0.01, 0.01, 0.01}, kVoxel));
         if (!block) {
           ASSERT_EQ(weight, 0) << i << ' ' << j << ' ' << k;
           continue;
@@ -60,11 +60,12 @@ TEST(FieldBlocks, SumWhatReachesEachVoxel) {
 }
 
 TEST(FieldBlocks, KnowHowFarTheyGo) {
-  const double edge = FieldBlocks::kEdge * kVoxel;
-  EXPECT_EQ(FieldBlocks::block_at({-0.01, 0, 0.99 * edge}, kVoxel), (FieldBlocks::Coordinates{-1, 0, 0}));
-  EXPECT_TRUE(FieldBlocks::block_at({edge * FieldBlocks::kMaxBlock, 0, 0}, kVoxel));
-  EXPECT_FALSE(FieldBlocks::block_at({edge * (FieldBlocks::kMaxBlock + 2), 0, 0}, kVoxel));
-  EXPECT_FALSE(FieldBlocks::block_at({0, std::nan(""), 0}, kVoxel));
+  const double edge = volumes::FieldBlocks::kEdge * kVoxel;
+  EXPECT_EQ(volumes::FieldBlocks::block_at({-0.01, 0, 0.99 * edge}, kVoxel),
+            (volumes::FieldBlocks::Coordinates{-1, 0, 0}));
+  EXPECT_TRUE(volumes::FieldBlocks::block_at({edge * volumes::FieldBlocks::kMaxBlock, 0, 0}, kVoxel));
+  EXPECT_FALSE(volumes::FieldBlocks::block_at({edge * (volumes::FieldBlocks::kMaxBlock + 2), 0, 0}, kVoxel));
+  EXPECT_FALSE(volumes::FieldBlocks::block_at({0, std::nan(""), 0}, kVoxel));
 }
 
 }  // namespace

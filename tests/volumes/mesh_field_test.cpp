@@ -27,8 +27,8 @@ TriangleMesh two_boxes(double edge, double apart) {
   return mesh;
 }
 
-FieldOptions options_of(double cell, double reach, bool closed, double depth = 3) {
-  FieldOptions options;
+volumes::FieldOptions options_of(double cell, double reach, bool closed, double depth = 3) {
+  volumes::FieldOptions options;
   options.cell = cell;
   options.reach = reach;
   options.closed = closed;
@@ -38,9 +38,9 @@ FieldOptions options_of(double cell, double reach, bool closed, double depth = 3
 
 // Two small boxes 1000 edges apart take twice what one takes.
 TEST(MeshField, TakesMemoryWithTheSurface) {
-  const FieldOptions options = options_of(0.1, 0.3, true);
-  const auto one = make_distance_field(box_mesh({0, 0, 0}, {1, 1, 1}), options);
-  const auto two = make_distance_field(two_boxes(1, 1000), options);
+  const volumes::FieldOptions options = options_of(0.1, 0.3, true);
+  const auto one = volumes::make_distance_field(box_mesh({0, 0, 0}, {1, 1, 1}), options);
+  const auto two = volumes::make_distance_field(two_boxes(1, 1000), options);
   ASSERT_TRUE(one && two);
   EXPECT_LT(two->bytes(), 3 * one->bytes());
   const DistanceFieldView field = two->view();
@@ -52,7 +52,8 @@ TEST(MeshField, TakesMemoryWithTheSurface) {
 // Also where a point is deeper than any sample.
 TEST(MeshField, KnowsItsInsideHoweverDeep) {
   for (const double depth : {1.0, 3.0}) {
-    const auto made = make_distance_field(box_mesh({-1, -1, -1}, {1, 2, 1}), options_of(0.01, 0.03, true, depth));
+    const auto made =
+        volumes::make_distance_field(box_mesh({-1, -1, -1}, {1, 2, 1}), options_of(0.01, 0.03, true, depth));
     ASSERT_TRUE(made);
     for (std::uint64_t i = 0; i < 2000; ++i) {
       const auto r = random4(3, i);
@@ -66,7 +67,7 @@ TEST(MeshField, KnowsItsInsideHoweverDeep) {
 
 // All that lies within the reach outside, and within so many times the reach inside, has a distance and a normal.
 TEST(MeshField, IsKnownWhereverItIsNeeded) {
-  const auto made = make_distance_field(box_mesh({-1, -1, -1}, {1, 1, 1}), options_of(0.05, 0.13, true));
+  const auto made = volumes::make_distance_field(box_mesh({-1, -1, -1}, {1, 1, 1}), options_of(0.05, 0.13, true));
   ASSERT_TRUE(made);
   for (double x = 1 - 3 * 0.13; x <= 1.13; x += 0.003) {
     const auto found = field_distance(made->view(), Vec3d{x, 0.123, 0.321} - made->origin);
@@ -76,14 +77,15 @@ TEST(MeshField, IsKnownWhereverItIsNeeded) {
 }
 
 TEST(MeshField, ExpectsAboutAsManySamplesAsItHas) {
-  const std::pair<TriangleMesh, FieldOptions> cases[] = {{box_mesh({0, 0, 0}, {1, 1, 1}), options_of(0.02, 0.06, true)},
-                                                         {ball_mesh(0, 1, 64), options_of(0.02, 0.07, true)},
-                                                         {ball_mesh(0, 1, 512), options_of(0.05, 0.15, true, 1)},
-                                                         {two_boxes(1, 300), options_of(0.05, 0.15, true)}};
+  const std::pair<TriangleMesh, volumes::FieldOptions> cases[] = {
+      {box_mesh({0, 0, 0}, {1, 1, 1}), options_of(0.02, 0.06, true)},
+      {ball_mesh(0, 1, 64), options_of(0.02, 0.07, true)},
+      {ball_mesh(0, 1, 512), options_of(0.05, 0.15, true, 1)},
+      {two_boxes(1, 300), options_of(0.05, 0.15, true)}};
   for (const auto& [mesh, options] : cases) {
-    const auto made = make_distance_field(mesh, options);
+    const auto made = volumes::make_distance_field(mesh, options);
     ASSERT_TRUE(made);
-    const double ratio = expected_samples(mesh, options, kMost) / static_cast<double>(made->samples.size());
+    const double ratio = volumes::expected_samples(mesh, options, kMost) / static_cast<double>(made->samples.size());
     EXPECT_GT(ratio, 1 / 1.5);
     EXPECT_LT(ratio, 1.5);
   }
@@ -94,13 +96,13 @@ TEST(MeshField, CountsSlivers) {
   TriangleMesh sliver;
   sliver.vertices = {{0, 0, 0}, {300, 0, 0}, {150, 0, 0}};
   sliver.triangles = {{0, 1, 2}};
-  EXPECT_GT(expected_samples(sliver, options_of(1e-3 / 3, 1e-3, false), kMost), kMost);
-  EXPECT_TRUE(spans_few_cells(sliver, options_of(1e-3 / 3, 1e-3, false)));
+  EXPECT_GT(volumes::expected_samples(sliver, options_of(1e-3 / 3, 1e-3, false), kMost), kMost);
+  EXPECT_TRUE(volumes::spans_few_cells(sliver, options_of(1e-3 / 3, 1e-3, false)));
   sliver.vertices[1].x = 1e6;
-  EXPECT_FALSE(spans_few_cells(sliver, options_of(0.03, 0.1, false)));
-  EXPECT_FALSE(make_distance_field(sliver, options_of(0.03, 0.1, false)));
+  EXPECT_FALSE(volumes::spans_few_cells(sliver, options_of(0.03, 0.1, false)));
+  EXPECT_FALSE(volumes::make_distance_field(sliver, options_of(0.03, 0.1, false)));
   sliver.vertices[1].x = HUGE_VAL;
-  EXPECT_FALSE(spans_few_cells(sliver, options_of(0.03, 0.1, false)));
+  EXPECT_FALSE(volumes::spans_few_cells(sliver, options_of(0.03, 0.1, false)));
 }
 
 }  // namespace

@@ -22,11 +22,11 @@ void expect_refused(const Expected<T>& made) {
 TEST(WithoutOpenVdb, EveryFunctionSaysSo) {
   const ParticleSet particles;
   const std::vector<double> radius;
-  EXPECT_FALSE(has_openvdb());
-  expect_refused(make_distance_field({}, {}));
-  expect_refused(make_surface_mesh(particles, radius, {}));
-  expect_refused(vdb_points(particles, radius, "", {}));
-  expect_refused(vdb_volume(particles, radius, {}, {}));
+  EXPECT_FALSE(volumes::has_openvdb());
+  expect_refused(volumes::make_distance_field({}, {}));
+  expect_refused(volumes::make_surface_mesh(particles, radius, {}));
+  expect_refused(volumes::vdb_points(particles, radius, "", {}));
+  expect_refused(volumes::vdb_volume(particles, radius, {}, {}));
 }
 
 }  // namespace

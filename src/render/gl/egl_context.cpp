@@ -8,7 +8,7 @@
 
 #include <utility>
 
-namespace hooke {
+namespace hooke::render {
 
 struct EglContext::Impl {
   EGLDisplay display = EGL_NO_DISPLAY;
@@ -100,4 +100,4 @@ void EglContext::make_current() const {
 }
 const std::string& EglContext::device() const { return impl_->device; }
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -7,7 +7,7 @@
 
 #include "hooke/base/expected.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// An OpenGL 3.3 core context without a window, for the thread that makes it. Takes the first of EGL's devices that
 /// works, else Mesa's surfaceless platform (a software driver will do), else the default display.
@@ -30,4 +30,4 @@ class EglContext {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -10,7 +10,7 @@
 #include "hooke/render/frame.h"
 #include "hooke/render/gl/gl_objects.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// Spheres on the device, one instance of a triangle each.
 class SphereBuffer {
@@ -111,4 +111,4 @@ class MeshBuffer {
 };
 static_assert(sizeof(ShadedMesh::Corner) == 2 * sizeof(Vec3f));
 
-}  // namespace hooke
+}  // namespace hooke::render

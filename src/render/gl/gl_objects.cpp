@@ -7,7 +7,7 @@
 
 #include "hooke/base/assert.h"
 
-namespace hooke::gl {
+namespace hooke::render::gl {
 
 namespace {
 
@@ -120,4 +120,4 @@ void Program::read(const char* name, int unit, const Texture& texture) const {
   glUniform1i(at(name), unit);
 }
 
-}  // namespace hooke::gl
+}  // namespace hooke::render::gl

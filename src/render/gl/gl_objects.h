@@ -14,7 +14,7 @@
 #include "hooke/base/vec3.h"
 #include "hooke/render/camera.h"
 
-namespace hooke::gl {
+namespace hooke::render::gl {
 
 /// The name of an OpenGL object, deleted with its owner, in the context that is current then.
 template <auto& Delete>
@@ -92,4 +92,4 @@ class Program {
   std::map<std::string, GLint, std::less<>> locations_;  // of the uniforms in use
 };
 
-}  // namespace hooke::gl
+}  // namespace hooke::render::gl

@@ -29,7 +29,7 @@
 #include "hooke/render/visible_spheres.h"
 #include "hooke/render/water_thickness.h"
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -326,4 +326,4 @@ Expected<std::unique_ptr<Renderer>> make_gl_renderer(const RenderSettings& setti
   }
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -7,10 +7,10 @@
 #include "hooke/base/expected.h"
 #include "hooke/render/renderer.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// A renderer that draws with OpenGL 3.3, without a window, on the thread that calls this function. bad_input where
 /// there is no OpenGL, or the settings can't be met.
 Expected<std::unique_ptr<Renderer>> make_gl_renderer(const RenderSettings& settings);
 
-}  // namespace hooke
+}  // namespace hooke::render

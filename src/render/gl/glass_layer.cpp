@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -53,4 +53,4 @@ void GlassLayer::draw(const RenderTargets& targets, const gl::Program& program, 
   glDisable(GL_DEPTH_TEST);
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

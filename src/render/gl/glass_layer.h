@@ -7,7 +7,7 @@
 #include "hooke/render/gl/gl_buffers.h"
 #include "hooke/render/gl/render_targets.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// The glass of a picture, several samples a pixel: to be laid over what is behind it. Made when it is first needed.
 class GlassLayer {
@@ -24,4 +24,4 @@ class GlassLayer {
   gl::Framebuffer framebuffer_;
 };
 
-}  // namespace hooke
+}  // namespace hooke::render

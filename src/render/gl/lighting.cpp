@@ -6,7 +6,7 @@
 #include "hooke/render/gl/render_programs.h"
 #include "hooke/render/gl/surroundings.h"
 
-namespace hooke {
+namespace hooke::render {
 
 void Lighting::use(const gl::Program& program, const Projection& view, const RenderTargets& targets) const {
   HOOKE_ASSERT(frame != nullptr);
@@ -21,4 +21,4 @@ void Lighting::use(const gl::Program& program, const Projection& view, const Ren
   set_surroundings(program, *frame);
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

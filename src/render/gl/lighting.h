@@ -7,7 +7,7 @@
 #include "hooke/render/gl/sun.h"
 #include "hooke/render/visible_spheres.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// The light of one picture.
 struct Lighting {
@@ -20,4 +20,4 @@ struct Lighting {
   void use(const gl::Program& program, const Projection& view, const RenderTargets& targets) const;
 };
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -9,7 +9,7 @@
 #include "hooke/render/gl/shaders.h"
 #include "hooke/render/live_picture.h"
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -83,4 +83,4 @@ void LiveCulling::draw_seen() const {
   glDrawArraysIndirect(GL_TRIANGLES, nullptr);
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -4,7 +4,7 @@
 
 #include "hooke/render/gl/gl_objects.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// Finds out on the device which particles of a live picture can be seen, so that only these are drawn: most are inside
 /// of a pile. Needs a current context of OpenGL 4.3, with the block of live_scene.glsl bound. Throws as gl::Program
@@ -29,4 +29,4 @@ class LiveCulling {
   gl::VertexArray array_ = gl::make_vertex_array();
 };
 
-}  // namespace hooke
+}  // namespace hooke::render

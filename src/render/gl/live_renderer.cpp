@@ -19,7 +19,7 @@
 #include "hooke/render/gl/live_culling.h"
 #include "hooke/render/gl/shaders.h"
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -269,4 +269,4 @@ Image LiveRenderer::read_window(int width, int height) {
 
 std::string LiveRenderer::device() { return reinterpret_cast<const char*>(glGetString(GL_RENDERER)); }
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -11,7 +11,7 @@
 #include "hooke/render/live_picture.h"
 #include "hooke/render/shaded_mesh.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// Draws a running simulation into the window whose OpenGL context is current: everything that depends on the number of
 /// particles is done by the device, from one upload of 16 bytes a particle.
@@ -47,4 +47,4 @@ class LiveRenderer {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace hooke
+}  // namespace hooke::render

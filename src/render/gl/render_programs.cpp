@@ -6,7 +6,7 @@
 
 #include "hooke/render/gl/shaders.h"
 
-namespace hooke {
+namespace hooke::render {
 
 RenderPrograms::RenderPrograms() {
   using gl::Program;
@@ -43,4 +43,4 @@ void set_picture(const gl::Program& program, const Projection& view) {
   program.set("scale", view.scale);
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

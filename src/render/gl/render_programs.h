@@ -5,7 +5,7 @@
 #include "hooke/render/gl/gl_objects.h"
 #include "hooke/render/visible_spheres.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// The shaders of all passes. The constructor needs a current OpenGL context; throws as gl::Program does.
 struct RenderPrograms {
@@ -20,4 +20,4 @@ void set_view(const gl::Program& program, const Projection& view);
 /// The uniforms of view.glsl.
 void set_picture(const gl::Program& program, const Projection& view);
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -6,7 +6,7 @@
 
 #include "hooke/render/gl/sun.h"
 
-namespace hooke {
+namespace hooke::render {
 
 RenderTargets::RenderTargets(const RenderSettings& settings)
     : width(settings.width),
@@ -82,4 +82,4 @@ void RenderTargets::begin(const gl::Framebuffer& target, int across, int down) {
   glViewport(0, 0, across, down);
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

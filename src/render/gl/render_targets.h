@@ -8,7 +8,7 @@
 #include "hooke/render/renderer.h"
 #include "hooke/render/water_thickness.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// The textures that the passes of a picture draw into and read, and the ways to draw into them.
 struct RenderTargets {
@@ -47,4 +47,4 @@ struct RenderTargets {
   static void begin(const gl::Framebuffer& target, int across, int down);
 };
 
-}  // namespace hooke
+}  // namespace hooke::render

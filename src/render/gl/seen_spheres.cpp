@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace hooke {
+namespace hooke::render {
 
 void SeenSpheres::find(std::span<const Sphere> spheres, const Projection& from) {
   spheres_ = spheres;
@@ -41,4 +41,4 @@ void SeenSpheres::upload() {
   for (const SphereBuffer& buffer : buffers_) buffer.upload();
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

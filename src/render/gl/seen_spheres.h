@@ -10,7 +10,7 @@
 #include "hooke/render/gl/gl_buffers.h"
 #include "hooke/render/visible_spheres.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// The spheres of a frame that are seen from one side, the eye's or the sun's, on the device by kind. Water hides no
 /// other spheres, since they show through it.
@@ -33,4 +33,4 @@ class SeenSpheres {
   std::array<SphereBuffer, 4> buffers_;
 };
 
-}  // namespace hooke
+}  // namespace hooke::render

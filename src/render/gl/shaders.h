@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-namespace hooke::gl::shaders {
+namespace hooke::render::gl::shaders {
 
 // The texts of the files of the same name in shaders/. RenderPrograms puts view.glsl and light.glsl before the
 // fragment shaders that use them.
@@ -45,4 +45,4 @@ extern const char* const live_footprint_glsl;
 extern const char* const live_cover_comp;
 extern const char* const live_cull_comp;
 
-}  // namespace hooke::gl::shaders
+}  // namespace hooke::render::gl::shaders

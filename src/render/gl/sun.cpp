@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace hooke {
+namespace hooke::render {
 
 float action_size(const Frame& frame) {
   const Vec3d diagonal = frame.action.max - frame.action.min;
@@ -33,4 +33,4 @@ void Sun::set(const gl::Program& program) const {
   program.set("sun_blur", 0.003f * range);
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

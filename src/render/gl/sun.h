@@ -6,7 +6,7 @@
 #include "hooke/render/gl/gl_objects.h"
 #include "hooke/render/visible_spheres.h"
 
-namespace hooke {
+namespace hooke::render {
 
 inline constexpr int kSunMap = 1280;  ///< pixels along each side of the shadow map
 
@@ -27,4 +27,4 @@ Sun make_sun(const Frame& frame);
 /// The diagonal of the action, m.
 float action_size(const Frame& frame);
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "hooke/render/gl/sun_maps.h"
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -42,4 +42,4 @@ void draw_sun_maps(const RenderTargets& targets, const RenderPrograms& programs,
   glDisable(GL_DEPTH_TEST);
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

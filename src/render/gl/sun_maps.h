@@ -10,7 +10,7 @@
 #include "hooke/render/gl/seen_spheres.h"
 #include "hooke/render/gl/sun.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// Draws how far the sun's light gets past solids into one map, and past water, where there is any, into another.
 /// `spheres`: those that the sun sees.
@@ -18,4 +18,4 @@ void draw_sun_maps(const RenderTargets& targets, const RenderPrograms& programs,
                    const SeenSpheres& spheres, bool water, const MeshBuffer& buffer,
                    std::span<const ShadedMesh> meshes);
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -8,7 +8,7 @@
 #include "hooke/base/assert.h"
 #include "hooke/render/gl/sun.h"
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -149,4 +149,4 @@ void SurfacePasses::draw_ambient(const Frame& frame, const Projection& pixels, c
   whole_.draw();
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -8,7 +8,7 @@
 #include "hooke/render/gl/render_targets.h"
 #include "hooke/render/visible_spheres.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// Computes once a pixel, from surfaces drawn with several samples a pixel: the nearest surface, and how much ambient
 /// light arrives; of what is to be smoothed, water or skin, the smooth surface and its normals. Runs only where there
@@ -43,4 +43,4 @@ class SurfacePasses {
   WholePicture whole_;
 };
 
-}  // namespace hooke
+}  // namespace hooke::render

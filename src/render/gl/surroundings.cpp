@@ -6,7 +6,7 @@
 
 #include "hooke/render/gl/sun.h"
 
-namespace hooke {
+namespace hooke::render {
 
 namespace {
 
@@ -49,4 +49,4 @@ void set_surroundings(const gl::Program& program, const Frame& frame) {
   program.set("daylight", frame.daylight);
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -6,7 +6,7 @@
 
 #include "hooke/render/gl/render_programs.h"
 
-namespace hooke {
+namespace hooke::render {
 
 TankEdges::TankEdges() : array_(gl::make_vertex_array()), buffer_(gl::make_buffer()) {
   glBindVertexArray(array_.get());
@@ -57,4 +57,4 @@ void TankEdges::draw(const gl::Program& program, const Projection& view, const g
   glDisable(GL_BLEND);
 }
 
-}  // namespace hooke
+}  // namespace hooke::render

@@ -6,7 +6,7 @@
 #include "hooke/render/gl/gl_objects.h"
 #include "hooke/render/visible_spheres.h"
 
-namespace hooke {
+namespace hooke::render {
 
 /// The domain's edges that belong to a wall, on the device, each an instance of one triangle strip.
 class TankEdges {
@@ -22,4 +22,4 @@ class TankEdges {
   GLsizei count_ = 0;
 };
 
-}  // namespace hooke
+}  // namespace hooke::render
