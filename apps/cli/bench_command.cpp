@@ -16,9 +16,9 @@
 #include "commands.h"
 #include "hooke/io/report.h"
 #include "hooke/io/snapshot.h"
+#include "hooke/run/numbers.h"
+#include "hooke/run/open_simulation.h"
 #include "log.h"
-#include "numbers.h"
-#include "open_simulation.h"
 #include "progress.h"
 
 namespace hooke::cli {
@@ -108,7 +108,7 @@ std::optional<double> share_of_walls(Simulation& simulation, const DeviceArgumen
   if (simulation.particle_count() > kMostParticles) return {};
   Scene open = without_walls(simulation.scene());
   if (open.domain.boundary == simulation.scene().domain.boundary) return 0;
-  auto backend = make_backend(device, open.precision);
+  auto backend = run::make_backend(device, open.precision);
   if (!backend) return {};
   SimulationState state = simulation.state();
   if (!simulation.restore(state)) return {};  // a new list, like the other simulation's
@@ -147,7 +147,7 @@ void print_stages(const io::RunReport& report) {
 void print_table(const io::RunReport& report) {
   const auto row = [](const char* name, const std::string& value) { fmt::print("{:<24}{}\n", name, value); };
   row("scene", report.scene);
-  row("particles", with_commas(report.particles));
+  row("particles", run::with_commas(report.particles));
   row("steps", fmt::format("{} in {:.3f} s", report.steps, report.seconds));
   row("steps/s", fmt::format("{:.2f}", report.steps_per_second()));
   row("particle-steps/s", fmt::format("{:.2f} M", report.particle_steps_per_second() * 1e-6));
@@ -180,7 +180,7 @@ Expected<void> advance(Simulation& simulation, std::int64_t steps, bool show) {
 
 ExitStatus bench_command(const BenchArguments& arguments) {
   const std::uint64_t program_bytes = io::peak_resident_bytes();
-  auto opened = open_simulation(arguments.scene, arguments.device, arguments.resume);
+  auto opened = run::open_simulation(arguments.scene, arguments.device, arguments.resume);
   if (!opened) return report_error(opened.error());
   for (const Finding& warning : opened->warnings) report_warning(warning);
   Simulation& simulation = opened->simulation;

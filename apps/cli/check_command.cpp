@@ -13,10 +13,11 @@
 #include "commands.h"
 #include "hooke/base/printable.h"
 #include "hooke/io/report.h"
+#include "hooke/run/numbers.h"
+#include "hooke/run/open_simulation.h"
+#include "hooke/run/start_checks.h"
 #include "hooke/scene/load_scene.h"
 #include "log.h"
-#include "numbers.h"
-#include "open_simulation.h"
 
 namespace hooke::cli {
 namespace {
@@ -33,12 +34,12 @@ void print_step(const Simulation& simulation) {
 }
 
 void print_overlaps(const Simulation& simulation, const Measurements& now) {
-  std::vector<std::string> sentences = overlapped_bodies(simulation);
+  std::vector<std::string> sentences = run::overlapped_bodies(simulation);
   if (now.contacts > 0) {
     sentences.insert(
         sentences.begin(),
         fmt::format("{} pairs touch at the start, the deepest overlaps by {:.3g} % of the sum of its radii",
-                    with_commas(now.contacts), 100 * now.max_pair_overlap_ratio));
+                    run::with_commas(now.contacts), 100 * now.max_pair_overlap_ratio));
   }
   if (sentences.empty()) sentences.emplace_back("none at the start");
   const char* title = "overlaps";
@@ -50,7 +51,7 @@ void print_precision(const Scene& scene) {
     fmt::print("  precision  double\n");
     return;
   }
-  const FloatSpacing spacing = float_spacing(scene);
+  const run::FloatSpacing spacing = run::float_spacing(scene);
   fmt::print("  precision  single; positions at the domain's edge are {:.3g} m apart, {:.3g} radii\n", spacing.metres,
              spacing.radii);
 }
@@ -85,7 +86,7 @@ double expected_births(const Scene& scene) {
 
 ExitStatus check_command(const CheckArguments& arguments) {
   const auto program_bytes = static_cast<double>(io::peak_resident_bytes());
-  const auto opened = open_simulation(arguments.scene, DeviceArguments{}, {});
+  const auto opened = run::open_simulation(arguments.scene, DeviceArguments{}, {});
   if (!opened) return report_error(opened.error());
   const Simulation& simulation = opened->simulation;
   const Scene& scene = simulation.scene();
@@ -95,11 +96,11 @@ ExitStatus check_command(const CheckArguments& arguments) {
   for (const Finding& warning : opened->warnings) report_warning(warning);
   const auto particles = simulation.particle_count();
   fmt::print("{}: {}\n", printable(arguments.scene.file.string()), printable(scene.name));
-  fmt::print("  particles  {}\n", with_commas(particles));
+  fmt::print("  particles  {}\n", run::with_commas(particles));
   const double most = static_cast<double>(particles) + expected_births(scene);
   if (!scene.emitters.empty()) {
     fmt::print("  emitters   {}; up to about {} particles\n", scene.emitters.size(),
-               with_commas(static_cast<std::uint64_t>(most)));
+               run::with_commas(static_cast<std::uint64_t>(most)));
   }
   print_memory(most, opened->fields, program_bytes, simulation.neighbour_statistics().slots_per_particle);
   fmt::print("  duration   {} steps, {:.6g} s\n", scene.steps, static_cast<double>(scene.steps) * scene.time_step);
@@ -107,12 +108,12 @@ ExitStatus check_command(const CheckArguments& arguments) {
   print_overlaps(simulation, *now);
   print_precision(scene);
 
-  for (const Finding& finding : deep_starts(simulation)) report_warning(finding);
-  if (const std::string unstable = unstable_step(simulation); !unstable.empty()) {
+  for (const Finding& finding : run::deep_starts(simulation)) report_warning(finding);
+  if (const std::string unstable = run::unstable_step(simulation); !unstable.empty()) {
     if (arguments.strict) return report_error({Error::Kind::bad_input, {{"", unstable}}});
     spdlog::warn(unstable);
   }
-  if (const std::string coarse = coarse_positions(simulation); !coarse.empty()) spdlog::warn(coarse);
+  if (const std::string coarse = run::coarse_positions(simulation); !coarse.empty()) spdlog::warn(coarse);
   return kDone;
 }
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -11,35 +10,17 @@
 
 #include "arguments.h"
 #include "hooke/io/export.h"
-#include "hooke/render/coloring.h"
+#include "hooke/run/picture_arguments.h"
+#include "hooke/run/recorder.h"
 
 namespace hooke::cli {
 
-/// How pictures are drawn.
-struct PictureArguments {
-  int width = 1280;  ///< pixels
-  int height = 720;  ///< pixels
-  double frames_per_second = 30;
-  double speed = 1;  ///< simulated seconds a second of film
-  int samples = 2;  ///< squared: the samples per pixel
-  render::ColorBy color_by = render::ColorBy::material;
-  std::optional<std::array<double, 2>> range;  ///< of the colour map
-  bool legend = true;
-  bool alpha = false;  ///< whether nothing is drawn behind everything
+using run::PictureArguments;
 
-  double seconds_a_frame() const { return speed / frames_per_second; }  ///< simulated
-};
-
-struct RunArguments {
+struct RunArguments : run::RecordArguments {
   SceneArguments scene;
   DeviceArguments device;
-  std::filesystem::path output;  ///< empty: named after the scene file
-  bool overwrite = false;
-  std::filesystem::path resume;           ///< a checkpoint, or empty
-  std::optional<double> checkpoint_every; ///< simulated seconds
-  std::filesystem::path film;             ///< empty: none
-  PictureArguments picture;               ///< of the film
-  std::filesystem::path report;           ///< empty: only the run folder's
+  std::filesystem::path report;  ///< empty: only the run folder's
   bool quiet = false;
 };
 

@@ -10,9 +10,9 @@
 #include "commands.h"
 #include "hooke/io/export.h"
 #include "hooke/io/run_folder.h"
-#include "kept_scene.h"
+#include "hooke/run/kept_scene.h"
+#include "hooke/run/output_check.h"
 #include "log.h"
-#include "output_file.h"
 
 namespace hooke::cli {
 namespace {
@@ -38,7 +38,7 @@ Expected<std::vector<std::size_t>> pick(const io::RunReader& run, const ExportAr
 Expected<std::optional<Scene>> scene_of(const std::filesystem::path& run) {
   std::error_code ignored;
   if (!std::filesystem::exists(run / io::kSceneFile, ignored)) return std::nullopt;
-  auto loaded = load_kept_scene(run);
+  auto loaded = run::load_kept_scene(run);
   if (!loaded) return fail(std::move(loaded.error()));
   return std::move(loaded->scene);
 }
@@ -46,7 +46,8 @@ Expected<std::optional<Scene>> scene_of(const std::filesystem::path& run) {
 }  // namespace
 
 ExitStatus export_command(const ExportArguments& arguments) {
-  if (auto writable = check_output_file(arguments.output, "--output"); !writable) return report_error(writable.error());
+  if (auto writable = run::check_output_file(arguments.output, "--output"); !writable)
+    return report_error(writable.error());
   const auto run = io::RunReader::open(arguments.run);
   if (!run) return report_error(run.error());
   const auto indices = pick(*run, arguments);

@@ -6,8 +6,8 @@
 #include "commands.h"
 #include "hooke/base/printable.h"
 #include "hooke/io/describe_file.h"
+#include "hooke/run/numbers.h"
 #include "log.h"
-#include "numbers.h"
 
 namespace hooke::cli {
 
@@ -25,13 +25,13 @@ ExitStatus info_command(const std::filesystem::path& file) {
   }
   if (it.kind == io::FileDescription::Kind::checkpoint) {
     fmt::print("  state       step {}, t = {} s, {} particles\n", it.steps.front(), it.times.front(),
-               with_commas(it.particle_counts.front()));
+               run::with_commas(it.particle_counts.front()));
     return kDone;
   }
   fmt::print("  snapshots   {}\n", it.steps.size());
   const auto print_snapshot = [&](const char* which, std::size_t index) {
     fmt::print("  {:<10}  step {}, t = {} s, {} particles\n", which, it.steps[index], it.times[index],
-               with_commas(it.particle_counts[index]));
+               run::with_commas(it.particle_counts[index]));
   };
   if (!it.steps.empty()) print_snapshot("first", 0);
   if (it.steps.size() > 1) print_snapshot("last", it.steps.size() - 1);

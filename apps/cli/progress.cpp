@@ -11,7 +11,7 @@
 #include <cstdio>
 
 #include "hooke/base/assert.h"
-#include "numbers.h"
+#include "hooke/run/numbers.h"
 
 namespace hooke::cli {
 namespace {
@@ -68,7 +68,7 @@ void FrameProgress::update(std::int64_t done) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     const double a_frame = seconds / static_cast<double>(done);
     return fmt::format("frame {} of {}   {:.2f} s a frame   left {}", done, count_, a_frame,
-                       clock_time(a_frame * static_cast<double>(count_ - done)));
+                       run::clock_time(a_frame * static_cast<double>(count_ - done)));
   });
 }
 
@@ -79,7 +79,7 @@ std::string Progress::line(std::int64_t step, std::uint64_t particles) const {
   const double end = static_cast<double>(last_) * time_step_;
   std::string text = fmt::format("t {:.3f} of {:.3f} s   {:.1f} steps/s   {:.2f} M particle-steps/s", now, end, rate,
                                  rate * static_cast<double>(particles) * 1e-6);
-  if (rate > 0) text += "   left " + clock_time(static_cast<double>(last_ - step) / rate);
+  if (rate > 0) text += "   left " + run::clock_time(static_cast<double>(last_ - step) / rate);
   return text;
 }
 

@@ -14,53 +14,18 @@
 #include "hooke/io/report.h"
 #include "hooke/io/run_folder.h"
 #include "hooke/render/film.h"
-#include "hooke/render/interpolate.h"
+#include "hooke/run/kept_scene.h"
+#include "hooke/run/numbers.h"
+#include "hooke/run/output_check.h"
+#include "hooke/run/playback.h"
+#include "hooke/run/studio.h"
 #include "hooke/scene/load_scene.h"
 #include "interrupt.h"
-#include "kept_scene.h"
 #include "log.h"
-#include "numbers.h"
-#include "output_file.h"
 #include "progress.h"
-#include "studio.h"
 
 namespace hooke::cli {
 namespace {
-
-/// The particles of a run at any time between its first snapshot and its last.
-class Playback {
- public:
-  Playback(const io::RunReader& run, const Scene& scene) : run_(run), scene_(scene) {}
-
-  /// `time` in [first, last], preferably ascending from call to call: keeps the two snapshots around it.
-  Expected<ParticleSet> at(double time) {
-    const auto times = run_.times();
-    const auto later = std::upper_bound(times.begin(), times.end(), time);
-    const std::size_t after = std::min(static_cast<std::size_t>(later - times.begin()), run_.size() - 1);
-    const std::size_t before = after > 0 && times[after] > time ? after - 1 : after;
-    if (auto read = load(before_, before); !read) return fail(std::move(read).error());
-    if (time == times[before]) return before_->particles;
-    if (auto read = load(after_, after); !read) return fail(std::move(read).error());
-    return render::interpolate(scene_, {before_->time, before_->particles}, {after_->time, after_->particles}, time);
-  }
-
- private:
-  Expected<void> load(std::optional<Snapshot>& slot, std::size_t index) {
-    if (slot && slot->step == run_.steps()[index]) return {};
-    if (&slot == &before_ && after_ && after_->step == run_.steps()[index]) {
-      std::swap(before_, after_);
-      return {};
-    }
-    auto snapshot = run_.read(index);
-    if (!snapshot) return fail(std::move(snapshot).error());
-    slot = std::move(*snapshot);
-    return {};
-  }
-
-  const io::RunReader& run_;
-  const Scene& scene_;
-  std::optional<Snapshot> before_, after_;
-};
 
 bool is_picture(const std::filesystem::path& file) { return file.extension() == ".png" || file.extension() == ".PNG"; }
 
@@ -125,25 +90,16 @@ std::vector<double> frame_times(const RenderArguments& arguments, const io::RunR
 }
 
 // Frames what the run does, where the scene leaves that to the camera.
-Expected<void> frame_action(const io::RunReader& run, const Scene& scene, Studio& studio) {
-  constexpr std::size_t kMoments = 5;
+Expected<void> frame_action(const io::RunReader& run, const Scene& scene, run::Studio& studio) {
   if (scene.camera.eye && scene.camera.target) return {};
-  std::vector<ParticleSet> moments;
-  std::optional<std::size_t> before;
-  for (std::size_t k = 0; k < kMoments; ++k) {
-    const std::size_t index = k * (run.size() - 1) / (kMoments - 1);
-    if (before == index) continue;
-    auto snapshot = run.read(index);
-    if (!snapshot) return fail(std::move(snapshot).error());
-    moments.push_back(std::move(snapshot->particles));
-    before = index;
-  }
-  studio.frame_action(moments);
+  const auto moments = run::moments_of(run);
+  if (!moments) return fail(moments.error());
+  studio.frame_action(*moments);
   return {};
 }
 
-Expected<void> render_still(const RenderArguments& arguments, const io::RunReader& run, Playback& playback,
-                            Studio& studio) {
+Expected<void> render_still(const RenderArguments& arguments, const io::RunReader& run, run::Playback& playback,
+                            run::Studio& studio) {
   const double last = run.times().back();
   const double time = std::clamp(arguments.time.value_or(last), run.times().front(), last);
   const auto particles = playback.at(time);
@@ -151,14 +107,14 @@ Expected<void> render_still(const RenderArguments& arguments, const io::RunReade
   const auto image = studio.picture(*particles, time);
   if (!image) return fail(image.error());
   if (auto written = write_picture(*image, arguments.picture.alpha, arguments.output); !written) return written;
-  fmt::print("{} particles at {:.6g} s in {}\n", with_commas(particles->size()), time, arguments.output.string());
+  fmt::print("{} particles at {:.6g} s in {}\n", run::with_commas(particles->size()), time, arguments.output.string());
   return {};
 }
 
 // Gives one image per frame to `take`; returns their number and whether a signal came first.
 template <class Take>
 Expected<std::pair<std::int64_t, bool>> render_frames(const RenderArguments& arguments, const io::RunReader& run,
-                                                      Playback& playback, Studio& studio, const Take& take) {
+                                                      run::Playback& playback, run::Studio& studio, const Take& take) {
   const std::vector<double> times = frame_times(arguments, run);
   const auto count = static_cast<std::int64_t>(times.size());
   const Interrupt interrupt;
@@ -176,8 +132,8 @@ Expected<std::pair<std::int64_t, bool>> render_frames(const RenderArguments& arg
   return std::pair{frame, frame == count};
 }
 
-Expected<ExitStatus> render_film(const RenderArguments& arguments, const io::RunReader& run, Playback& playback,
-                                 Studio& studio) {
+Expected<ExitStatus> render_film(const RenderArguments& arguments, const io::RunReader& run, run::Playback& playback,
+                                 run::Studio& studio) {
   const PictureArguments& picture = arguments.picture;
   auto film = render::FilmWriter::create(arguments.output, {picture.width, picture.height, picture.frames_per_second});
   if (!film) return fail(std::move(film).error());
@@ -191,8 +147,8 @@ Expected<ExitStatus> render_film(const RenderArguments& arguments, const io::Run
   return done->second ? kDone : kInterrupted;
 }
 
-Expected<ExitStatus> render_sequence(const RenderArguments& arguments, const io::RunReader& run, Playback& playback,
-                                     Studio& studio) {
+Expected<ExitStatus> render_sequence(const RenderArguments& arguments, const io::RunReader& run,
+                                     run::Playback& playback, run::Studio& studio) {
   const std::filesystem::path folder = arguments.output.parent_path();
   const auto done =
       render_frames(arguments, run, playback, studio, [&](const render::Image& image, std::int64_t frame) {
@@ -212,7 +168,7 @@ Expected<ExitStatus> render(const RenderArguments& arguments) {
                 "has no extension of a picture or a film; known are .png, " + render::film_extensions());
   }
   if (auto good = check_options(arguments, still); !good) return fail(std::move(good).error());
-  if (auto writable = check_output_file(arguments.output, "--output"); !writable) return fail(writable.error());
+  if (auto writable = run::check_output_file(arguments.output, "--output"); !writable) return fail(writable.error());
   if (render::is_film(arguments.output)) {
     const PictureArguments& p = arguments.picture;
     if (auto possible = render::check_film(arguments.output, {p.width, p.height, p.frames_per_second}); !possible) {
@@ -228,21 +184,21 @@ Expected<ExitStatus> render(const RenderArguments& arguments) {
   }
   const std::filesystem::path folder =
       std::filesystem::is_directory(arguments.run) ? arguments.run : arguments.run.parent_path();
-  const auto loaded = load_kept_scene(folder, arguments.overrides);
+  const auto loaded = run::load_kept_scene(folder, arguments.overrides);
   if (!loaded) return fail(loaded.error());
   const auto is_same = [](const Material& a, const io::MaterialInfo& b) { return a.name == b.name; };
   if (!std::equal(loaded->scene.materials.begin(), loaded->scene.materials.end(), run->info().materials.begin(),
                   run->info().materials.end(), is_same)) {
     return fail(Error::Kind::bad_input, arguments.run.string(), "has particles of other materials than its scene");
   }
-  auto studio = Studio::open(arguments.picture);
+  auto studio = run::Studio::open(arguments.picture);
   if (!studio) return fail(std::move(studio).error());
   const auto first = run->read(0);
   if (!first) return fail(first.error());
   studio->set_scene(loaded->scene, first->particles);
   if (auto framed = frame_action(*run, loaded->scene, *studio); !framed) return fail(std::move(framed).error());
 
-  Playback playback(*run, loaded->scene);
+  run::Playback playback(*run, loaded->scene);
   if (render::is_film(arguments.output)) return render_film(arguments, *run, playback, *studio);
   if (!still) return render_sequence(arguments, *run, playback, *studio);
   if (auto done = render_still(arguments, *run, playback, *studio); !done) return fail(done.error());

@@ -9,8 +9,8 @@
 #include <new>
 #include <optional>
 
+#include "hooke/run/output_check.h"
 #include "log.h"
-#include "output_file.h"
 #include "replay.h"
 #include "scene_options.h"
 #include "session.h"
@@ -23,8 +23,8 @@ namespace {
 using cli::ExitStatus;
 
 struct Arguments {
-  cli::SceneArguments scene;
-  cli::DeviceArguments device;
+  run::SceneArguments scene;
+  run::DeviceArguments device;
   std::filesystem::path resume, record, replay, status;
   bool headless = false, paused = false;
   int width = 1280, height = 720;
@@ -117,7 +117,7 @@ ExitStatus parse_and_run(int argc, char** argv) {
     if (arguments.headless) return replay_headless(*record, arguments);
   }
   if (!arguments.record.empty()) {
-    if (auto right = cli::check_output_file(arguments.record, "--record"); !right)
+    if (auto right = run::check_output_file(arguments.record, "--record"); !right)
       return cli::report_error(right.error());
   }
   return show(arguments, std::move(record));

@@ -5,12 +5,12 @@
 
 #include <utility>
 
-#include "open_simulation.h"
+#include "hooke/run/open_simulation.h"
 
 namespace hooke::view {
 
-Expected<ReplayEnd> replay(const Record& record, const cli::SceneArguments& scene, const cli::DeviceArguments& device) {
-  auto opened = cli::open_simulation(scene, device, {});
+Expected<ReplayEnd> replay(const Record& record, const run::SceneArguments& scene, const run::DeviceArguments& device) {
+  auto opened = run::open_simulation(scene, device, {});
   if (!opened) return fail(std::move(opened).error());
   Simulation& simulation = opened->simulation;
   Timeline::Settings settings;

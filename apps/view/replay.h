@@ -19,6 +19,6 @@ struct ReplayEnd {
 };
 
 /// Replays a record to its end, or to the first hash that is wrong. `scene` is opened as the record says.
-Expected<ReplayEnd> replay(const Record& record, const cli::SceneArguments& scene, const cli::DeviceArguments& device);
+Expected<ReplayEnd> replay(const Record& record, const run::SceneArguments& scene, const run::DeviceArguments& device);
 
 }  // namespace hooke::view

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "hooke/io/checkpoint.h"
-#include "open_simulation.h"
+#include "hooke/run/open_simulation.h"
 
 namespace hooke::view {
 namespace {
@@ -105,9 +105,9 @@ Effect effect_of(std::string_view pointer) {
   return Effect::rebuild;
 }
 
-SceneSource scene_source(const cli::SceneArguments& scene, const cli::DeviceArguments& device) {
+SceneSource scene_source(const run::SceneArguments& scene, const run::DeviceArguments& device) {
   return {scene.file.string(), scene.file.parent_path(), scene.allow_outside,
-          [device](Precision precision) { return cli::make_backend(device, precision); }};
+          [device](Precision precision) { return run::make_backend(device, precision); }};
 }
 
 Expected<scene::LoadedScene> SceneDocument::load(const scene::Json& scene, bool with_particles) const {

@@ -36,7 +36,7 @@ struct SceneSource {
   std::function<Expected<std::unique_ptr<Backend>>(Precision)> make_backend;
 };
 
-SceneSource scene_source(const cli::SceneArguments& scene, const cli::DeviceArguments& device);
+SceneSource scene_source(const run::SceneArguments& scene, const run::DeviceArguments& device);
 
 /// The text of a scene that changes while it is simulated.
 class SceneDocument {

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "hooke/io/checkpoint.h"
-#include "open_simulation.h"
+#include "hooke/run/open_simulation.h"
 
 namespace hooke::view {
 namespace {
@@ -25,7 +25,7 @@ constexpr auto kRateInterval = 250ms;
 }  // namespace
 
 Expected<std::unique_ptr<Session>> Session::open(const SessionOptions& options) {
-  auto opened = cli::open_simulation(options.scene, options.device, {});
+  auto opened = run::open_simulation(options.scene, options.device, {});
   if (!opened) return fail(std::move(opened).error());
   std::unique_ptr<Session> session(new Session);
   Session& s = *session;

@@ -54,8 +54,8 @@ struct Readings {
 
 /// How a session is opened.
 struct SessionOptions {
-  cli::SceneArguments scene;
-  cli::DeviceArguments device;
+  run::SceneArguments scene;
+  run::DeviceArguments device;
   std::filesystem::path resume;  ///< a checkpoint, or empty
   std::filesystem::path record;  ///< empty: none
   std::vector<RecordEntry> replay;

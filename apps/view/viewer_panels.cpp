@@ -12,7 +12,7 @@
 
 #include "hooke/base/printable.h"
 #include "hooke/render/color_map.h"
-#include "numbers.h"
+#include "hooke/run/numbers.h"
 #include "viewer.h"
 
 namespace hooke::view {
@@ -112,8 +112,8 @@ void Viewer::draw_numbers() {
   ImGui::SetNextWindowPos({10 * window_.scale(), 10 * window_.scale()});
   ImGui::SetNextWindowBgAlpha(0.55f);
   ImGui::Begin("numbers", nullptr, kOverlay);
-  line(fmt::format("{}   {} particles", printable(scene_->name), cli::with_commas(now.particles)));
-  line(fmt::format("t {:.3f} s   step {}   {}", now.time, cli::with_commas(static_cast<std::uint64_t>(now.step_count)),
+  line(fmt::format("{}   {} particles", printable(scene_->name), run::with_commas(now.particles)));
+  line(fmt::format("t {:.3f} s   step {}   {}", now.time, run::with_commas(static_cast<std::uint64_t>(now.step_count)),
                    session_.runs() ? speed_text(session_.speed()) : "paused"));
   if (session_.runs()) {
     line(fmt::format("{:.3g} x real time   {:.0f} steps/s   step {}", now.steps_per_second * now.time_step,

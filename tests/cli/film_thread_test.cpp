@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// The thread that draws a film while a run goes on, without OpenGL: the program's film_thread.cpp, studio.cpp and
-// log.cpp with a renderer of the test's own, so that a build with the thread sanitizer sees everything except ffmpeg.
-#include "film_thread.h"
+// The thread that draws a film while a run goes on, without OpenGL: the library's thread and the program's log with
+// a renderer of the test's own, so that a build with the thread sanitizer sees everything except ffmpeg.
+#include "hooke/run/film_thread.h"
 
 #include <gmock/gmock.h>
 #include <spdlog/spdlog.h>
@@ -24,13 +24,13 @@
 #include <vector>
 
 #include "backends/busy_scenes.h"
-#include "gl_loader.h"
 #include "hooke/render/interpolate.h"
+#include "hooke/run/gl_loader.h"
 #include "log.h"
 #include "support/environment.h"
 #include "support/film_probe.h"
 
-namespace hooke::cli {
+namespace hooke::run {
 namespace {
 
 using test::EnvironmentVariable;
@@ -136,8 +136,8 @@ class FilmThreads : public testing::Test {
     folder_ = mkdtemp(pattern.data());
     stage = &stage_;
     // As the program does: both the film and the run write into the log.
-    start_log(true);
-    EXPECT_TRUE(log_to_file(path("log.txt")));
+    cli::start_log(true);
+    EXPECT_TRUE(cli::log_to_file(path("log.txt")));
   }
   ~FilmThreads() override {
     spdlog::set_default_logger(std::make_shared<spdlog::logger>("none"));  // closes the file
@@ -154,7 +154,8 @@ class FilmThreads : public testing::Test {
 
   // A film with a frame every `steps_a_frame` steps.
   std::unique_ptr<FilmThread> start(double steps_a_frame) const {
-    auto film = FilmThread::start(path("f.mp4"), picture(steps_a_frame), simulation_);
+    auto film = FilmThread::start(path("f.mp4"), picture(steps_a_frame), simulation_,
+                                  [](const Error& why) { spdlog::error("the film ends here: {}", why.text()); });
     EXPECT_TRUE(film) << film.error().text();
     return film ? std::move(*film) : nullptr;
   }
@@ -336,4 +337,4 @@ TEST_F(FilmThreads, AnFfmpegThatDiesEndsTheFilmNotTheRun) {
 }
 
 }  // namespace
-}  // namespace hooke::cli
+}  // namespace hooke::run

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 """Says where a library includes or links one that it must not know: arrows point downward only.
 
-layering.py ROOT          exit status 1 and a line for each violation under ROOT/src and ROOT/apps
+layering.py ROOT          exit status 1 and a line for each violation under ROOT/src, ROOT/apps and ROOT/python
 layering.py --self-test   plants violations in a copy of nothing but themselves and expects each to be found
 """
 import pathlib
@@ -11,7 +11,7 @@ import re
 import sys
 import tempfile
 
-# Which of our libraries each one may use. Only apps may use everything; nothing may use apps.
+# Which of our libraries each one may use. Only apps may use everything; nothing may use apps or python.
 MAY_USE = {
     "base": set(),
     "physics": {"base"},
@@ -24,7 +24,9 @@ MAY_USE["render/gl"] |= {"render"}
 MAY_USE["volumes"] = {"base", "physics", "neighbours", "core"}
 for user in ("scene", "io"):
     MAY_USE[user].add("volumes")
-MAY_USE["apps"] = set(MAY_USE)
+MAY_USE["run"] = set(MAY_USE) - {"render/gl"}
+MAY_USE["python"] = set(MAY_USE) - {"render/gl"}
+MAY_USE["apps"] = set(MAY_USE) - {"python"}
 
 # Libraries of others that only some of ours may see: the border where they can be exchanged.
 KEPT_TO = {
@@ -33,6 +35,7 @@ KEPT_TO = {
     r"valijson/": {"scene"},
     r"nlohmann/": {"scene", "io", "apps"},
     r"CLI/": {"apps"},
+    r"pybind11/|Python\.h": {"python"},
     r"spdlog/": {"apps"},
     r"GLFW/|imgui|backends/imgui": {"apps"},
     r"epoxy/|(?!GLFW)E?GLE?S?\w*/": {"render/gl"},
@@ -81,9 +84,9 @@ def violations(root):
     root = pathlib.Path(root).resolve()
     source = root / "src"
     found = []
-    for folder in (source, root / "apps"):
+    for folder in (source, root / "apps", root / "python"):
         for path in sorted(p for p in folder.rglob("*") if p.suffix in (".h", ".cpp", ".inl", ".cu", ".cuh")):
-            inside = path.relative_to(source).as_posix() if folder == source else "apps/" + path.name
+            inside = path.relative_to(source).as_posix() if folder == source else f"{folder.name}/{path.name}"
             owner = library_of(inside)
             text = path.read_text(encoding="utf-8")
             if owner is None:
@@ -132,6 +135,11 @@ PLANTED = [  # file, text, a part of the line expected for it (None: no violatio
      "render must not link volumes"),
     ("src/io/CMakeLists.txt", "hooke_library(io LINKS hooke_core)\ntarget_link_libraries(hooke_io PUBLIC hooke::scene)\n",
      "io must not link scene"),
+    ("src/run/aa.cpp", '#include "hooke/scene/load_scene.h"\n#include "hooke/backends/cpu/cpu_backend.h"\n', None),
+    ("src/run/ab.cpp", '#include "hooke/render/gl/gl_renderer.h"\n', "run must not use render/gl"),
+    ("src/io/ac.cpp", '#include "hooke/run/studio.h"\n', "io must not use run"),
+    ("src/run/ad.cpp", "#include <pybind11/numpy.h>\n", "kept to python"),
+    ("python/ae.cpp", '#include "hooke/run/studio.h"\n#include <pybind11/numpy.h>\n', None),
     ("apps/cli/main.cpp", '#include "hooke/backends/cpu/cpu_backend.h"\n#include <CLI/CLI.hpp>\n#include "run.h"\n', None),
 ]
 

@@ -82,7 +82,7 @@ TEST_F(Sessions, AreReplayedWithTheSameBitsByAnyNumberOfThreads) {
   const auto record = read_record(path("a.record"));
   ASSERT_TRUE(record) << record.error().text();
   for (const int threads : {1, 2}) {
-    cli::DeviceArguments device;
+    run::DeviceArguments device;
     device.threads = threads;
     const auto end = replay(*record, recorded.scene, device);
     ASSERT_TRUE(end) << end.error().text();

@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-#include "open_simulation.h"
+#include "hooke/run/open_simulation.h"
 #include "view_scene.h"
 
 namespace hooke::test {
@@ -16,7 +16,7 @@ using namespace view;
 class Timelines : public ViewTest {
  protected:
   void SetUp() override {
-    auto opened = cli::open_simulation(options().scene, options().device, {});
+    auto opened = run::open_simulation(options().scene, options().device, {});
     ASSERT_TRUE(opened) << opened.error().text();
     Timeline::Settings settings;
     settings.source = scene_source(options().scene, options().device);

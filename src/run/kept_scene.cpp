@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-#include "kept_scene.h"
+#include "hooke/run/kept_scene.h"
 
 #include <utility>
 
 #include "hooke/io/checkpoint.h"
 #include "hooke/io/run_folder.h"
 
-namespace hooke::cli {
+namespace hooke::run {
 
 Expected<scene::LoadedScene> load_kept_scene(const std::filesystem::path& folder,
                                              const std::vector<std::string>& overrides) {
@@ -29,4 +29,4 @@ Expected<scene::LoadedScene> load_kept_scene(const std::filesystem::path& folder
   return loaded;
 }
 
-}  // namespace hooke::cli
+}  // namespace hooke::run

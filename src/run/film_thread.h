@@ -3,13 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <memory>
 
-#include "commands.h"
 #include "hooke/base/expected.h"
 #include "hooke/core/simulation.h"
+#include "hooke/run/picture_arguments.h"
 
-namespace hooke::cli {
+namespace hooke::run {
 
 /// Draws a film of a run in its own thread while the run continues: a frame at every multiple of
 /// PictureArguments::seconds_a_frame() of simulated time. A frame shows the first step at or after its time, drawn back
@@ -21,10 +23,13 @@ class FilmThread {
     double seconds_a_frame = 0;  ///< average time to draw a frame
   };
 
+  /// Called once, by the film's thread, where the film can't go on: the run does without it.
+  using OnFailure = std::function<void(const Error&)>;
+
   /// bad_input where pictures can't be drawn; check_film() and check_output_file() have been called before. Camera and
   /// colours follow from the present state of `simulation`, which is not used again.
   static Expected<std::unique_ptr<FilmThread>> start(const std::filesystem::path& file, const PictureArguments& picture,
-                                                     const Simulation& simulation);
+                                                     const Simulation& simulation, OnFailure on_failure = {});
 
   /// Without finish(), ends the film after the frames shown so far.
   ~FilmThread();
@@ -42,4 +47,4 @@ class FilmThread {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace hooke::cli
+}  // namespace hooke::run

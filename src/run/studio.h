@@ -7,13 +7,13 @@
 #include <optional>
 #include <span>
 
-#include "commands.h"
 #include "hooke/base/expected.h"
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
 #include "hooke/render/renderer.h"
+#include "hooke/run/picture_arguments.h"
 
-namespace hooke::cli {
+namespace hooke::run {
 
 /// Draws the pictures of one run: holds the renderer and what stays the same between pictures. Belongs to the thread
 /// that made it.
@@ -46,4 +46,4 @@ class Studio {
   render::RenderFigures figures_;
 };
 
-}  // namespace hooke::cli
+}  // namespace hooke::run

@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-#include "film_thread.h"
-
-#include <spdlog/spdlog.h>
+#include "hooke/run/film_thread.h"
 
 #include <cmath>
 #include <condition_variable>
@@ -15,12 +13,11 @@
 #include <utility>
 
 #include "hooke/base/assert.h"
-#include "hooke/base/printable.h"
 #include "hooke/render/film.h"
 #include "hooke/render/interpolate.h"
-#include "studio.h"
+#include "hooke/run/studio.h"
 
-namespace hooke::cli {
+namespace hooke::run {
 
 struct FilmThread::Impl {
   struct Shot {
@@ -32,6 +29,7 @@ struct FilmThread::Impl {
 
   std::filesystem::path file;
   PictureArguments picture;
+  OnFailure on_failure;
   Scene scene;
   std::int64_t next_frame = 0;  // its time is next_frame * seconds_a_frame()
 
@@ -87,7 +85,7 @@ struct FilmThread::Impl {
   }
 
   void give_up(Error why) {
-    spdlog::error("the film ends here: {}", printable(why.text(), 1000));
+    if (on_failure) on_failure(why);
     const std::lock_guard lock(mutex);
     error = std::move(why);
     waiting.clear();
@@ -105,11 +103,13 @@ struct FilmThread::Impl {
 };
 
 Expected<std::unique_ptr<FilmThread>> FilmThread::start(const std::filesystem::path& file,
-                                                        const PictureArguments& picture, const Simulation& simulation) {
+                                                        const PictureArguments& picture, const Simulation& simulation,
+                                                        OnFailure on_failure) {
   HOOKE_ASSERT(picture.frames_per_second > 0, picture.frames_per_second);
   auto impl = std::make_unique<Impl>();
   impl->file = file;
   impl->picture = picture;
+  impl->on_failure = std::move(on_failure);
   impl->scene = simulation.scene();
   impl->next_frame = static_cast<std::int64_t>(std::ceil(simulation.time() / picture.seconds_a_frame() - 1e-6));
   std::promise<Expected<void>> started;
@@ -148,4 +148,4 @@ Expected<FilmThread::Summary> FilmThread::finish() {
   return impl_->summary;
 }
 
-}  // namespace hooke::cli
+}  // namespace hooke::run

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-#include "output_file.h"
+#include "hooke/run/output_check.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 
 #include "hooke/io/output_file.h"
 
-namespace hooke::cli {
+namespace hooke::run {
 
 Expected<void> check_output_file(const std::filesystem::path& file, const std::string& option) {
   std::error_code ignored;
@@ -32,4 +32,4 @@ Expected<void> check_output_file(const std::filesystem::path& file, const std::s
   return {};
 }
 
-}  // namespace hooke::cli
+}  // namespace hooke::run

@@ -9,11 +9,11 @@
 #include "hooke/base/expected.h"
 #include "hooke/scene/load_scene.h"
 
-namespace hooke::cli {
+namespace hooke::run {
 
 /// The scene kept in a run's folder, with the changes of --set, without its particles. Its structure is that of the
 /// run's checkpoint; before the first checkpoint it is made from the scene, if the scene's files can still be read.
 Expected<scene::LoadedScene> load_kept_scene(const std::filesystem::path& folder,
                                              const std::vector<std::string>& overrides = {});
 
-}  // namespace hooke::cli
+}  // namespace hooke::run

@@ -2,35 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "arguments.h"
 #include "hooke/base/expected.h"
-#include "hooke/core/backend.h"
 #include "hooke/core/simulation.h"
-#include "hooke/scene/load_scene.h"
 
-namespace hooke::cli {
-
-/// A scene that is ready to step.
-struct OpenedSimulation {
-  Simulation simulation;
-  std::string resolved;           ///< the scene as it was understood, JSON
-  std::vector<scene::SceneFile> files;   ///< the other files that it needs
-  std::vector<Finding> warnings;  ///< of the loader
-  scene::FieldMemory fields;
-};
-
-/// The back end that --device and --threads ask for; HOOKE_ISA in the environment picks the instruction set.
-Expected<std::unique_ptr<Backend>> make_backend(const DeviceArguments& arguments, Precision precision);
-
-/// Loads the scene and puts its particles, or those of the checkpoint `resume`, into a back end.
-Expected<OpenedSimulation> open_simulation(const SceneArguments& scene, const DeviceArguments& device,
-                                           const std::filesystem::path& resume);
+namespace hooke::run {
 
 /// A sentence about a time step that is too long for the scene; empty if it is not too long.
 std::string unstable_step(const Simulation& simulation);
@@ -56,4 +34,4 @@ std::string soft_particles(const Simulation& simulation, const Measurements& now
 /// A sentence about a domain too large for the single precision in use; empty if it is not too large.
 std::string coarse_positions(const Simulation& simulation);
 
-}  // namespace hooke::cli
+}  // namespace hooke::run

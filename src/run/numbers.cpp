@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-#include "numbers.h"
+#include "hooke/run/numbers.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace hooke::cli {
+namespace hooke::run {
 
 std::string with_commas(std::uint64_t number) {
   const std::string digits = std::to_string(number);
@@ -29,4 +29,4 @@ std::string clock_time(double seconds) {
                    : fmt::format("{}:{:02}", minutes, whole % 60);
 }
 
-}  // namespace hooke::cli
+}  // namespace hooke::run

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-#include "studio.h"
+#include "hooke/run/studio.h"
 
 #include <fmt/format.h>
 
-#include "gl_loader.h"
 #include "hooke/base/assert.h"
 #include "hooke/render/action.h"
 #include "hooke/render/legend.h"
+#include "hooke/run/gl_loader.h"
 
-namespace hooke::cli {
+namespace hooke::run {
 
 Expected<Studio> Studio::open(const PictureArguments& arguments) {
   auto renderer = load_gl_renderer({arguments.width, arguments.height, arguments.samples});
@@ -45,4 +45,4 @@ Expected<render::Image> Studio::picture(const ParticleSet& particles, double tim
   return image;
 }
 
-}  // namespace hooke::cli
+}  // namespace hooke::run

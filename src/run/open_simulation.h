@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hooke/base/expected.h"
+#include "hooke/core/backend.h"
+#include "hooke/core/simulation.h"
+#include "hooke/scene/load_scene.h"
+
+namespace hooke::run {
+
+/// The scene, and how it is read.
+struct SceneArguments {
+  std::filesystem::path file;
+  std::vector<std::string> overrides;  ///< PATH=VALUE
+  bool allow_outside = false;
+};
+
+/// The back end.
+struct DeviceArguments {
+  std::string device = "cpu";  ///< or "reference"
+  int threads = 0;  ///< 0: as many as the machine has
+};
+
+/// A scene that is ready to step.
+struct OpenedSimulation {
+  Simulation simulation;
+  std::string resolved;           ///< the scene as it was understood, JSON
+  std::vector<scene::SceneFile> files;   ///< the other files that it needs
+  std::vector<Finding> warnings;  ///< of the loader
+  scene::FieldMemory fields;
+};
+
+/// The back end that is asked for; HOOKE_ISA in the environment picks the instruction set.
+Expected<std::unique_ptr<Backend>> make_backend(const DeviceArguments& arguments, Precision precision);
+
+/// Loads the scene and puts its particles, or those of the checkpoint `resume`, into a back end.
+Expected<OpenedSimulation> open_simulation(const SceneArguments& scene, const DeviceArguments& device,
+                                           const std::filesystem::path& resume);
+
+/// The same for a scene that has been read: without its particles where there is a checkpoint.
+Expected<OpenedSimulation> open_simulation(scene::LoadedScene loaded, const DeviceArguments& device,
+                                           const std::filesystem::path& resume);
+
+}  // namespace hooke::run
