@@ -10,7 +10,7 @@ RUN_ARGS ?=
 BENCH_ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help run gallery test sanitize soak fuzz build build-all bench format lint install clean setup setup-test setup-lint setup-soak setup-bench setup-fuzz
+.PHONY: help python run gallery test sanitize soak fuzz build build-all bench format lint install clean setup setup-test setup-python setup-lint setup-soak setup-bench setup-fuzz
 
 help:  ## this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
@@ -52,6 +52,10 @@ build-all: setup  ## release build of the program, the libraries and the benchma
 	@cmake --preset release >/dev/null
 	@cmake --build --preset release -j $(JOBS)
 
+python: setup-python  ## release build of the Python module: PYTHONPATH=build/python
+	@cmake --preset release >/dev/null
+	@cmake --build --preset python -j $(JOBS)
+
 bench: build-all setup-bench  ## measure this machine, a quarter of an hour, for docs/performance.md; or BENCH_ARGS=--quick
 	bench/run_benchmarks $(BENCH_ARGS)
 
@@ -72,6 +76,9 @@ setup:
 
 setup-test:
 	@tools/setup.sh test
+
+setup-python:
+	@tools/setup.sh python
 
 setup-lint:
 	@tools/setup.sh lint

@@ -8,6 +8,7 @@
 #   tools/setup.sh lint     also to lint
 #   tools/setup.sh bench    to build and run, to measure and to draw what was measured
 #   tools/setup.sh fuzz     also to run fuzzers
+#   tools/setup.sh python   to build the Python module, and to install it with pip
 #   tools/setup.sh soak     all that soak needs
 set -euo pipefail
 
@@ -20,12 +21,15 @@ build_packages=(
   libglfw3-dev libimgui-dev
   python3)
 bench_packages=(lammps python3-numpy python3-matplotlib)
-test_packages=(clang-format-19 lammps mold python3-h5py python3-numpy python3-vtk9 xauth xdotool xvfb)
+python_packages=(python3-dev pybind11-dev python3-numpy python3-pip python3-setuptools python3-wheel)
+test_packages=(clang-format-19 lammps mold python3-h5py python3-matplotlib python3-vtk9 xauth xdotool xvfb
+  "${python_packages[@]}")
 lint_packages=(clang-19 clang-tidy-19)
 fuzz_packages=(clang-19 libclang-rt-19-dev)
 
 packages=("${build_packages[@]}")
 case "${1:-}" in
+  python) packages+=("${python_packages[@]}") ;;
   test) packages+=("${test_packages[@]}") ;;
   lint) packages+=("${test_packages[@]}" "${lint_packages[@]}") ;;
   fuzz) packages+=("${test_packages[@]}" "${fuzz_packages[@]}") ;;

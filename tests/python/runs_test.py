@@ -1,0 +1,102 @@
+# SPDX-FileCopyrightText: The Hooke authors
+# SPDX-License-Identifier: MIT
+"""Run folders: written, read, exported, resumed."""
+import json
+import unittest
+
+import hooke
+import numpy as np
+
+import scenes
+
+
+class Runs(scenes.FolderTest):
+    def test_a_run_is_that_of_the_program(self):
+        (self.folder / "s.json").write_text(json.dumps(scenes.box()))
+        scenes.program("run", "s.json", "-o", "theirs", "--quiet", cwd=self.folder)
+        run = hooke.run(self.folder / "s.json", self.folder / "ours", threads=1)
+        theirs = hooke.Run(self.folder / "theirs")
+        self.assertEqual(run.report["state_hash"], theirs.report["state_hash"])
+        np.testing.assert_array_equal(run.times, theirs.times)
+        np.testing.assert_array_equal(run.steps, [0, 50, 100, 150, 200])
+        np.testing.assert_array_equal(run.particle_counts, [27] * 5)
+        for ours, other in zip(run, theirs):
+            np.testing.assert_array_equal(ours.x, other.x)
+        self.assertEqual((self.folder / "ours" / "series.csv").read_text(),
+                         (self.folder / "theirs" / "series.csv").read_text())
+        self.assertEqual(run.scene, theirs.scene)
+
+    def test_reading(self):
+        run = hooke.run(scenes.box(), self.folder / "out", threads=1)
+        sim = scenes.simulation()
+        for snapshot in run:
+            sim.step(snapshot.step - sim.step_count)
+            np.testing.assert_array_equal(snapshot.x, sim.snapshot().x)
+            np.testing.assert_array_equal(snapshot.v, sim.snapshot().v)
+            np.testing.assert_array_equal(snapshot.id, sim.snapshot().id)
+            self.assertIsNone(snapshot.a)
+        self.assertEqual(len(run), 5)
+        self.assertEqual(run.snapshot().step, 200)
+        self.assertEqual(run.snapshot(time=0.11).step, 100)
+        self.assertEqual(run.snapshot(step=150).time, 0.15)
+        self.assertEqual([run[0].step, run[-2].step, run.snapshot(index=1).step], [0, 150, 50])
+        self.assertEqual((run.materials, run.time_step), (["rubber"], 0.001))
+        np.testing.assert_array_equal(run.radii, [0.05])
+        np.testing.assert_array_equal(run.masses, [0.5])
+        np.testing.assert_array_equal(run.series["step"], run.steps)
+        self.assertIn("kinetic_energy", run.series.dtype.names)
+        for wrong in ({"time": 7}, {"time": float("nan")}, {"step": 3}, {"time": 0, "step": 0}):
+            with self.assertRaises(hooke.InputError):
+                run.snapshot(**wrong)
+        for index in (5, -6):
+            with self.assertRaises(IndexError):
+                run[index]
+        snapshot = run[1]
+        del run
+        self.assertEqual(snapshot.x.shape, (27, 3))
+
+    def test_a_folder_in_use_is_kept(self):
+        hooke.run(scenes.box(), self.folder / "out", threads=1)
+        with self.assertRaisesRegex(hooke.InputError, "overwrite=True"):
+            hooke.run(scenes.box(), self.folder / "out", threads=1)
+        hooke.run(scenes.box(time={"step": 0.001, "end": 0.1}), self.folder / "out", threads=1, overwrite=True)
+        self.assertEqual(len(hooke.Run(self.folder / "out")), 3)
+
+    def test_a_run_goes_on_in_its_folder(self):
+        whole = hooke.run(scenes.box(), self.folder / "whole", threads=1)
+        end = {"time.end": 0.1}
+        hooke.run(scenes.box(), self.folder / "out", threads=1, set=end)
+        run = hooke.run(scenes.box(), self.folder / "out", threads=1, resume=self.folder / "out")
+        self.assertEqual(run.report["state_hash"], whole.report["state_hash"])
+        np.testing.assert_array_equal(run.steps, whole.steps)
+
+    def test_a_simulation_that_was_changed(self):
+        sim = scenes.simulation()
+        sim.step(10)
+        sim.apply_impulse(1, [0, 1, 0])
+        seen = []
+        sim.run(self.folder / "out", on_progress=lambda step, particles: seen.append(sim.measure().particles))
+        self.assertEqual(sim.step_count, 200)
+        self.assertEqual(set(seen), {27})
+        self.assertEqual(hooke.Run(self.folder / "out").steps[0], 10)
+        sim.external_forces = lambda now: np.zeros(3)
+        with self.assertRaisesRegex(hooke.InputError, "external_forces"):
+            sim.run(self.folder / "other")
+
+    def test_export(self):
+        run = hooke.run(scenes.box(), self.folder / "out", threads=1)
+        files = hooke.export(run, self.folder / "last.csv")
+        self.assertEqual(files, [self.folder / "last.csv"])
+        rows = np.genfromtxt(files[0], delimiter=",", names=True)
+        np.testing.assert_array_equal(rows["x"].astype(np.float32), run[-1].x[:, 0])
+        scenes.program("export", self.folder / "out", "-o", self.folder / "theirs.csv")
+        self.assertEqual(files[0].read_text(), (self.folder / "theirs.csv").read_text())
+        self.assertEqual(len(hooke.export(self.folder / "out", self.folder / "p.ply", all=True)), 5)
+        self.assertEqual(len(hooke.export(run, self.folder / "c.csv", time=0.1, content="contacts")), 1)
+        for wrong in ({"content": "taste"}, {"time": 9}, {"step": 3}, {"all": True, "step": 50},
+                      {"surface_radius": 0}, {"surface_resolution": 3}):
+            with self.assertRaises(hooke.InputError):
+                hooke.export(run, self.folder / "w.csv", **wrong)
+        for wrong in ("w.txt", "no/w.csv"):
+            with self.assertRaises(hooke.Error):
+                hooke.export(run, self.folder / wrong)
