@@ -13,6 +13,7 @@
 #include "hooke/run/kept_scene.h"
 #include "hooke/run/output_check.h"
 #include "log.h"
+#include "run_argument.h"
 
 namespace hooke::cli {
 namespace {
@@ -48,6 +49,7 @@ Expected<std::optional<Scene>> scene_of(const std::filesystem::path& run) {
 ExitStatus export_command(const ExportArguments& arguments) {
   if (auto writable = run::check_output_file(arguments.output, "--output"); !writable)
     return report_error(writable.error());
+  if (auto right = check_run_argument(arguments.run, "export"); !right) return report_error(right.error());
   const auto run = io::RunReader::open(arguments.run);
   if (!run) return report_error(run.error());
   const auto indices = pick(*run, arguments);

@@ -8,10 +8,12 @@
 #include "hooke/io/describe_file.h"
 #include "hooke/run/numbers.h"
 #include "log.h"
+#include "run_argument.h"
 
 namespace hooke::cli {
 
 ExitStatus info_command(const std::filesystem::path& file) {
+  if (auto right = check_run_argument(file, "info"); !right) return report_error(right.error());
   const auto found = io::describe_file(file);
   if (!found) return report_error(found.error());
   const io::FileDescription& it = *found;

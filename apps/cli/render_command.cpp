@@ -23,6 +23,7 @@
 #include "interrupt.h"
 #include "log.h"
 #include "progress.h"
+#include "run_argument.h"
 
 namespace hooke::cli {
 namespace {
@@ -175,6 +176,7 @@ Expected<ExitStatus> render(const RenderArguments& arguments) {
       return fail(possible.error());
     }
   }
+  if (auto right = check_run_argument(arguments.run, "render"); !right) return fail(right.error());
   const auto run = io::RunReader::open(arguments.run);
   if (!run) return fail(run.error());
   if (run->size() == 0) return fail(Error::Kind::bad_input, arguments.run.string(), "holds no snapshot yet");

@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "choice.h"
+
 namespace hooke::cli {
 
 namespace {
@@ -27,7 +29,7 @@ void add_device_options(CLI::App& command, DeviceArguments& device) {
       ->check(CLI::Range(1, kMostThreads));
   command.add_option("--device", device.device, "cpu (default) or reference (all pairs, double)")
       ->option_text("DEVICE")
-      ->check(CLI::IsMember({"cpu", "reference"}));
+      ->check(CLI::IsMember({"cpu", "reference"}), kChoices);
 }
 
 }  // namespace hooke::cli

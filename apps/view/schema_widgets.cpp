@@ -72,6 +72,15 @@ class Widgets {
     return unit.empty() ? key : key + ", " + unit;
   }
 
+  // The branch of a union that fits `value`, with the description and the unit of the union.
+  static scene::Json described_branch(const scene::Json& part, const scene::Json& value) {
+    scene::Json branch = scene::chosen_branch(part, value);
+    for (const char* words : {"description", "unit"}) {
+      if (part.contains(words) && !branch.contains(words)) branch[words] = part[words];
+    }
+    return branch;
+  }
+
   // In the order of the schema, whatever that of the scene is.
   void draw_members(const scene::Json& schema, const scene::Json& object, const scene::Json::json_pointer& at) {
     if (!schema.contains("properties")) {
@@ -91,7 +100,7 @@ class Widgets {
                    const scene::Json& value, const scene::Json::json_pointer& at) {
     const scene::Json* part = scene::schema_of_part(schema, object, key);
     if (part == nullptr || key == "$schema" || key == "hooke") return;
-    draw_value(scene::chosen_branch(*part, value), value, key, at / key);
+    draw_value(described_branch(*part, value), value, key, at / key);
   }
 
   // A number that the scene leaves out can be added.

@@ -13,7 +13,11 @@
 namespace hooke::scene {
 namespace {
 
-Range range_of(const Json& pair) { return {pair[0].get<double>(), pair[1].get<double>()}; }
+// A number stands for the range from it to itself.
+Range range_of(const Json& json) {
+  if (json.is_number()) return {json.get<double>(), json.get<double>()};
+  return {json[0].get<double>(), json[1].get<double>()};
+}
 
 // Emitters and sinks ask on which side of a surface a point is, not how far inside. An emitter can use an open mesh;
 // for a sink an open mesh is an error. Neither needs a warning.

@@ -8,11 +8,13 @@
 #include <algorithm>
 #include <regex>
 #include <set>
+#include <string_view>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
+#include "hooke/scene/foreign_keys.h"
 #include "hooke/scene/schema.h"
 #include "hooke/scene/spelling.h"
 
@@ -180,6 +182,11 @@ class Wording {
     for (const auto& member : value_.items()) {
       if (findings_.overflows()) return;
       if (schema_.at("properties").contains(member.key())) continue;
+      if (const std::string_view foreign = foreign_key_hint(member.key()); !foreign.empty()) {
+        complain(join_path(path_, member.key()),
+                 fmt::format("is no key of a scene (its value: {}): {}", brief(member.value()), foreign));
+        continue;
+      }
       const std::string hint = did_you_mean(member.key(), known);
       complain(join_path(path_, member.key()),
                fmt::format("is no key of a scene (its value: {}){}{} keys here: {}", brief(member.value()), hint,
@@ -216,8 +223,9 @@ class Wording {
 
 std::string allowed_by(const Json& schema) {
   std::string words;
-  if (schema.contains("anyOf")) {
+  if (schema.contains("anyOf") && !schema.contains("type")) {
     for (const Json& branch : schema.at("anyOf")) words += (words.empty() ? "" : ", or ") + allowed_by(branch);
+    if (schema.contains("unit")) words += fmt::format(" ({})", schema.at("unit").get<std::string>());
     return words;
   }
   if (schema.contains("const")) return schema.at("const").dump();

@@ -10,6 +10,7 @@ namespace hooke::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 class Usage : public ProgramTest {
  protected:
@@ -35,6 +36,45 @@ TEST_F(Usage, WithoutArgumentsPrintsHelpAndFails) {
 TEST_F(Usage, HelpAndVersionSucceed) {
   EXPECT_THAT(hooke_ok({"--version"}), HasSubstr("hooke 0."));
   EXPECT_THAT(hooke_ok({"run", "--help"}), HasSubstr("--checkpoint-every"));
+}
+
+TEST_F(Usage, HelpIsACommandToo) {
+  EXPECT_EQ(hooke_ok({"help"}), hooke_ok({"--help"}));
+  for (const char* command : {"run", "check", "bench", "render", "export", "info", "scenes", "schema", "help"}) {
+    EXPECT_EQ(hooke_ok({"help", command}), hooke_ok({command, "--help"}));
+  }
+  const Outcome refused = hooke({"help", "rnu"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("\"rnu\" is no command; did you mean \"run\"?"));
+}
+
+TEST_F(Usage, HelpShowsFlagsAsTheyAreTyped) {
+  for (const char* command : {"run", "render"}) {
+    const std::string help = hooke_ok({command, "--help"});
+    EXPECT_THAT(help, HasSubstr("--no-legend "));
+    EXPECT_THAT(help, Not(HasSubstr("{false}")));
+  }
+}
+
+TEST_F(Usage, ARefusedChoiceNamesTheOthers) {
+  EXPECT_THAT(hooke({"export", "r", "-o", "x.csv", "--as", "stress"}).err,
+              HasSubstr("--as: stress not in {particles,surface,volume,contacts,cloths,springs}"));
+  EXPECT_THAT(hooke({"render", "r", "-o", "x.png", "--color-by", "stress"}).err,
+              HasSubstr("--color-by: stress not in {material,speed,"));
+}
+
+TEST_F(Usage, ASceneIsNoRun) {
+  write("s.json", small_scene());
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"render", "s.json", "-o", "x.png"}, {"export", "s.json", "-o", "x.csv"}, {"info", "s.json"}}) {
+    const Outcome outcome = hooke(arguments);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("is no run but a scene; run it first: hooke run s.json -o s, then hooke " +
+                                       arguments.front() + " s"));
+  }
+  hooke_ok({"run", "s.json", "-o", "out", "--steps", "1"});
+  EXPECT_THAT(hooke({"render", "out/scene.json", "-o", "x.png"}).err,
+              HasSubstr("is one file of a run; give its folder: hooke render out"));
 }
 
 TEST_F(Usage, WrongUsageIsStatus2) {

@@ -3,7 +3,7 @@
 
 #include "hooke/scene/load_scene.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
@@ -115,6 +115,38 @@ TEST(LoadScene, ReadsEmittersAndSinks) {
   EXPECT_TRUE(std::holds_alternative<SteadyMotion>(jet.motion));
   ASSERT_EQ(scene.sinks.size(), 1U);
   EXPECT_TRUE(std::holds_alternative<PlaneShape>(scene.sinks[0].shape));
+}
+
+TEST(LoadScene, RangesOfEmittersMayBeNumbers) {
+  const std::string scene = R"({
+    "hooke": 1, "time": { "step": 0.01, "end": 1 }, "domain": { "min": [0, 0, 0], "max": [10, 10, 10] },
+    "materials": { "water": { "radius": 0.5, "mass": 2, "stiffness": 100 } },
+    "emitters": [ { "material": "water", "shape": { "sphere": { "center": [5, 5, 5], "radius": 1 } }, "rate": 10,
+                    "speed": 3, "life": 2.5, "decay": 0.5 } ]
+  })";
+  const auto loaded = parse_scene(scene, "s.json", ".");
+  ASSERT_TRUE(loaded) << loaded.error().text();
+  EXPECT_TRUE(loaded->particles.empty());
+  const Emitter& emitter = loaded->scene.emitters.front();
+  EXPECT_EQ(emitter.speed.least, 3);
+  EXPECT_EQ(emitter.speed.most, 3);
+  EXPECT_EQ(emitter.life->least, 2.5);
+  EXPECT_EQ(emitter.life->most, 2.5);
+  EXPECT_EQ(emitter.decay.least, 0.5);
+  std::string wrong = scene;
+  wrong.replace(wrong.find("\"speed\": 3"), 10, "\"speed\": \"3\"");
+  const auto refused = parse_scene(wrong, "s.json", ".");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().text(), testing::HasSubstr("must be a number >= 0, or a list of 2 numbers (m/s)"));
+}
+
+TEST(LoadScene, NeedsASourceOfParticles) {
+  std::string scene = kMinimalScene;
+  scene.erase(scene.rfind(",\n  \"particles\""));
+  const auto loaded = parse_scene(scene + "}", "s.json", ".");
+  ASSERT_FALSE(loaded);
+  EXPECT_THAT(loaded.error().text(),
+              testing::HasSubstr("needs \"particles\" or \"emitters\" or \"cloths\" or \"bodies\"; none is given"));
 }
 
 TEST(LoadScene, EndsWithTheFirstStepAtOrAfterTheEnd) {

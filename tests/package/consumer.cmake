@@ -1,5 +1,0 @@
-cmake_minimum_required(VERSION 3.25)
-project(example LANGUAGES CXX)
-find_package(hooke 0.1 REQUIRED)
-add_executable(example main.cpp)
-target_link_libraries(example PRIVATE hooke::hooke)
