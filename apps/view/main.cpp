@@ -12,8 +12,8 @@
 #include "hooke/run/output_check.h"
 #include "log.h"
 #include "replay.h"
-#include "scene_options.h"
 #include "session.h"
+#include "view_options.h"
 #include "viewer.h"
 #include "window.h"
 
@@ -22,46 +22,7 @@ namespace {
 
 using cli::ExitStatus;
 
-struct Arguments {
-  run::SceneArguments scene;
-  run::DeviceArguments device;
-  std::filesystem::path resume, record, replay, status;
-  bool headless = false, paused = false;
-  int width = 1280, height = 720;
-};
-
-std::string parse_size(const std::string& text, Arguments& arguments) {
-  int width = 0, height = 0;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 64 || height < 64 || width > 16384 ||
-      height > 16384) {
-    return text + " is no size such as 1280x720, from 64x64 to 16384x16384";
-  }
-  arguments.width = width;
-  arguments.height = height;
-  return {};
-}
-
-void add_options(CLI::App& app, Arguments& arguments) {
-  add_scene_options(app, arguments.scene);
-  app.get_option("SCENE")->required(false);
-  cli::add_device_options(app, arguments.device);
-  app.add_option("--resume", arguments.resume, "go on from a checkpoint of the scene")->option_text("CHECKPOINT");
-  app.add_option("--record", arguments.record, "log every action with the step at which it took effect")
-      ->option_text("FILE");
-  app.add_option("--replay", arguments.replay,
-                 "do again what was logged, and compare the states; SCENE may be left out")
-      ->option_text("FILE");
-  app.add_flag("--headless", arguments.headless, "replay without a window, as fast as possible")->needs("--replay");
-  app.add_flag("--paused", arguments.paused, "open the window with the simulation at rest");
-  app.add_option("--size", "of the window (default: 1280x720)")
-      ->option_text("WxH")
-      ->check([&arguments](const std::string& text) { return parse_size(text, arguments); });
-  app.add_option("--status", arguments.status, "keep a line of JSON in this file that tells what the window shows")
-      ->option_text("FILE");
-}
-
-ExitStatus replay_headless(const Record& record, const Arguments& arguments) {
+ExitStatus replay_headless(const Record& record, const ViewArguments& arguments) {
   const auto end = replay(record, arguments.scene, arguments.device);
   if (!end) return cli::report_error(end.error(), true);
   if (end->report.diverged) {
@@ -74,7 +35,7 @@ ExitStatus replay_headless(const Record& record, const Arguments& arguments) {
   return cli::kDone;
 }
 
-ExitStatus show(const Arguments& arguments, std::optional<Record> record) {
+ExitStatus show(const ViewArguments& arguments, std::optional<Record> record) {
   // What takes no time is checked before the scene is read.
   if (auto display = Window::check_display(); !display) return cli::report_error(display.error());
   SessionOptions options{arguments.scene, arguments.device, arguments.resume, arguments.record, {}, arguments.paused};
@@ -95,11 +56,11 @@ ExitStatus show(const Arguments& arguments, std::optional<Record> record) {
 }
 
 ExitStatus parse_and_run(int argc, char** argv) {
-  Arguments arguments;
+  ViewArguments arguments;
   CLI::App app("Open a window in which a scene runs and can be touched and tuned; F1 in it shows the keys",
                "hooke view");
   app.set_version_flag("--version", "hooke " HOOKE_VERSION);
-  add_options(app, arguments);
+  add_view_options(app, arguments);
   try {
     app.parse(argc, argv);
     if (arguments.scene.file.empty() && arguments.replay.empty()) throw CLI::RequiredError("SCENE");
