@@ -27,7 +27,7 @@ std::string parse_size(const std::string& text, ViewArguments& arguments) {
 }  // namespace
 
 void add_view_options(CLI::App& app, ViewArguments& arguments) {
-  add_scene_options(app, arguments.scene);
+  cli::add_scene_options(app, arguments.scene);
   app.get_option("SCENE")->required(false);
   cli::add_device_options(app, arguments.device);
   app.add_option("--resume", arguments.resume, "go on from a checkpoint of the scene")->option_text("CHECKPOINT");

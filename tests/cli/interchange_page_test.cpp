@@ -1,49 +1,20 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// docs/interchange.md does what it says: a block that names a file is written to that file, a block of shell is run.
+// docs/interchange.md does what it says; its figures are those of the run.
 
-#include <cstdlib>
-#include <fstream>
 #include <regex>
 #include <sstream>
 #include <stdexcept>
 
 #include "hooke/io/run_folder.h"
 #include "hooke/scene/load_scene.h"
-#include "program.h"
+#include "page.h"
 #include "source_dir.h"
 #include "support/openvdb.h"
 
 namespace hooke::test {
 namespace {
-
-struct Block {
-  std::string language, file, text;
-};
-
-std::vector<Block> blocks_of(const std::filesystem::path& page) {
-  std::ifstream in(page);
-  std::vector<Block> blocks;
-  bool inside = false;
-  for (std::string line; std::getline(in, line);) {
-    if (line.starts_with("```")) {
-      inside = !inside;
-      if (!inside) continue;
-      std::istringstream words(line.substr(3));
-      words >> blocks.emplace_back().language >> blocks.back().file;
-    } else if (inside) {
-      blocks.back().text += line + '\n';
-    }
-  }
-  return blocks;
-}
-
-std::string contents(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 
 // A value of the last row of a series.
 double last_value(const std::string& series, const std::string& column) {
@@ -56,20 +27,8 @@ double last_value(const std::string& series, const std::string& column) {
   throw std::runtime_error("no column " + column);
 }
 
-class InterchangePage : public ProgramTest {
+class InterchangePage : public PageTest {
  protected:
-  // Runs a script in the test's folder, with the program under test and Debian's Python. Expects success, returns the
-  // output.
-  std::string shell(const std::string& script) const {
-    write("script.sh", script);
-    const std::string folder = path(".").string();
-    const int status = std::system(("cd '" + folder + "' && PATH='" + folder + "/bin':/usr/bin:\"$PATH\" " +
-                                    "sh -eu script.sh > script.out 2>&1 < /dev/null")
-                                       .c_str());
-    EXPECT_EQ(status, 0) << script << read("script.out");
-    return read("script.out");
-  }
-
   // The page's Python finds the fastest particle at the end of the run, and LAMMPS finds the kinetic energy.
   void expect_figures(const std::string& output) const {
     const std::string series = read("out/mixed/series.csv");
@@ -108,8 +67,6 @@ class InterchangePage : public ProgramTest {
 
 TEST_F(InterchangePage, Works) {
   HOOKE_NEEDS_OPENVDB();
-  std::filesystem::create_directories(path("bin"));
-  std::filesystem::create_symlink(program_file(), path("bin/hooke"));
   std::filesystem::create_directories(path("scenes"));
   // The page's scene, with fewer particles and steps.
   std::string scene = contents(HOOKE_SOURCE_DIR "/scenes/mixed.json");
@@ -122,18 +79,8 @@ TEST_F(InterchangePage, Works) {
   }
   write("scenes/mixed.json", scene);
 
-  const auto blocks = blocks_of(HOOKE_SOURCE_DIR "/docs/interchange.md");
-  ASSERT_GT(blocks.size(), 10U);
-  std::string output;
-  for (const Block& block : blocks) {
-    if (!block.file.empty()) {
-      write(block.file, block.text);
-    } else if (block.language == "sh") {
-      output += shell(block.text);
-    }
-    ASSERT_FALSE(HasFailure());
-  }
-
+  const std::string output = follow(HOOKE_SOURCE_DIR "/docs/interchange.md");
+  ASSERT_FALSE(HasFailure());
   expect_figures(output);
   expect_lammps_went_on();
 }
