@@ -10,7 +10,7 @@ RUN_ARGS ?=
 BENCH_ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help python run gallery test sanitize soak fuzz build build-all bench format lint install clean setup setup-test setup-python setup-lint setup-soak setup-bench setup-fuzz
+.PHONY: help python run gallery docs test sanitize soak fuzz build build-all bench format lint install clean setup setup-docs setup-test setup-python setup-lint setup-soak setup-bench setup-fuzz
 
 help:  ## this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
@@ -29,6 +29,9 @@ run: build  ## build, run the dam break of 512,000 particles into out/water, and
 
 gallery: build  ## run every scene and draw a picture of each into docs/gallery.md
 	tools/gallery.sh
+
+docs: setup-docs  ## make the documentation site: site/index.html
+	@tools/make_docs.sh
 
 test: setup-test  ## build with assertions, run every test but the long ones
 	tools/test.sh
@@ -68,11 +71,14 @@ lint: setup-lint  ## check the format, clang-tidy, and a build with Clang 19
 install: build-all  ## install program, library, headers and scenes below PREFIX
 	cmake --install build --prefix $(PREFIX)
 
-clean:  ## remove every build folder
-	rm -rf build build-dev build-clang build-asan build-asan-everything build-tsan build-tsan-everything build-fuzz
+clean:  ## remove every build folder and the site
+	rm -rf build build-docs site build-dev build-clang build-asan build-asan-everything build-tsan build-tsan-everything build-fuzz
 
 setup:
 	@tools/setup.sh
+
+setup-docs:
+	@tools/setup.sh docs
 
 setup-test:
 	@tools/setup.sh test

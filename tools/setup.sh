@@ -7,6 +7,7 @@
 #   tools/setup.sh test     also to test, which checks the format
 #   tools/setup.sh lint     also to lint
 #   tools/setup.sh bench    to build and run, to measure and to draw what was measured
+#   tools/setup.sh docs     to build and run, and to make the documentation site
 #   tools/setup.sh fuzz     also to run fuzzers
 #   tools/setup.sh python   to build the Python module, and to install it with pip
 #   tools/setup.sh soak     all that soak needs
@@ -22,8 +23,9 @@ build_packages=(
   python3)
 bench_packages=(lammps python3-numpy python3-matplotlib)
 python_packages=(python3-dev pybind11-dev python3-numpy python3-pip python3-setuptools python3-wheel)
-test_packages=(clang-format-19 lammps mold python3-h5py python3-matplotlib python3-vtk9 xauth xdotool xvfb
-  "${python_packages[@]}")
+test_packages=(appstream clang-format-19 desktop-file-utils groff-base lammps mold python3-h5py python3-matplotlib
+  python3-vtk9 xauth xdotool xvfb zsh "${python_packages[@]}")
+docs_packages=(doxygen mkdocs mkdocs-material)
 lint_packages=(clang-19 clang-tidy-19)
 fuzz_packages=(clang-19 libclang-rt-19-dev)
 
@@ -33,6 +35,7 @@ case "${1:-}" in
   test) packages+=("${test_packages[@]}") ;;
   lint) packages+=("${test_packages[@]}" "${lint_packages[@]}") ;;
   fuzz) packages+=("${test_packages[@]}" "${fuzz_packages[@]}") ;;
+  docs) packages+=("${docs_packages[@]}") ;;
   bench) packages+=("${bench_packages[@]}") ;;
   soak) packages+=("${test_packages[@]}" "${lint_packages[@]}" "${bench_packages[@]}") ;;
 esac
