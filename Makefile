@@ -72,7 +72,7 @@ install: build-all  ## install program, library, headers and scenes below PREFIX
 	cmake --install build --prefix $(PREFIX)
 
 clean:  ## remove every build folder and the site
-	rm -rf build build-docs site build-dev build-clang build-asan build-asan-everything build-tsan build-tsan-everything build-fuzz
+	rm -rf build build-docs site build-dev build-clang build-asan build-asan-everything build-tsan build-tsan-everything build-aarch64 build-fuzz
 
 setup:
 	@tools/setup.sh

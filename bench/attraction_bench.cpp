@@ -6,9 +6,6 @@
 
 #include <benchmark/benchmark.h>
 #include <immintrin.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -20,6 +17,7 @@
 #include "hooke/backends/cpu/attraction_sums.h"
 #include "hooke/backends/cpu/isa.h"
 #include "hooke/base/parallel.h"
+#include "hooke/base/threads.h"
 
 namespace hooke::bench {
 namespace {
@@ -140,9 +138,8 @@ void direct(benchmark::State& state, const Isa& isa, bool exact, int threads) {
   attraction.exact = exact;
   sums.configure(attraction, kSoftening2, loops_of<Real>(isa));
   std::vector<Vec3<Real>> a(kCount);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   double peak = 0;  // flop/s, measured between the sums
-  tbb::task_arena(threads).execute([&] {
+  Threads(threads).run([&] {
     for (auto iteration : state) {
       state.PauseTiming();
       peak += measured_peak();

@@ -5,9 +5,6 @@
 // `hooke bench --json` that it knows. Prints no speed where its positions differ from Hooke's.
 //   hooke_cell_loop SCENE STEPS THREADS
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -18,6 +15,7 @@
 
 #include "cell_loop.h"
 #include "hooke/backends/cpu/cpu_backend.h"
+#include "hooke/base/threads.h"
 #include "hooke/core/simulation.h"
 #include "hooke/io/snapshot.h"
 #include "hooke/scene/load_scene.h"
@@ -91,12 +89,12 @@ int run(int argc, char** argv) {
       scene.integrator != Integrator::symplectic_euler) {
     return complain("one material without drag, spring walls and symplectic Euler are all that it can do");
   }
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
-  return arena.execute([&] {
-    return scene.precision == Precision::single_precision ? measure<float>(*loaded, steps, threads)
-                                                          : measure<double>(*loaded, steps, threads);
+  int status = 1;
+  Threads(threads).run([&] {
+    status = scene.precision == Precision::single_precision ? measure<float>(*loaded, steps, threads)
+                                                            : measure<double>(*loaded, steps, threads);
   });
+  return status;
 }
 
 }  // namespace

@@ -1,13 +1,16 @@
 # SPDX-FileCopyrightText: The Hooke authors
 # SPDX-License-Identifier: MIT
 
-# hooke_library(NAME [INTERFACE] [SOURCES ...] [LINKS ...] [PRIVATE_LINKS ...] [PRECOMPILED HEADER ...])
-# One static (or header-only) library of src/, exported as hooke::NAME. LINKS may only name libraries below it:
+# hooke_library(NAME [INTERFACE] COMPONENT NAME [SOURCES ...] [PUBLIC_HEADERS ...] [LINKS ...] [PRIVATE_LINKS ...]
+#               [PRECOMPILED HEADER ...])
+# One static (or header-only) library of src/, exported as hooke::NAME. COMPONENT: the part of the installed package that it
+# belongs to (cmake/install.cmake). PUBLIC_HEADERS: those that are installed, and described in the documentation. LINKS may only name libraries below it:
 # tests/layering checks includes and links. PRECOMPILED: headers that most of its sources include and that take long;
 # each source includes what it uses all the same.
-set_property(GLOBAL PROPERTY HOOKE_LIBRARIES)
+set_property(GLOBAL PROPERTY HOOKE_EXPORTS)
+set_property(GLOBAL PROPERTY HOOKE_PUBLIC_HEADERS)
 function(hooke_library name)
-  cmake_parse_arguments(ARG "INTERFACE" "" "SOURCES;LINKS;PRIVATE_LINKS;PRECOMPILED" ${ARGN})
+  cmake_parse_arguments(ARG "INTERFACE" "COMPONENT" "SOURCES;PUBLIC_HEADERS;LINKS;PRIVATE_LINKS;PRECOMPILED" ${ARGN})
   set(target hooke_${name})
   if(ARG_INTERFACE)
     add_library(${target} INTERFACE)
@@ -27,5 +30,15 @@ function(hooke_library name)
                                                 $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(${target} ${scope} cxx_std_20)
   target_link_libraries(${target} ${scope} ${ARG_LINKS})
-  set_property(GLOBAL APPEND PROPERTY HOOKE_LIBRARIES ${target})
+  if(NOT ARG_COMPONENT)
+    message(FATAL_ERROR "${name} needs a COMPONENT")
+  endif()
+  install(TARGETS ${target} EXPORT hooke-${ARG_COMPONENT} ARCHIVE COMPONENT development)
+  foreach(header IN LISTS ARG_PUBLIC_HEADERS)
+    file(RELATIVE_PATH place ${PROJECT_SOURCE_DIR}/src ${CMAKE_CURRENT_SOURCE_DIR}/${header})
+    cmake_path(GET place PARENT_PATH folder)
+    install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hooke/${folder} COMPONENT development)
+    set_property(GLOBAL APPEND PROPERTY HOOKE_PUBLIC_HEADERS ${place})
+  endforeach()
+  set_property(GLOBAL APPEND PROPERTY HOOKE_EXPORTS ${ARG_COMPONENT})
 endfunction()

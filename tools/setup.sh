@@ -15,7 +15,7 @@ set -euo pipefail
 
 build_packages=(
   build-essential cmake ninja-build ccache
-  libtbb-dev libexpected-dev nlohmann-json3-dev libvalijson-dev libcli11-dev libfmt-dev libspdlog-dev libhdf5-dev
+  libtbb-dev nlohmann-json3-dev libvalijson-dev libcli11-dev libfmt-dev libspdlog-dev libhdf5-dev
   libopenvdb-dev libboost-iostreams-dev
   libgtest-dev libgmock-dev libbenchmark-dev pkg-config
   libepoxy-dev libegl1 libgl1 libgl1-mesa-dri libpng-dev libcairo2-dev fonts-dejavu-core ffmpeg
@@ -27,6 +27,7 @@ test_packages=(appstream clang-format-19 desktop-file-utils groff-base lammps mo
   python3-vtk9 xauth xdotool xvfb zsh "${python_packages[@]}")
 docs_packages=(doxygen mkdocs mkdocs-material)
 lint_packages=(clang-19 clang-tidy-19)
+cross_packages=(g++-aarch64-linux-gnu googletest qemu-user-static)
 fuzz_packages=(clang-19 libclang-rt-19-dev)
 
 packages=("${build_packages[@]}")
@@ -37,7 +38,7 @@ case "${1:-}" in
   fuzz) packages+=("${test_packages[@]}" "${fuzz_packages[@]}") ;;
   docs) packages+=("${docs_packages[@]}") ;;
   bench) packages+=("${bench_packages[@]}") ;;
-  soak) packages+=("${test_packages[@]}" "${lint_packages[@]}" "${bench_packages[@]}") ;;
+  soak) packages+=("${test_packages[@]}" "${lint_packages[@]}" "${bench_packages[@]}" "${cross_packages[@]}") ;;
 esac
 
 if ! command -v dpkg-query >/dev/null; then

@@ -32,7 +32,7 @@ std::set<std::string> changed_pointers(const scene::Json& patch) {
   return pointers;
 }
 
-tl::unexpected<Error> bad_patch(const char* what) { return fail(Error::Kind::bad_input, "patch", what); }
+Unexpected bad_patch(const char* what) { return fail(Error::Kind::bad_input, "patch", what); }
 
 std::vector<std::string> material_names(const Scene& scene) {
   std::vector<std::string> names;
@@ -179,7 +179,8 @@ Expected<void> SceneDocument::reset(Simulation& simulation) const {
   if (!loaded) return fail(std::move(loaded).error());
   auto backend = source_.make_backend(loaded->scene.precision);
   if (!backend) return fail(std::move(backend).error());
-  auto started = Simulation::create(std::move(loaded->scene), std::move(loaded->particles), std::move(*backend));
+  auto started = Simulation::create(std::move(loaded->scene), std::move(loaded->particles), std::move(*backend),
+                                    {.allow_unstable_step = true});  // the panel says so
   if (!started) return fail(std::move(started).error());
   simulation = std::move(*started);
   return {};

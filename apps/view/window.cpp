@@ -26,7 +26,7 @@ std::string& last_error() {
   return text;
 }
 
-tl::unexpected<Error> no_window(const std::string& why) {
+Unexpected no_window(const std::string& why) {
   return fail(Error::Kind::bad_input, "window",
               why + "; hooke run and hooke render make pictures and films without one");
 }

@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "hooke/base/assert.h"
+#include "hooke/base/format.h"
 #include "hooke/core/scene.h"
 
 namespace hooke {
@@ -25,13 +24,13 @@ std::vector<Finding> validate_attraction(const Scene& scene) {
   const Attraction& a = *scene.attraction;
   const auto not_negative = [&](const char* where, double value) {
     if (std::isfinite(value) && value >= 0) return;
-    findings.push_back({where, fmt::format("{} must be a finite number, 0 or more", value)});
+    findings.push_back({where, formatted("{} must be a finite number, 0 or more", value)});
   };
   not_negative("attraction.G", a.constant);
   not_negative("attraction.softening", a.softening);
   if (!(a.accuracy >= kFinestAccuracy && a.accuracy <= kCoarsestAccuracy)) {
-    findings.push_back({"attraction.accuracy",
-                        fmt::format("{} must be from {} to {}", a.accuracy, kFinestAccuracy, kCoarsestAccuracy)});
+    findings.push_back(
+        {"attraction.accuracy", formatted("{} must be from {} to {}", a.accuracy, kFinestAccuracy, kCoarsestAccuracy)});
   }
   for (const Boundary boundary : scene.domain.boundary) {
     if (boundary != Boundary::periodic) continue;

@@ -3,13 +3,12 @@
 
 #include "hooke/core/colliders.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "hooke/base/assert.h"
+#include "hooke/base/format.h"
 #include "hooke/base/printable.h"
 #include "hooke/base/sine.h"
 #include "hooke/core/scene.h"
@@ -113,14 +112,14 @@ class MotionCheck {
   void operator()(const KeyframeMotion& m) {
     if (m.keyframes.empty()) add("keyframes", "is empty; at least one keyframe is needed");
     for (std::size_t i = 0; i < m.keyframes.size(); ++i) {
-      const std::string at = fmt::format("keyframes[{}]", i);
+      const std::string at = formatted("keyframes[{}]", i);
       const Keyframe& k = m.keyframes[i];
       finite(at + ".position", k.position);
       finite(at + ".rotation", k.rotation);
       if (!std::isfinite(k.time)) add(at + ".time", "is not a finite number");
       if (i > 0 && !(k.time > m.keyframes[i - 1].time)) {
         add(at + ".time",
-            fmt::format("{} must be later than that of the keyframe before, {}", k.time, m.keyframes[i - 1].time));
+            formatted("{} must be later than that of the keyframe before, {}", k.time, m.keyframes[i - 1].time));
       }
     }
     if (m.pivot) finite("pivot", *m.pivot);
@@ -128,7 +127,7 @@ class MotionCheck {
   void operator()(const Oscillation& m) {
     finite("oscillate.amplitude", m.amplitude);
     if (!std::isfinite(m.frequency) || m.frequency < 0) {
-      add("oscillate.frequency", fmt::format("{} must be 0 or more", m.frequency));
+      add("oscillate.frequency", formatted("{} must be 0 or more", m.frequency));
     }
     if (!std::isfinite(m.phase)) add("oscillate.phase", "is not a finite number");
   }
@@ -188,10 +187,10 @@ std::vector<Finding> check_colliders(const Scene& scene) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < scene.colliders.size(); ++i) {
     const Collider& c = scene.colliders[i];
-    const std::string where = fmt::format("colliders[{}]", i);
+    const std::string where = formatted("colliders[{}]", i);
     if (!names.insert(c.name).second) {
       findings.push_back(
-          {where + ".name", fmt::format("\"{}\" is the name of another collider, too", printable(c.name))});
+          {where + ".name", formatted("\"{}\" is the name of another collider, too", printable(c.name))});
     }
     for (Finding& finding : validate(c.shape, where + ".shape")) findings.push_back(std::move(finding));
     if (c.material && *c.material >= scene.materials.size()) {

@@ -3,12 +3,11 @@
 
 #include "hooke/core/emission.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "hooke/base/assert.h"
+#include "hooke/base/format.h"
 #include "hooke/base/parallel.h"
 #include "hooke/base/single_precision.h"
 #include "hooke/core/backend.h"
@@ -38,8 +37,8 @@ std::uint64_t births_due(const Emitter& emitter, EmitterState& state, std::int64
 std::vector<Finding> check_state(const EmissionState& state, const Scene& scene) {
   std::vector<Finding> findings;
   if (!state.emitters.empty() && state.emitters.size() != scene.emitters.size()) {
-    findings.push_back({"emitters", fmt::format("{} in the scene, {} in the saved state", scene.emitters.size(),
-                                                state.emitters.size())});
+    findings.push_back({"emitters", formatted("{} in the scene, {} in the saved state", scene.emitters.size(),
+                                              state.emitters.size())});
   }
   const auto known = [&](const Mortal& m) { return m.emitter < scene.emitters.size(); };
   if (!std::all_of(state.mortals.begin(), state.mortals.end(), known) ||

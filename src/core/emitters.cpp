@@ -3,13 +3,12 @@
 
 #include "hooke/core/emitters.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "hooke/base/assert.h"
+#include "hooke/base/format.h"
 #include "hooke/base/printable.h"
 #include "hooke/core/births.h"
 #include "hooke/core/free_space.h"
@@ -27,11 +26,11 @@ class EmitterCheck {
     if (e.material >= scene.materials.size()) {
       add("material", "is no material of the scene");
     } else if (!scene.materials[e.material].is_of_particles()) {
-      add("material", fmt::format("\"{}\" has no radius and no mass: only colliders may have it",
-                                  printable(scene.materials[e.material].name)));
+      add("material", formatted("\"{}\" has no radius and no mass: only colliders may have it",
+                                printable(scene.materials[e.material].name)));
     } else if (scene.materials[e.material].fixed) {
       add("material",
-          fmt::format("\"{}\" is fixed: its particles could not leave", printable(scene.materials[e.material].name)));
+          formatted("\"{}\" is fixed: its particles could not leave", printable(scene.materials[e.material].name)));
     }
     if (std::holds_alternative<PlaneShape>(e.shape)) {
       add("shape", "must be a disc, or a box, sphere, capsule, cylinder or mesh, whose inside particles are born in");
@@ -41,29 +40,29 @@ class EmitterCheck {
     const double length2 = dot(e.direction, e.direction);
     if (!(length2 > 0) || !std::isfinite(length2)) add("direction", "must be finite and not 0");
     if (!(e.spread >= 0 && e.spread <= 180)) {
-      add("spread", fmt::format("{} must be from 0 to 180 degrees", e.spread));
+      add("spread", formatted("{} must be from 0 to 180 degrees", e.spread));
     }
     if (e.life) positive("life", *e.life);
     positive("decay", e.decay);
     if (!std::isfinite(e.start)) add("start", "is not a finite number");
-    if (!(e.stop >= e.start)) add("stop", fmt::format("{} must not be before \"start\", {}", e.stop, e.start));
+    if (!(e.stop >= e.start)) add("stop", formatted("{} must not be before \"start\", {}", e.stop, e.start));
     if (e.respawn && !e.life) add("respawn", "needs \"life\": those who live for ever are not born again");
   }
 
  private:
   void at_least(double least, const char* key, double value) {
-    if (!std::isfinite(value) || value < least) add(key, fmt::format("{} must be {} or more", value, least));
+    if (!std::isfinite(value) || value < least) add(key, formatted("{} must be {} or more", value, least));
   }
   void range(const char* key, const Range& r, double least) {
-    const auto at = [key](int i) { return fmt::format("{}[{}]", key, i); };
+    const auto at = [key](int i) { return formatted("{}[{}]", key, i); };
     at_least(least, at(0).c_str(), r.least);
     if (!std::isfinite(r.most) || r.most < r.least) {
-      add(at(1), fmt::format("{} must not be less than {}[0] = {}", r.most, key, r.least));
+      add(at(1), formatted("{} must not be less than {}[0] = {}", r.most, key, r.least));
     }
   }
   void positive(const char* key, const Range& r) {
     range(key, r, 0);
-    if (r.least == 0) add(fmt::format("{}[0]", key), "0 must be greater than 0");
+    if (r.least == 0) add(formatted("{}[0]", key), "0 must be greater than 0");
   }
   void add(const std::string& key, std::string message) {
     findings_.push_back({where_ + "." + key, std::move(message)});
@@ -80,17 +79,16 @@ std::vector<Finding> check_emitters(const Scene& scene) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < scene.emitters.size(); ++i) {
     const Emitter& e = scene.emitters[i];
-    const std::string where = fmt::format("emitters[{}]", i);
+    const std::string where = formatted("emitters[{}]", i);
     if (!names.insert(e.name).second) {
-      findings.push_back(
-          {where + ".name", fmt::format("\"{}\" is the name of another emitter, too", printable(e.name))});
+      findings.push_back({where + ".name", formatted("\"{}\" is the name of another emitter, too", printable(e.name))});
     }
     for (Finding& finding : validate(e.shape, where + ".shape")) findings.push_back(std::move(finding));
     EmitterCheck(where, findings).check(e, scene);
     for (Finding& finding : validate(e.motion, where + ".motion")) findings.push_back(std::move(finding));
   }
   for (std::size_t i = 0; i < scene.sinks.size(); ++i) {
-    const std::string where = fmt::format("sinks[{}].shape", i);
+    const std::string where = formatted("sinks[{}].shape", i);
     const Shape& shape = scene.sinks[i].shape;
     for (Finding& finding : validate(shape, where)) findings.push_back(std::move(finding));
     if (std::holds_alternative<DiscShape>(shape)) {
@@ -134,7 +132,7 @@ std::vector<Finding> check_places_of_birth(const Scene& scene) {
   std::vector<Finding> findings;
   for (std::uint32_t i = 0; i < scene.emitters.size(); ++i) {
     if (!std::holds_alternative<NoMotion>(scene.emitters[i].motion) || has_any_place(scene, i)) continue;
-    findings.push_back({fmt::format("emitters[{}].shape", i),
+    findings.push_back({formatted("emitters[{}].shape", i),
                         "has no place where a particle is inside the domain and clear of walls and colliders"});
   }
   return findings;

@@ -3,11 +3,10 @@
 
 #include "hooke/core/fields.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <string>
 
+#include "hooke/base/format.h"
 #include "hooke/core/scene.h"
 
 namespace hooke {
@@ -18,14 +17,14 @@ class FieldCheck {
   FieldCheck(std::string where, std::vector<Finding>& findings) : where_(std::move(where)), findings_(findings) {}
 
   void finite(const std::string& key, const Vec3d& v) {
-    for (int axis = 0; axis < 3; ++axis) number(fmt::format("{}[{}]", key, axis), component(v, axis), -INFINITY);
+    for (int axis = 0; axis < 3; ++axis) number(formatted("{}[{}]", key, axis), component(v, axis), -INFINITY);
   }
   /// Finite, and at least `least`.
   void number(const std::string& key, double value, double least) {
     if (!std::isfinite(value)) {
-      add(key, fmt::format("{} is not finite", value));
+      add(key, formatted("{} is not finite", value));
     } else if (value < least) {
-      add(key, fmt::format("{} must be {} or more", value, least));
+      add(key, formatted("{} must be {} or more", value, least));
     }
   }
 
@@ -62,10 +61,10 @@ std::vector<Finding> check_fields(const Scene& scene) {
   std::vector<Finding> findings;
   for (std::size_t i = 0; i < scene.fields.size(); ++i) {
     const Field& field = scene.fields[i];
-    FieldCheck check(fmt::format("fields[{}]", i), findings);
+    FieldCheck check(formatted("fields[{}]", i), findings);
     std::visit(check, field.law);
     for (const std::size_t m : field.materials) {
-      if (m >= scene.materials.size()) check.add("materials", fmt::format("there is no material {}", m));
+      if (m >= scene.materials.size()) check.add("materials", formatted("there is no material {}", m));
     }
     if (!field.within) continue;
     check.finite("within.box.min", field.within->min);
@@ -73,7 +72,7 @@ std::vector<Finding> check_fields(const Scene& scene) {
     for (int axis = 0; axis < 3; ++axis) {
       const double low = component(field.within->min, axis), high = component(field.within->max, axis);
       if (high > low || !std::isfinite(low) || !std::isfinite(high)) continue;
-      check.add(fmt::format("within.box.max[{}]", axis), fmt::format("{} must be greater than {}", high, low));
+      check.add(formatted("within.box.max[{}]", axis), formatted("{} must be greater than {}", high, low));
     }
   }
   return findings;

@@ -3,13 +3,12 @@
 
 #include "hooke/core/scene.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "hooke/base/assert.h"
+#include "hooke/base/format.h"
 #include "hooke/base/printable.h"
 
 namespace hooke {
@@ -24,25 +23,25 @@ class Checker {
 
   void finite(const std::string& where, double value) {
     if (!std::isfinite(value)) {
-      add(where, fmt::format("{} is not a finite number", value));
+      add(where, formatted("{} is not a finite number", value));
     } else if (single_ && !std::isfinite(static_cast<float>(value))) {
-      add(where, fmt::format("{} is beyond single precision (up to 3.4e38)", value));
+      add(where, formatted("{} is beyond single precision (up to 3.4e38)", value));
     }
   }
   void positive(const std::string& where, double value) {
     finite(where, value);
     if (std::isfinite(value) && !(value > 0)) {
-      add(where, fmt::format("{} must be greater than 0", value));
+      add(where, formatted("{} must be greater than 0", value));
     } else if (std::isfinite(value) && single_ && !(static_cast<float>(value) > 0)) {
-      add(where, fmt::format("{} is 0 in single precision", value));
+      add(where, formatted("{} is 0 in single precision", value));
     }
   }
   void not_negative(const std::string& where, double value) {
     finite(where, value);
-    if (std::isfinite(value) && value < 0) add(where, fmt::format("{} must be 0 or more", value));
+    if (std::isfinite(value) && value < 0) add(where, formatted("{} must be 0 or more", value));
   }
   void share(const std::string& where, double value) {
-    if (!(value >= 0 && value <= 1)) add(where, fmt::format("{} must be from 0 to 1", value));
+    if (!(value >= 0 && value <= 1)) add(where, formatted("{} must be from 0 to 1", value));
   }
   void coefficients(const std::string& where, const ContactCoefficients<double>& c) {
     not_negative(where + ".stiffness", c.stiffness);
@@ -67,14 +66,14 @@ void check_domain(const Domain& domain, bool single, Checker& check) {
   for (int axis = 0; axis < 3; ++axis) {
     const double low = component(domain.min, axis);
     const double high = component(domain.max, axis);
-    check.finite(fmt::format("domain.min[{}]", axis), low);
-    check.finite(fmt::format("domain.max[{}]", axis), high);
+    check.finite(formatted("domain.min[{}]", axis), low);
+    check.finite(formatted("domain.max[{}]", axis), high);
     if (!std::isfinite(low) || !std::isfinite(high)) continue;
     const bool empty = single ? !(static_cast<float>(low) < static_cast<float>(high)) : !(low < high);
     if (empty) {
-      check.add(fmt::format("domain.max[{}]", axis),
-                fmt::format("{} must be greater than domain.min[{}] = {} ({} axis){}", high, axis, low, kAxisName[axis],
-                            low < high ? ", also after rounding to single precision" : ""));
+      check.add(formatted("domain.max[{}]", axis),
+                formatted("{} must be greater than domain.min[{}] = {} ({} axis){}", high, axis, low, kAxisName[axis],
+                          low < high ? ", also after rounding to single precision" : ""));
     }
   }
 }
@@ -87,17 +86,16 @@ void check_periods(const Scene& scene, Checker& check) {
     if (scene.domain.boundary[static_cast<std::size_t>(axis)] != Boundary::periodic) continue;
     const double length = scene.domain.length(axis);
     if (std::isfinite(length) && length > 0 && length < largest) {
-      check.add(fmt::format("domain.max[{}]", axis),
-                fmt::format("the periodic {} axis is {} m long, less than the largest radius {} m", kAxisName[axis],
-                            length, largest));
+      check.add(formatted("domain.max[{}]", axis),
+                formatted("the periodic {} axis is {} m long, less than the largest radius {} m", kAxisName[axis],
+                          length, largest));
     }
   }
 }
 
 void check_materials(const Scene& scene, Checker& check) {
   if (scene.materials.size() > kMostMaterials) {
-    check.add("materials",
-              fmt::format("{} materials, at most {} are possible", scene.materials.size(), kMostMaterials));
+    check.add("materials", formatted("{} materials, at most {} are possible", scene.materials.size(), kMostMaterials));
   }
   std::set<std::string> names;
   for (const Material& m : scene.materials) {
@@ -121,7 +119,7 @@ void check_contacts(const Scene& scene, Checker& check) {
   std::set<std::pair<std::size_t, std::size_t>> seen;
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const ContactEntry& entry = scene.contacts[i];
-    const std::string where = fmt::format("contacts[{}]", i);
+    const std::string where = formatted("contacts[{}]", i);
     const bool known =
         entry.a < scene.materials.size() && (entry.b < scene.materials.size() || entry.b == ContactEntry::kWall);
     if (!known) check.add(where + ".between", "names a material that does not exist");
@@ -161,8 +159,8 @@ std::vector<Finding> validate(const Scene& scene) {
   const bool single = scene.precision == Precision::single_precision;
   Checker check(single);
   check.positive("time.step", scene.time_step);
-  if (scene.steps < 0) check.add("time.steps", fmt::format("{} must be 0 or more", scene.steps));
-  for (int axis = 0; axis < 3; ++axis) check.finite(fmt::format("gravity[{}]", axis), component(scene.gravity, axis));
+  if (scene.steps < 0) check.add("time.steps", formatted("{} must be 0 or more", scene.steps));
+  for (int axis = 0; axis < 3; ++axis) check.finite(formatted("gravity[{}]", axis), component(scene.gravity, axis));
   check_domain(scene.domain, single, check);
   check_periods(scene, check);
   check_materials(scene, check);
@@ -170,7 +168,7 @@ std::vector<Finding> validate(const Scene& scene) {
   for (Finding& finding : check_colliders(scene)) check.findings.push_back(std::move(finding));
   for (Finding& finding : check_emitters(scene)) check.findings.push_back(std::move(finding));
   check.not_negative("output.every", scene.output.seconds);
-  if (scene.output.steps < 0) check.add("output.every_steps", fmt::format("{} must be 1 or more", scene.output.steps));
+  if (scene.output.steps < 0) check.add("output.every_steps", formatted("{} must be 1 or more", scene.output.steps));
   for (Finding& finding : validate(scene.camera)) check.findings.push_back(std::move(finding));
   for (Finding& finding : validate(scene.picture)) check.findings.push_back(std::move(finding));
   for (Finding& finding : check_fields(scene)) check.findings.push_back(std::move(finding));

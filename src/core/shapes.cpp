@@ -3,13 +3,12 @@
 
 #include "hooke/core/shapes.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "hooke/base/assert.h"
+#include "hooke/base/format.h"
 
 namespace hooke {
 namespace {
@@ -63,7 +62,7 @@ class Checker {
 
   void vector(const char* key, const Vec3d& a) {
     for (int axis = 0; axis < 3; ++axis) {
-      if (!std::isfinite(component(a, axis))) add(fmt::format("{}[{}]", key, axis), "is not a finite number");
+      if (!std::isfinite(component(a, axis))) add(formatted("{}[{}]", key, axis), "is not a finite number");
     }
   }
   void direction(const char* key, const Vec3d& a) {
@@ -71,7 +70,7 @@ class Checker {
     if (findings.empty() && !(length_of(a) > 0)) add(key, "must not be 0");
   }
   void radius(double value) {
-    if (!std::isfinite(value) || !(value > 0)) add("radius", fmt::format("{} must be greater than 0", value));
+    if (!std::isfinite(value) || !(value > 0)) add("radius", formatted("{} must be greater than 0", value));
   }
   template <class LongShape>
   void ends(const LongShape& s) {
@@ -175,8 +174,8 @@ std::vector<Finding> validate(const Shape& shape, const std::string& where) {
                           for (int axis = 0; axis < 3 && check.findings.empty(); ++axis) {
                             const double low = component(s.min, axis), high = component(s.max, axis);
                             if (low < high) continue;
-                            check.add(fmt::format("max[{}]", axis),
-                                      fmt::format("{} must be greater than min[{}] = {}", high, axis, low));
+                            check.add(formatted("max[{}]", axis),
+                                      formatted("{} must be greater than min[{}] = {}", high, axis, low));
                           }
                         },
                         [&](const SphereShape& s) {

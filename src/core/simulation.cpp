@@ -3,8 +3,6 @@
 
 #include "hooke/core/simulation.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <new>
@@ -13,6 +11,7 @@
 #include "hooke/base/ascending.h"
 #include "hooke/base/assert.h"
 #include "hooke/base/floating_point.h"
+#include "hooke/base/format.h"
 #include "hooke/base/hash.h"
 #include "hooke/base/printable.h"
 #include "hooke/core/snapshot_pool.h"
@@ -36,23 +35,23 @@ bool is_inside(const Domain& domain, const Vec3d& x) {
   return true;
 }
 
-std::string shown(const Vec3d& a) { return fmt::format("({}, {}, {})", a.x, a.y, a.z); }
+std::string shown(const Vec3d& a) { return formatted("({}, {}, {})", a.x, a.y, a.z); }
 
 // What is wrong with one particle that is about to enter `scene`; empty where nothing is.
 std::string particle_fault(const Scene& scene, std::size_t material, const Vec3d& x, const Vec3d& v) {
   const bool single = scene.precision == Precision::single_precision;
   if (material >= scene.materials.size()) {
-    return fmt::format("material {} does not exist; there are {}", material, scene.materials.size());
+    return formatted("material {} does not exist; there are {}", material, scene.materials.size());
   }
   if (!scene.materials[material].is_of_particles()) {
-    return fmt::format("material \"{}\" has no radius and no mass: only colliders may have it",
-                       printable(scene.materials[material].name));
+    return formatted("material \"{}\" has no radius and no mass: only colliders may have it",
+                     printable(scene.materials[material].name));
   }
   if (!is_finite(x, single)) return "position " + shown(x) + " is not finite";
   if (!is_finite(v, single)) return "velocity " + shown(v) + " is not finite";
   if (!is_inside(scene.domain, x)) {
-    return fmt::format("position {} is outside the domain {} to {}", shown(x), shown(scene.domain.min),
-                       shown(scene.domain.max));
+    return formatted("position {} is outside the domain {} to {}", shown(x), shown(scene.domain.min),
+                     shown(scene.domain.max));
   }
   return {};
 }
@@ -62,9 +61,9 @@ std::vector<Finding> check_columns(const ParticleSet& p, bool with_acceleration)
   if (p.material.size() != n || p.position.size() != n || p.velocity.size() != n ||
       (with_acceleration && p.acceleration.size() != n)) {
     return {
-        {"particles", fmt::format("columns of different length: {} ids, {} materials, {} positions, {} velocities, "
-                                  "{} accelerations",
-                                  n, p.material.size(), p.position.size(), p.velocity.size(), p.acceleration.size())}};
+        {"particles", formatted("columns of different length: {} ids, {} materials, {} positions, {} velocities, "
+                                "{} accelerations",
+                                n, p.material.size(), p.position.size(), p.velocity.size(), p.acceleration.size())}};
   }
   return {};
 }
@@ -72,7 +71,7 @@ std::vector<Finding> check_columns(const ParticleSet& p, bool with_acceleration)
 std::vector<Finding> check_ids(const ParticleSet& p) {
   for (std::size_t i = 1; i < p.size(); ++i) {
     if (p.id[i - 1] >= p.id[i]) {
-      return {{"particles", fmt::format("ids must be unique and ascending: {} follows {}", p.id[i], p.id[i - 1])}};
+      return {{"particles", formatted("ids must be unique and ascending: {} follows {}", p.id[i], p.id[i - 1])}};
     }
   }
   if (!p.empty() && p.id.back() == ~std::uint64_t{0}) return {{"particles", "the largest 64-bit id is reserved"}};
@@ -87,13 +86,15 @@ std::vector<Finding> check_particles(const Scene& scene, const ParticleSet& p, b
     std::string fault = particle_fault(scene, p.material[i], p.position[i], p.velocity[i]);
     // A particle that presses against a wall may stand outside when a state is saved; it comes back.
     if (restored && fault.find("outside the domain") != std::string::npos) continue;
-    if (!fault.empty()) findings.push_back({fmt::format("particle {}", p.id[i]), std::move(fault)});
+    if (!fault.empty()) findings.push_back({formatted("particle {}", p.id[i]), std::move(fault)});
   }
   return findings;
 }
 
+Unexpected no_backend() { return fail(Error::Kind::bad_input, "backend", "there is none: it is null"); }
+
 Error out_of_memory(std::int64_t step) {
-  return {Error::Kind::run_failed, {{fmt::format("step {}", step), "out of memory"}}};
+  return {Error::Kind::run_failed, {{formatted("step {}", step), "out of memory"}}};
 }
 
 }  // namespace
@@ -141,7 +142,7 @@ struct Simulation::Impl {
 
   Expected<ParticleAt> find(std::uint64_t id) const {
     if (const auto found = backend->find(id)) return *found;
-    return fail(Error::Kind::bad_input, fmt::format("particle {}", id), "there is none of this id");
+    return fail(Error::Kind::bad_input, formatted("particle {}", id), "there is none of this id");
   }
 
   void edit(const ParticleAt& before, const ParticleAt& after) {
@@ -164,7 +165,7 @@ struct Simulation::Impl {
     if (condition.good()) return {};
     failed = true;
     failure = Error{Error::Kind::run_failed,
-                    {{fmt::format("step {} (t = {:.6g} s)", run.step, static_cast<double>(run.step) * scene.time_step),
+                    {{formatted("step {} (t = {:.6g} s)", run.step, static_cast<double>(run.step) * scene.time_step),
                       describe(condition)}}};
     return fail(failure);
   }
@@ -176,23 +177,21 @@ struct Simulation::Impl {
       case Condition::Kind::good:
         break;
       case Condition::Kind::not_finite:
-        return fmt::format("particle {} is no longer at a finite position; {}", condition.particle, likely_cause());
+        return formatted("particle {} is no longer at a finite position; {}", condition.particle, likely_cause());
       case Condition::Kind::grid_overflow:
-        return fmt::format("particle {} is too far away for the cell grid; {}", condition.particle, likely_cause());
+        return formatted("particle {} is too far away for the cell grid; {}", condition.particle, likely_cause());
       case Condition::Kind::pair_too_fast:
-        return fmt::format("particles {} and {} {} at {:.6g} m/s, {:.3g} m in one step: {}; {}", condition.particle,
-                           condition.partner, part ? "part" : "approach", speed, moved,
-                           part ? "they have passed through each other" : "more than the smaller radius",
-                           likely_cause());
+        return formatted("particles {} and {} {} at {:.6g} m/s, {:.3g} m in one step: {}; {}", condition.particle,
+                         condition.partner, part ? "part" : "approach", speed, moved,
+                         part ? "they have passed through each other" : "more than the smaller radius", likely_cause());
       case Condition::Kind::wall_too_fast:
-        return fmt::format(
-            "particle {} approaches a wall at {:.6g} m/s, {:.3g} m in one step: more than its radius; {}",
-            condition.particle, speed, moved, likely_cause());
+        return formatted("particle {} approaches a wall at {:.6g} m/s, {:.3g} m in one step: more than its radius; {}",
+                         condition.particle, speed, moved, likely_cause());
       case Condition::Kind::collider_too_fast:
-        return fmt::format("particle {} and collider \"{}\" {} at {:.6g} m/s, {:.3g} m in one step: {}; {}",
-                           condition.particle, printable(scene.colliders[condition.partner].name),
-                           part ? "part" : "approach", speed, moved,
-                           part ? "it has passed through" : "more than the particle's radius", likely_cause());
+        return formatted("particle {} and collider \"{}\" {} at {:.6g} m/s, {:.3g} m in one step: {}; {}",
+                         condition.particle, printable(scene.colliders[condition.partner].name),
+                         part ? "part" : "approach", speed, moved,
+                         part ? "it has passed through" : "more than the particle's radius", likely_cause());
     }
     return {};
   }
@@ -201,12 +200,8 @@ struct Simulation::Impl {
     ParticleSet now;
     if (scene.structure) download(*backend, scene.integrator, now);
     const StableStep stable = stable_step(scene, now);
-    const double ratio = scene.time_step / stable.seconds;
-    if (ratio > 1) {
-      return fmt::format("time.step {:.6g} s is {:.3g} times the stable step {:.6g} s, which the {} sets",
-                         scene.time_step, ratio, stable.seconds, stable.limit);
-    }
-    return fmt::format(
+    if (std::string unstable = unstable_step(scene, stable); !unstable.empty()) return "time.step " + unstable;
+    return formatted(
         "time.step {:.6g} s is below the stable step {:.6g} s, so look at the start (overlaps, speeds) or "
         "take a smaller step",
         scene.time_step, stable.seconds);
@@ -235,7 +230,7 @@ struct Simulation::Impl {
     } catch (const std::bad_alloc&) {
       failed = true;
       failure = Error{Error::Kind::bad_input,
-                      {{"particles", fmt::format("{} particles do not fit into memory", particles.size())}}};
+                      {{"particles", formatted("{} particles do not fit into memory", particles.size())}}};
       return fail(failure);
     }
   }
@@ -258,12 +253,17 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-Expected<Simulation> Simulation::create(Scene scene, ParticleSet particles, std::unique_ptr<Backend> backend) {
-  HOOKE_ASSERT(backend != nullptr);
+Expected<Simulation> Simulation::create(Scene scene, ParticleSet particles, std::unique_ptr<Backend> backend,
+                                        const CreateOptions& options) {
+  if (backend == nullptr) return no_backend();
   const FloatingPointGuard guard;
   std::vector<Finding> findings = validate(scene);
   if (findings.empty()) findings = check_particles(scene, particles, false);
   if (findings.empty() && scene.structure) findings = check_ids(*scene.structure, particles);
+  if (findings.empty() && !options.allow_unstable_step) {
+    std::string unstable = unstable_step(scene, stable_step(scene, particles));
+    if (!unstable.empty()) findings.push_back({"time.step", std::move(unstable)});
+  }
   if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});
 
   auto impl = std::make_unique<Impl>();
@@ -283,7 +283,7 @@ Expected<Simulation> Simulation::create(Scene scene, ParticleSet particles, std:
 }
 
 Expected<Simulation> Simulation::resume(Scene scene, SimulationState state, std::unique_ptr<Backend> backend) {
-  HOOKE_ASSERT(backend != nullptr);
+  if (backend == nullptr) return no_backend();
   const FloatingPointGuard guard;
   std::vector<Finding> findings = validate(scene);
   if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});
@@ -298,7 +298,7 @@ Expected<Simulation> Simulation::resume(Scene scene, SimulationState state, std:
 Expected<void> Simulation::step(std::int64_t count) {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
-  if (count < 0) return fail(Error::Kind::bad_input, "step", fmt::format("{} steps; 0 or more are possible", count));
+  if (count < 0) return fail(Error::Kind::bad_input, "step", formatted("{} steps; 0 or more are possible", count));
   const StageTimes before = s.backend->stage_times();
   auto taken = s.take_steps(count);
   s.stage_times += s.backend->stage_times() - before;
@@ -333,7 +333,7 @@ Expected<std::vector<std::uint64_t>> Simulation::add_particles(std::span<const N
   for (std::size_t i = 0; i < particles.size() && findings.size() < kMostFindings; ++i) {
     const NewParticle& p = particles[i];
     std::string fault = particle_fault(s.scene, p.material, p.position, p.velocity);
-    if (!fault.empty()) findings.push_back({fmt::format("new particle {}", i), std::move(fault)});
+    if (!fault.empty()) findings.push_back({formatted("new particle {}", i), std::move(fault)});
   }
   if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});
 
@@ -385,7 +385,7 @@ Expected<void> Simulation::apply_impulse(std::uint64_t id, const Vec3d& impulse)
     // The position is not checked: a particle that presses into a soft wall may stand outside the domain and can still
     // be pushed.
     if (!is_finite(after.velocity, s.single())) {
-      return fail(Error::Kind::bad_input, fmt::format("particle {}", id),
+      return fail(Error::Kind::bad_input, formatted("particle {}", id),
                   "velocity " + shown(after.velocity) + " is not finite");
     }
     s.edit(*before, after);
@@ -400,7 +400,7 @@ Expected<void> Simulation::set_particle(std::uint64_t id, const Vec3d& position,
     const auto before = s.find(id);
     if (!before) return fail(before.error());
     std::string fault = particle_fault(s.scene, before->material, position, velocity);
-    if (!fault.empty()) return fail(Error::Kind::bad_input, fmt::format("particle {}", id), std::move(fault));
+    if (!fault.empty()) return fail(Error::Kind::bad_input, formatted("particle {}", id), std::move(fault));
     s.edit(*before, {id, before->material, position, velocity});
     return {};
   });
@@ -410,11 +410,11 @@ Expected<void> Simulation::set_external_forces(std::span<const std::uint64_t> id
   const FloatingPointGuard guard;
   Impl& s = *impl_;
   if (ids.size() != forces.size()) {
-    return fail(Error::Kind::bad_input, "forces", fmt::format("{} forces for {} ids", forces.size(), ids.size()));
+    return fail(Error::Kind::bad_input, "forces", formatted("{} forces for {} ids", forces.size(), ids.size()));
   }
   std::vector<Finding> findings;
   const auto add_finding = [&](std::uint64_t id, std::string fault) {
-    if (findings.size() < kMostFindings) findings.push_back({fmt::format("particle {}", id), std::move(fault)});
+    if (findings.size() < kMostFindings) findings.push_back({formatted("particle {}", id), std::move(fault)});
   };
   for (std::size_t k = 0; k < ids.size(); ++k) {
     if (!is_finite(forces[k], s.single())) add_finding(ids[k], "force " + shown(forces[k]) + " is not finite");
@@ -428,7 +428,7 @@ Expected<void> Simulation::set_external_forces(std::span<const std::uint64_t> id
     }
     if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});
     if (const auto unknown = s.backend->set_external_forces(ids, forces)) {
-      return fail(Error::Kind::bad_input, fmt::format("particle {}", *unknown), "there is none of this id");
+      return fail(Error::Kind::bad_input, formatted("particle {}", *unknown), "there is none of this id");
     }
     return {};
   });
@@ -473,7 +473,7 @@ Expected<void> Simulation::set_collider_motion(const std::string& name, const Mo
     place_colliders(s.run, s.scene, s.run.step);
     return {};
   }
-  return fail(Error::Kind::bad_input, "colliders", fmt::format("there is none of the name \"{}\"", name));
+  return fail(Error::Kind::bad_input, "colliders", formatted("there is none of the name \"{}\"", name));
 }
 
 SimulationState Simulation::state() const {
@@ -487,10 +487,10 @@ Expected<void> Simulation::restore(SimulationState state) {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
   std::vector<Finding> findings = check_particles(s.scene, state.particles, true);
-  if (state.step < 0) findings.push_back({"step", fmt::format("{} must be 0 or more", state.step)});
+  if (state.step < 0) findings.push_back({"step", formatted("{} must be 0 or more", state.step)});
   if (!state.particles.empty() && state.particles.id.back() >= state.next_id) {
     findings.push_back(
-        {"next_id", fmt::format("{} is not above the largest id {}", state.next_id, state.particles.id.back())});
+        {"next_id", formatted("{} is not above the largest id {}", state.next_id, state.particles.id.back())});
   }
   const auto& structure = s.scene.structure ? s.scene.structure : state.structure;
   if (structure && findings.empty()) findings = validate(*structure, s.single());
@@ -499,7 +499,7 @@ Expected<void> Simulation::restore(SimulationState state) {
     findings.push_back({"broken_springs", "indices must be unique and ascending"});
   } else if (!state.broken_springs.empty() && state.broken_springs.back() >= springs) {
     findings.push_back(
-        {"broken_springs", fmt::format("{} is no spring; there are {}", state.broken_springs.back(), springs)});
+        {"broken_springs", formatted("{} is no spring; there are {}", state.broken_springs.back(), springs)});
   }
   for (Finding& finding : check_state(state.emission, s.scene)) findings.push_back(std::move(finding));
   if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});

@@ -39,22 +39,31 @@ struct NewParticle {
   Vec3d velocity{0, 0, 0};   ///< m/s
 };
 
+/// How Simulation::create() takes a scene.
+struct CreateOptions {
+  bool allow_unstable_step = false;  ///< takes steps beyond stable_step(), with which springs may gain energy
+};
+
 /// One simulation: a scene's rules, its particles, and a back end that steps them.
 ///
-///     auto sim = hooke::Simulation::create(scene, particles, hooke::make_cpu_backend());
-///     if (!sim) return complain(sim.error());
-///     sim->step(100);
-///     for (hooke::Vec3d x : sim->positions()) draw(x);
+///     auto backend = hooke::make_cpu_backend();
+///     if (!backend) return complain(backend.error());
+///     auto simulation = hooke::Simulation::create(scene, particles, std::move(*backend));
+///     if (!simulation) return complain(simulation.error());
+///     if (auto stepped = simulation->step(100); !stepped) return complain(stepped.error());
+///     for (const hooke::Vec3d& x : simulation->positions()) draw(x);
 ///
 /// Nothing here throws, prints or exits; what can fail returns Expected. Not thread-safe: one thread
 /// calls, the back end uses as many as it was given.
 class Simulation {
  public:
-  /// `backend` is not null. Checks scene and particles (ids unique and ascending, materials known, everything finite)
-  /// and hands them to the back end. Error::Kind::bad_input with every finding otherwise.
-  static Expected<Simulation> create(Scene scene, ParticleSet particles, std::unique_ptr<Backend> backend);
+  /// Checks scene and particles (ids unique and ascending, materials known, everything finite, a stable step) and hands
+  /// them to the back end. Error::Kind::bad_input with every finding otherwise; where `backend` is null, too.
+  static Expected<Simulation> create(Scene scene, ParticleSet particles, std::unique_ptr<Backend> backend,
+                                     const CreateOptions& options = {});
 
-  /// Goes on from a saved state: the same bits as if it had never stopped.
+  /// Goes on from a saved state: the same bits as if it had never stopped. Errors as of create(), but that the step may
+  /// be an unstable one, as it was when the state was saved.
   static Expected<Simulation> resume(Scene scene, SimulationState state, std::unique_ptr<Backend> backend);
 
   ~Simulation();
@@ -159,5 +168,7 @@ struct StableStep {
 StableStep stable_step(const Scene& scene, const ParticleSet& particles = {});
 /// The same for a simulation's present state. Reads its particles only where the scene has a structure.
 StableStep stable_step(const Simulation& simulation);
+/// Empty where Scene::time_step is stable; otherwise a sentence with both steps and the coefficient that limits it.
+std::string unstable_step(const Scene& scene, const StableStep& stable);
 
 }  // namespace hooke

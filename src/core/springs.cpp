@@ -3,13 +3,12 @@
 
 #include "hooke/core/springs.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "hooke/base/ascending.h"
 #include "hooke/base/assert.h"
+#include "hooke/base/format.h"
 #include "hooke/core/particles.h"
 
 namespace hooke {
@@ -23,13 +22,13 @@ std::string fault_of(const Spring& s, bool single) {
     return std::isfinite(value) && (!single || std::isfinite(static_cast<float>(value)));
   };
   const auto positive = [single](double value) { return value > 0 && (!single || static_cast<float>(value) > 0); };
-  if (s.a == s.b) return fmt::format("ties particle {} to itself", s.a);
+  if (s.a == s.b) return formatted("ties particle {} to itself", s.a);
   if (!usable(s.rest_length) || !positive(s.rest_length)) {
-    return fmt::format("rest_length {} must be a number greater than 0", s.rest_length);
+    return formatted("rest_length {} must be a number greater than 0", s.rest_length);
   }
-  if (!usable(s.stiffness) || s.stiffness < 0) return fmt::format("stiffness {} must be 0 or more", s.stiffness);
-  if (!usable(s.damping) || s.damping < 0) return fmt::format("damping {} must be 0 or more", s.damping);
-  if (!(s.break_strain > 0)) return fmt::format("break_strain {} must be greater than 0", s.break_strain);
+  if (!usable(s.stiffness) || s.stiffness < 0) return formatted("stiffness {} must be 0 or more", s.stiffness);
+  if (!usable(s.damping) || s.damping < 0) return formatted("damping {} must be 0 or more", s.damping);
+  if (!(s.break_strain > 0)) return formatted("break_strain {} must be greater than 0", s.break_strain);
   return {};
 }
 
@@ -39,7 +38,7 @@ std::vector<Finding> check_columns(const SpringSet& s) {
       s.break_strain.size() != n || s.mode.size() != n || s.contact.size() != n) {
     return {{"springs", "columns of different length"}};
   }
-  if (n > kMostSprings) return {{"springs", fmt::format("{} springs; at most {} are possible", n, kMostSprings)}};
+  if (n > kMostSprings) return {{"springs", formatted("{} springs; at most {} are possible", n, kMostSprings)}};
   return {};
 }
 
@@ -47,7 +46,7 @@ void check_surface(const Surface& surface, std::size_t index, std::vector<Findin
   const auto beyond = std::any_of(surface.triangles.begin(), surface.triangles.end(),
                                   [&](std::uint32_t corner) { return corner >= surface.particles.size(); });
   if (beyond || surface.triangles.size() % 3 != 0) {
-    findings.push_back({fmt::format("surface {}", index), "its triangles don't fit its particles"});
+    findings.push_back({formatted("surface {}", index), "its triangles don't fit its particles"});
   }
 }
 
@@ -85,7 +84,7 @@ std::vector<Finding> validate(const Structure& structure, bool single) {
   if (!findings.empty()) return findings;
   for (std::size_t i = 0; i < structure.springs.size() && findings.size() < kMostFindings; ++i) {
     std::string fault = fault_of(structure.springs[i], single);
-    if (!fault.empty()) findings.push_back({fmt::format("spring {}", i), std::move(fault)});
+    if (!fault.empty()) findings.push_back({formatted("spring {}", i), std::move(fault)});
   }
   const auto& pinned = structure.pinned;
   if (std::adjacent_find(pinned.begin(), pinned.end(), std::greater_equal<>()) != pinned.end()) {
@@ -94,8 +93,8 @@ std::vector<Finding> validate(const Structure& structure, bool single) {
   std::size_t end = 0;
   for (const SpringGroup& group : structure.groups) {
     if (group.end < end || group.end > structure.springs.size()) {
-      findings.push_back({"groups", fmt::format("{} ends at spring {}; must be {} to {}, the number of springs",
-                                                group.name, group.end, end, structure.springs.size())});
+      findings.push_back({"groups", formatted("{} ends at spring {}; must be {} to {}, the number of springs",
+                                              group.name, group.end, end, structure.springs.size())});
       break;
     }
     end = group.end;
@@ -109,17 +108,17 @@ std::vector<Finding> check_ids(const Structure& structure, const ParticleSet& pa
   std::vector<Finding> findings;
   const auto check = [&](std::uint64_t id, const auto& where) {
     if (findings.size() >= kMostFindings || particles.find(id) != particles.size()) return;
-    findings.push_back({where(), fmt::format("names particle {}; there is none of this id", id)});
+    findings.push_back({where(), formatted("names particle {}; there is none of this id", id)});
   };
   for (std::size_t i = 0; i < structure.springs.size(); ++i) {
-    const auto where = [i] { return fmt::format("spring {}", i); };
+    const auto where = [i] { return formatted("spring {}", i); };
     check(structure.springs.a[i], where);
     check(structure.springs.b[i], where);
   }
   for (const std::uint64_t id : structure.pinned) check(id, [] { return std::string("held"); });
   for (std::size_t k = 0; k < structure.surfaces.size(); ++k) {
     for (const std::uint64_t id : structure.surfaces[k].particles) {
-      check(id, [k] { return fmt::format("surface {}", k); });
+      check(id, [k] { return formatted("surface {}", k); });
     }
   }
   return findings;

@@ -3,12 +3,11 @@
 
 #include "hooke/physics/stability.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "hooke/base/format.h"
 #include "hooke/base/printable.h"
 #include "hooke/core/simulation.h"
 
@@ -31,7 +30,7 @@ class Smallest {
     const double omega2 = kPileSpringFactor * c.stiffness / m_eff;
     const double gamma = kPileDampingFactor * (c.shear + c.damping) / m_eff;
     if (!is_smaller(omega2, gamma)) return;
-    step.limit = fmt::format(
+    step.limit = formatted(
         "{} of {}", limiting(omega2, gamma, "stiffness", "shear and damping", "stiffness, shear and damping"), pair);
   }
   // A wall is one partner that does not move, where a pile has a dozen that do.
@@ -48,8 +47,8 @@ class Smallest {
   bool consider_springs(double stiffness, double damping, double mass, std::uint64_t id) {
     const double omega2 = 2 * stiffness / mass, gamma = 2 * damping / mass;
     if (!is_smaller(omega2, gamma)) return false;
-    step.limit = fmt::format("{} of the springs around particle {}",
-                             limiting(omega2, gamma, "stiffness", "damping", "stiffness and damping"), id);
+    step.limit = formatted("{} of the springs around particle {}",
+                           limiting(omega2, gamma, "stiffness", "damping", "stiffness and damping"), id);
     return true;
   }
 
@@ -105,7 +104,7 @@ void consider_braking(const Scene& scene, Smallest& smallest) {
     for (std::size_t f = 0; f < scene.fields.size(); ++f) {
       const double rate = braking(scene.fields[f], m, a);
       const char* law = std::holds_alternative<Wind>(scene.fields[f].law) ? "drag of the wind" : "time of the push";
-      parts.emplace_back(rate, fmt::format("{} fields[{}]", law, f));
+      parts.emplace_back(rate, formatted("{} fields[{}]", law, f));
       all += rate;
     }
     std::string named;
@@ -152,7 +151,7 @@ void consider_sheets(const Structure& structure, const Scene& scene, const Parti
         const std::size_t i = particles.find(surface.particles[c]);
         if (i == particles.size()) continue;
         smallest.consider_drag(wind->area_drag * area[c], scene.materials[particles.material[i]].mass,
-                               fmt::format("area_drag of the wind fields[{}] on cloths[{}]", f, k));
+                               formatted("area_drag of the wind fields[{}] on cloths[{}]", f, k));
       }
     }
   }
@@ -179,7 +178,7 @@ void consider_springs(const Structure& structure, const Scene& scene, const Part
   }
   if (worst == particles.size()) return;
   const Material& m = scene.materials[particles.material[worst]];
-  smallest.step.limit += fmt::format(" ({})", springs_around(structure, particles.id[worst], m));
+  smallest.step.limit += formatted(" ({})", springs_around(structure, particles.id[worst], m));
 }
 
 }  // namespace
@@ -193,6 +192,12 @@ StableStep stable_step(const Scene& scene, const ParticleSet& particles) {
     consider_sheets(*scene.structure, scene, particles, smallest);
   }
   return smallest.step;
+}
+
+std::string unstable_step(const Scene& scene, const StableStep& stable) {
+  if (scene.time_step <= stable.seconds) return {};
+  return formatted("{:.6g} s is {:.3g} times the stable step {:.6g} s, which the {} sets", scene.time_step,
+                   scene.time_step / stable.seconds, stable.seconds, stable.limit);
 }
 
 StableStep stable_step(const Simulation& simulation) {

@@ -11,7 +11,6 @@
 
 #include "hooke/base/floating_point.h"
 #include "hooke/base/hash.h"
-#include "hooke/base/printable.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/hdf5.h"
 #include "hooke/io/population_tables.h"
@@ -270,25 +269,6 @@ Expected<std::shared_ptr<const Structure>> read_structure_of_run(const std::file
     file.check_reads();
     return state.structure;
   });
-}
-
-std::vector<Finding> check_resumable(const RunInfo& checkpoint, const RunInfo& scene) {
-  std::vector<Finding> findings;
-  const auto differs = [&](const char* where, const auto& old_value, const auto& new_value) {
-    if (old_value == new_value) return;
-    findings.push_back({where, fmt::format("is {}, but the checkpoint's run has {}: it can't go on with the same bits",
-                                           new_value, old_value)});
-  };
-  const auto names = [](const RunInfo& info) {
-    std::string all;
-    for (const MaterialInfo& m : info.materials) all += (all.empty() ? "" : ", ") + printable(m.name);
-    return all;
-  };
-  differs("time.step", checkpoint.time_step, scene.time_step);
-  differs("time.integrator", std::string(to_string(checkpoint.integrator)), std::string(to_string(scene.integrator)));
-  differs("precision", std::string(to_string(checkpoint.precision)), std::string(to_string(scene.precision)));
-  differs("materials", names(checkpoint), names(scene));
-  return findings;
 }
 
 }  // namespace hooke::io

@@ -32,8 +32,4 @@ Expected<std::shared_ptr<const Structure>> read_structure_of_run(const std::file
 /// Whether a file bears the mark of a checkpoint; does not check that it is intact.
 Expected<bool> is_checkpoint(const std::filesystem::path& file);
 
-/// The reasons why a run of `scene` can't continue from a checkpoint of `checkpoint` with the same bits: time step,
-/// integrator, precision, names and order of the materials. Empty where it can; coefficients may differ.
-std::vector<Finding> check_resumable(const RunInfo& checkpoint, const RunInfo& scene);
-
 }  // namespace hooke::io

@@ -85,6 +85,8 @@ bool can_hold(hsize_t bytes, hsize_t count, hsize_t row_bytes, bool compressed) 
 
 }  // namespace
 
+void require(const std::filesystem::path&) {}
+
 std::unique_lock<std::recursive_mutex> lock() {
   static std::recursive_mutex mutex;
   std::unique_lock<std::recursive_mutex> held(mutex);

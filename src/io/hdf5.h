@@ -7,21 +7,18 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "hooke/base/assert.h"
 #include "hooke/base/vec3.h"
+#include "hooke/io/hdf5_library.h"
 #include "hooke/io/journaled_file.h"
 
 // The part of HDF5's C interface that this library needs. All functions throw Failure. Callers hold hdf5::lock()
 // throughout: a run's writer has its own thread, and HDF5 may be built without thread safety (Debian's is).
 namespace hooke::io::hdf5 {
-
-/// Exclusive use of the HDF5 library while the lock exists; turns off the library's own error messages.
-[[nodiscard]] std::unique_lock<std::recursive_mutex> lock();
 
 /// An HDF5 identifier of any kind; closes itself.
 class Handle {

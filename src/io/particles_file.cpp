@@ -11,6 +11,7 @@
 #include "hooke/base/assert.h"
 #include "hooke/io/checksum.h"
 #include "hooke/io/failure.h"
+#include "hooke/io/hdf5.h"
 #include "hooke/io/run_info_json.h"
 #include "hooke/io/vtkhdf_columns.h"
 
@@ -167,11 +168,14 @@ void ParticlesFile::Columns::append_identity(const ParticleSet& p, const RunInfo
   last_material = p.material;
 }
 
-ParticlesFile::ParticlesFile(hdf5::File file, RunInfo info) : info_(std::move(info)), file_(std::move(file)) {}
+ParticlesFile::ParticlesFile(hdf5::File file, const RunInfo& info)
+    : info_(info),
+      file_(std::make_unique<hdf5::File>(std::move(file))) {}
 
 ParticlesFile::~ParticlesFile() {
   const auto held = hdf5::lock();
   columns_.reset();
+  file_.reset();
 }
 
 ParticlesFile::ParticlesFile(ParticlesFile&&) noexcept = default;
@@ -180,7 +184,7 @@ ParticlesFile& ParticlesFile::operator=(ParticlesFile&&) noexcept = default;
 ParticlesFile ParticlesFile::create(const std::filesystem::path& path, const RunInfo& info) {
   const std::filesystem::path unfinished = unfinished_name(path);
   ParticlesFile created(hdf5::File(unfinished, JournaledFile::Mode::create), info);
-  const hid_t root = created.file_.id();
+  const hid_t root = created.file_->id();
   const hdf5::Handle vtk = hdf5::create_group(root, kVtkGroup);
   hdf5::write_integer_attribute(vtk.get(), "Version", {2, 0});
   hdf5::write_text_attribute(vtk.get(), "Type", "PolyData");
@@ -188,15 +192,15 @@ ParticlesFile ParticlesFile::create(const std::filesystem::path& path, const Run
   hdf5::write_integer_attribute(hooke.get(), "format", {kFormat}, true);
   hdf5::write_integer_attribute(hooke.get(), "run_checksum", {0}, true);
   write_info(hooke.get(), info);
-  created.file_.commit();
+  created.file_->commit();
   publish(path);
-  created.file_.bytes().set_path(path);
+  created.file_->bytes().set_path(path);
   return created;
 }
 
 ParticlesFile ParticlesFile::update(const std::filesystem::path& path, const RunInfo& info, std::int64_t end_step) {
   ParticlesFile opened(hdf5::File(path, JournaledFile::Mode::update), info);
-  const hid_t root = opened.file_.id();
+  const hid_t root = opened.file_->id();
   const RunInfo before = read_info(root, path);
   if (before.precision != info.precision || before.materials.size() != info.materials.size()) {
     throw Failure(Error::Kind::bad_input, path, "is of another run: its precision or its materials differ");
@@ -212,14 +216,14 @@ ParticlesFile ParticlesFile::update(const std::filesystem::path& path, const Run
     while (kept < snapshots && at(opened.columns_->step, kept) < end_step) ++kept;
     opened.cut(kept);
   }
-  opened.file_.check_reads();  // before anything is cut for good
-  opened.file_.commit();
+  opened.file_->check_reads();  // before anything is cut for good
+  opened.file_->commit();
   return opened;
 }
 
 void ParticlesFile::cut(std::size_t snapshots) {
   Columns& c = *columns_;
-  const hdf5::Handle steps = hdf5::open_group(file_.id(), "VTKHDF/Steps");
+  const hdf5::Handle steps = hdf5::open_group(file_->id(), "VTKHDF/Steps");
   hdf5::set_integer_attribute(steps.get(), "NSteps", static_cast<std::int64_t>(snapshots));
   for (hdf5::Column* column :
        {&c.values, &c.part_offsets, &c.number_of_parts, &c.point_offsets, &c.cell_offsets, &c.connectivity_offsets,
@@ -266,12 +270,12 @@ void ParticlesFile::append(const Snapshot& snapshot) {
   HOOKE_ASSERT(snapshot.particles.columns_fit(), snapshot.particles.size());
   try {
     write_snapshot(snapshot);
-    file_.commit();
+    file_->commit();
     last_step_ = snapshot.step;
   } catch (const std::exception&) {
-    file_.bytes().trim();
+    file_->bytes().trim();
     // HDF5 may have failed over bytes missing on the disk; then report the disk's error.
-    file_.check_writes();
+    file_->check_writes();
     throw;
   }
 }
@@ -279,7 +283,7 @@ void ParticlesFile::append(const Snapshot& snapshot) {
 void ParticlesFile::write_snapshot(const Snapshot& snapshot) {
   const ParticleSet& p = snapshot.particles;
   if (!columns_) {
-    columns_ = std::make_unique<Columns>(VtkhdfColumns::create(file_.id(), p.size(), info_.precision));
+    columns_ = std::make_unique<Columns>(VtkhdfColumns::create(file_->id(), p.size(), info_.precision));
   }
   Columns& c = *columns_;
   c.choose_part(static_cast<std::int64_t>(p.size()));
@@ -299,11 +303,11 @@ void ParticlesFile::write_snapshot(const Snapshot& snapshot) {
   put(c.radius_offsets, c.last_radius_offset);
   put(c.step, snapshot.step);
   put(c.checksum, static_cast<std::int64_t>(checksum(snapshot, info_.precision)));
-  const hdf5::Handle steps = hdf5::open_group(file_.id(), "VTKHDF/Steps");
+  const hdf5::Handle steps = hdf5::open_group(file_->id(), "VTKHDF/Steps");
   hdf5::set_integer_attribute(steps.get(), "NSteps", static_cast<std::int64_t>(c.step.rows()));
 }
 
-void ParticlesFile::sync() const { file_.bytes().sync(); }
+void ParticlesFile::sync() const { file_->bytes().sync(); }
 
 ParticlesContents read_particles_contents(const std::filesystem::path& path) {
   const hdf5::File file(path, JournaledFile::Mode::read);

@@ -8,10 +8,14 @@
 #include <optional>
 #include <vector>
 
-#include "hooke/io/hdf5.h"
+#include "hooke/io/hdf5_library.h"
 #include "hooke/io/snapshot.h"
 
 namespace hooke::io {
+
+namespace hdf5 {
+class File;
+}
 
 /// The table of contents of a particles.vtkhdf: one entry per snapshot.
 struct ParticlesContents {
@@ -49,12 +53,12 @@ class ParticlesFile {
 
  private:
   struct Columns;
-  ParticlesFile(hdf5::File file, RunInfo info);
+  ParticlesFile(hdf5::File file, const RunInfo& info);
   void write_snapshot(const Snapshot& snapshot);
   void cut(std::size_t snapshots);
 
   RunInfo info_;
-  hdf5::File file_;
+  std::unique_ptr<hdf5::File> file_;
   std::unique_ptr<Columns> columns_;  // null before the first snapshot, which determines the size of chunks
   std::optional<std::int64_t> last_step_;
 };

@@ -229,6 +229,7 @@ std::unique_ptr<RunWriter::Impl> RunWriter::start_files(RunLock lock, const fs::
 Expected<RunWriter> RunWriter::create(const fs::path& folder, const RunInfo& info, const std::string& scene_json,
                                       const Options& options) {
   return guarded(folder, [&]() -> RunWriter {
+    hdf5::require(folder);
     check_replaceable(folder, options.overwrite);
     const std::vector<fs::path> made = make_folder(folder);
     try {
@@ -246,6 +247,7 @@ Expected<RunWriter> RunWriter::resume(const fs::path& folder, const RunInfo& inf
                                       std::int64_t step, const OutputCadence& cadence) {
   HOOKE_ASSERT(step >= 0, step);
   return guarded(folder, [&]() -> RunWriter {
+    hdf5::require(folder);
     const std::int64_t end_step = cadence.is_due(step, info.time_step) ? step + 1 : step;
     RunLock lock(folder);
     const auto held = hdf5::lock();

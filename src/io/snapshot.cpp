@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "hooke/io/snapshot.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
+#include "hooke/base/printable.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/run_info_json.h"
 
@@ -61,6 +64,25 @@ RunInfo parse_run_info(const std::string& json, const std::filesystem::path& fil
   } catch (const nlohmann::json::exception&) {
     throw Failure(Error::Kind::bad_input, file, "is damaged: what it says of its run can't be read");
   }
+}
+
+std::vector<Finding> check_resumable(const RunInfo& checkpoint, const RunInfo& scene) {
+  std::vector<Finding> findings;
+  const auto differs = [&](const char* where, const auto& old_value, const auto& new_value) {
+    if (old_value == new_value) return;
+    findings.push_back({where, fmt::format("is {}, but the checkpoint's run has {}: it can't go on with the same bits",
+                                           new_value, old_value)});
+  };
+  const auto names = [](const RunInfo& info) {
+    std::string all;
+    for (const MaterialInfo& m : info.materials) all += (all.empty() ? "" : ", ") + printable(m.name);
+    return all;
+  };
+  differs("time.step", checkpoint.time_step, scene.time_step);
+  differs("time.integrator", std::string(to_string(checkpoint.integrator)), std::string(to_string(scene.integrator)));
+  differs("precision", std::string(to_string(checkpoint.precision)), std::string(to_string(scene.precision)));
+  differs("materials", names(checkpoint), names(scene));
+  return findings;
 }
 
 }  // namespace hooke::io

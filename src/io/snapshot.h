@@ -41,4 +41,8 @@ struct RunInfo {
 RunInfo describe_run(const Scene& scene, Precision precision);
 RunInfo describe_run(const Simulation& simulation);
 
+/// The reasons why a run of `scene` can't continue from a checkpoint of `checkpoint` with the same bits: time step,
+/// integrator, precision, names and order of the materials. Empty where it can; coefficients may differ.
+std::vector<Finding> check_resumable(const RunInfo& checkpoint, const RunInfo& scene);
+
 }  // namespace hooke::io

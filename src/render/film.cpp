@@ -174,7 +174,7 @@ struct FilmWriter::Impl {
     if (frames == 0) std::filesystem::remove(file, ignored);
   }
 
-  tl::unexpected<Error> stopped() {
+  Unexpected stopped() {
     ffmpeg.wait();
     return fail(Error::Kind::io, file.string(), "ffmpeg stopped: " + ffmpeg.message());
   }

@@ -45,6 +45,9 @@ fs::path find_module() {
 }  // namespace
 
 Expected<std::unique_ptr<render::Renderer>> load_gl_renderer(const render::RenderSettings& settings) {
+#if !HOOKE_WITH_GL
+  return fail(Error::Kind::bad_input, "OpenGL", "pictures need OpenGL, which is not in this build (HOOKE_WITH_GL)");
+#endif
   const fs::path module = find_module();
   // Never closed: the driver's threads may still run in the library.
   void* const library = dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);

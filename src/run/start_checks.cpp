@@ -17,11 +17,8 @@
 namespace hooke::run {
 
 std::string unstable_step(const Simulation& simulation) {
-  const Scene& scene = simulation.scene();
-  const StableStep stable = stable_step(simulation);
-  if (scene.time_step <= stable.seconds) return {};
-  return fmt::format("time.step: {:.6g} s is {:.3g} times the stable step {:.6g} s, which the {} sets", scene.time_step,
-                     scene.time_step / stable.seconds, stable.seconds, stable.limit);
+  const std::string unstable = unstable_step(simulation.scene(), stable_step(simulation));
+  return unstable.empty() ? unstable : "time.step: " + unstable;
 }
 
 FloatSpacing float_spacing(const Scene& scene) {

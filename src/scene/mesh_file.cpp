@@ -29,7 +29,7 @@ MeshReader* reader_for(const std::filesystem::path& file) {
   return nullptr;
 }
 
-tl::unexpected<Error> refuse(std::string why) { return fail(Error::Kind::bad_input, "", std::move(why)); }
+Unexpected refuse(std::string why) { return fail(Error::Kind::bad_input, "", std::move(why)); }
 
 std::string in_words(const FileFault& fault, bool binary) {
   if (fault.place() == 0) return fault.what();

@@ -67,7 +67,11 @@ SurfaceMesh mesh_of(const FluidVolume& fluid) {
 
 Expected<SurfaceMesh> make_surface_mesh(const ParticleSet& particles, std::span<const double> radius,
                                         const SurfaceOptions& options) {
-  return no_throw([&] { return FluidVolume::create(particles, radius, options).map(mesh_of); });
+  return no_throw([&]() -> Expected<SurfaceMesh> {
+    const auto volume = FluidVolume::create(particles, radius, options);
+    if (!volume) return fail(volume.error());
+    return mesh_of(*volume);
+  });
 }
 
 }  // namespace hooke::volumes

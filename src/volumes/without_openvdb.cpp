@@ -11,7 +11,7 @@ namespace hooke::volumes {
 
 namespace {
 
-tl::unexpected<Error> refuse() {
+Unexpected refuse() {
   return fail(Error::Kind::bad_input, "", "needs OpenVDB, which is not in this build (HOOKE_WITH_OPENVDB)");
 }
 

@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: MIT
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -13,6 +10,7 @@
 #include "clusters.h"
 #include "hooke/backends/cpu/attraction_sums.h"
 #include "hooke/backends/cpu/isa.h"
+#include "hooke/base/threads.h"
 
 namespace hooke {
 namespace {
@@ -61,10 +59,9 @@ AttractionSums<Real> sums_of(const Way& run) {
 
 template <class Real>
 std::vector<Vec3<Real>> pulls(std::vector<AttractionPoint<Real>> points, const Way& run) {
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(run.threads));
   std::vector<Vec3<Real>> a(points.size());
   auto sums = sums_of<Real>(run);
-  tbb::task_arena(run.threads).execute([&] { sums.accelerations(points, IdTable(ids_for(points.size())), a.data()); });
+  Threads(run.threads).run([&] { sums.accelerations(points, IdTable(ids_for(points.size())), a.data()); });
   return a;
 }
 

@@ -13,7 +13,7 @@
 #include "hooke/backends/cpu/id_table.h"
 #include "hooke/backends/cpu/particle_slots.h"
 #include "hooke/backends/cpu/pinned_particles.h"
-#include "hooke/backends/cpu/threads.h"
+#include "hooke/base/threads.h"
 #include "hooke/core/backend.h"
 #include "support/assertions.h"
 #include "support/engines.h"

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 #include "hooke/core/contacts.h"
+#include "hooke/base/threads.h"
 
 #include <gtest/gtest.h>
-#include <tbb/task_arena.h>
-
 #include <cmath>
 #include <numbers>
 #include <ostream>
@@ -329,12 +328,12 @@ TEST(Contacts, AreTheSameBitsForAnyNumberOfThreads) {
   const ParticleSet particles = test::lattice(scene, {25, 25, 25}, {0, 0, 0}, 0.9, 0.2, 3);
   std::vector<Contact> one_list;
   ContactFigures one;
-  tbb::task_arena(1).execute([&] {
+  Threads(1).run([&] {
     one_list = find_contacts(scene, particles);
     one = contact_figures(scene, particles);
   });
   EXPECT_GT(one_list.size(), particles.size());
-  tbb::task_arena(2).execute([&] {
+  Threads(2).run([&] {
     const auto list = find_contacts(scene, particles);
     ASSERT_EQ(list.size(), one_list.size());
     for (std::size_t n = 0; n < list.size(); ++n) {

@@ -156,11 +156,6 @@ TEST(CorePreconditions, SumsAreOfSteps) {
   EXPECT_ASSERTS((void)loads.result(2), "loads_.rbegin()->first = 2, count = 2");
 }
 
-TEST(CorePreconditions, ASimulationHasABackEnd) {
-  EXPECT_ASSERTS((void)Simulation::create(open_scene(), {}, nullptr), "backend != nullptr");
-  EXPECT_ASSERTS((void)Simulation::resume(open_scene(), {}, nullptr), "backend != nullptr");
-}
-
 // Bad contents of a checkpoint are a user's error, not a programmer's.
 TEST(CorePreconditions, SavedSpringsThatDoNotAscendAreAnError) {
   Scene scene = open_scene();

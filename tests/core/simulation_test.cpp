@@ -57,6 +57,29 @@ TEST(Create, RefusesABadSceneWithEveryFinding) {
   EXPECT_NE(text.find("materials.a.mass"), std::string::npos);
 }
 
+TEST(Create, RefusesToHaveNoBackEnd) {
+  const auto made = Simulation::create(open_scene(), two(), nullptr);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().text(), "backend: there is none: it is null");
+  const auto resumed = Simulation::resume(open_scene(), {}, nullptr);
+  ASSERT_FALSE(resumed);
+  EXPECT_EQ(resumed.error().text(), "backend: there is none: it is null");
+}
+
+TEST(Create, RefusesAnUnstableStepUnlessToldOtherwise) {
+  Scene scene = open_scene();
+  const StableStep stable = stable_step(scene, two());
+  ASSERT_TRUE(std::isfinite(stable.seconds));
+  scene.time_step = stable.seconds;
+  EXPECT_EQ(refusal(scene, two()), "");
+  scene.time_step = 3 * stable.seconds;
+  const std::string text = refusal(scene, two());
+  EXPECT_NE(text.find("time.step: "), std::string::npos) << text;
+  EXPECT_NE(text.find("is 3 times the stable step"), std::string::npos) << text;
+  EXPECT_NE(text.find(stable.limit), std::string::npos) << text;
+  EXPECT_TRUE(Simulation::create(scene, two(), make_backend(kReference), {.allow_unstable_step = true}));
+}
+
 TEST(Create, RefusesABackEndOfLessPrecisionThanAsked) {
   const Scene scene = open_scene();  // double
   EXPECT_NE(refusal(scene, two(), kCpuSingle).find("precision"), std::string::npos);

@@ -57,7 +57,7 @@ def library_of(path):
 
 def target_library(target):
     """The library of a CMake target's name without hooke_: "backend_cpu" -> "backends/cpu"."""
-    name = re.sub(r"^render_", "render/", re.sub(r"^backend_", "backends/", target))
+    name = re.sub(r"^volumes_.*", "volumes", re.sub(r"^render_", "render/", re.sub(r"^backend_", "backends/", target)))
     return name if name in MAY_USE else None
 
 

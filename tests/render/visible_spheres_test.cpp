@@ -6,9 +6,6 @@
 #include "hooke/render/visible_spheres.h"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,6 +13,7 @@
 #include <set>
 
 #include "hooke/base/random.h"
+#include "hooke/base/threads.h"
 
 namespace hooke {
 namespace {
@@ -174,12 +172,10 @@ TEST(VisibleSpheres, OfADensePileFewAreKept) {
 
 TEST(VisibleSpheres, AnyNumberOfThreadsGivesTheSame) {
   const auto pile = dense_pile();
-  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);  // than the machine has
   const render::Projection view = render::project({{40, 45, 90}, {0, 0, 0}, {0, 1, 0}, 35}, 640, 360);
   const auto expected = render::visible_spheres(pile, view);
   for (const int threads : {1, 2, 3, 8}) {
-    tbb::task_arena arena(threads);
-    EXPECT_EQ(arena.execute([&] { return render::visible_spheres(pile, view); }), expected) << threads << " threads";
+    Threads(threads).run([&] { EXPECT_EQ(render::visible_spheres(pile, view), expected) << threads << " threads"; });
   }
 }
 

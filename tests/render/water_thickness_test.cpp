@@ -4,13 +4,11 @@
 #include "hooke/render/water_thickness.h"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
 #include <cmath>
 #include <numbers>
 
 #include "hooke/base/random.h"
+#include "hooke/base/threads.h"
 
 namespace hooke {
 namespace {
@@ -70,12 +68,10 @@ TEST(WaterThickness, AnyNumberOfThreadsGivesTheSame) {
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     spheres[i].radius *= static_cast<float>(0.5 + uniform4(1, i, 0)[0]);
   }
-  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);  // than the machine has
   const auto expected = render::water_thickness(spheres, from_above()).meters;
   for (const int threads : {1, 2, 3, 8}) {
-    tbb::task_arena arena(threads);
-    EXPECT_EQ(arena.execute([&] { return render::water_thickness(spheres, from_above()).meters; }), expected)
-        << threads;
+    Threads(threads).run(
+        [&] { EXPECT_EQ(render::water_thickness(spheres, from_above()).meters, expected) << threads; });
   }
 }
 

@@ -41,7 +41,7 @@ std::unique_ptr<Backend> make_backend(const Engine& engine) {
 
 Simulation simulate(Scene scene, const ParticleSet& particles, const Engine& engine) {
   scene.precision = engine.precision;
-  return must(Simulation::create(std::move(scene), particles, make_backend(engine)));
+  return must(Simulation::create(std::move(scene), particles, make_backend(engine), {.allow_unstable_step = true}));
 }
 
 Simulation resume(Scene scene, const SimulationState& state, const Engine& engine) {

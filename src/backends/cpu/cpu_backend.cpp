@@ -3,13 +3,12 @@
 
 #include "hooke/backends/cpu/cpu_backend.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <memory>
 #include <thread>
 
 #include "hooke/backends/cpu/cpu_backend_impl.h"
+#include "hooke/base/format.h"
 
 namespace hooke {
 
@@ -39,7 +38,7 @@ template class CpuBackend<double>;
 Expected<std::unique_ptr<Backend>> make_cpu_backend(const CpuOptions& options) {
   constexpr int kMostThreads = 1024;
   if (options.threads < 0 || options.threads > kMostThreads) {
-    return fail(Error::Kind::bad_input, "threads", fmt::format("{} is not between 1 and 1024", options.threads));
+    return fail(Error::Kind::bad_input, "threads", formatted("{} is not between 1 and 1024", options.threads));
   }
   const auto isa = choose_isa(options.isa);
   if (!isa) return fail(isa.error());

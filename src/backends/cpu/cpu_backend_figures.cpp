@@ -3,11 +3,10 @@
 
 #include "hooke/backends/cpu/cpu_backend_impl.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "hooke/backends/cpu/contact_reports.h"
+#include "hooke/base/format.h"
 
 namespace hooke {
 
@@ -16,7 +15,7 @@ Expected<MeasurementSums> CpuBackend<Real>::measure(const Instant& now) {
   place_at(now);
   if (neighbours_stale()) {
     if (const Condition found = build_neighbours(); !found.good()) {
-      return fail(Error::Kind::run_failed, fmt::format("particle {}", found.particle), "is at no finite position");
+      return fail(Error::Kind::run_failed, formatted("particle {}", found.particle), "is at no finite position");
     }
   }
   MeasurementSums total;

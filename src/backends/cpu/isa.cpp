@@ -3,7 +3,7 @@
 
 #include "hooke/backends/cpu/isa.h"
 
-#include <fmt/format.h>
+#include "hooke/base/format.h"
 
 namespace hooke {
 
@@ -48,10 +48,10 @@ Expected<Isa> choose_isa(const std::string& name) {
   std::string known;
   for (const Isa& isa : isas) {
     if (name == isa.name) return isa;
-    known += fmt::format("{}{}", known.empty() ? "" : ", ", isa.name);
+    known += formatted("{}{}", known.empty() ? "" : ", ", isa.name);
   }
   return fail(Error::Kind::bad_input, "instruction set",
-              fmt::format("\"{}\" is not to be had on this processor; it has {}", name, known));
+              formatted("\"{}\" is not to be had on this processor; it has {}", name, known));
 }
 
 }  // namespace hooke

@@ -25,7 +25,7 @@ struct EglContext::Impl {
 
 namespace {
 
-tl::unexpected<Error> no_gl(const std::string& why) {
+Unexpected no_gl(const std::string& why) {
   return fail(Error::Kind::bad_input, "OpenGL",
               why +
                   "; pictures need EGL and OpenGL 3.3 (Debian: libegl1, libgl1, and libgl1-mesa-dri where there is no "

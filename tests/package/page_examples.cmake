@@ -1,16 +1,9 @@
 # SPDX-FileCopyrightText: The Hooke authors
 # SPDX-License-Identifier: MIT
 
-# Installs Hooke into a folder of its own, and builds and runs the C++ of README.md and of docs/embedding.md against that
-# installation. Checks what else was installed: scenes, man pages, completions, what desktops need.
-function(run)
-  execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
-  if(NOT status EQUAL 0)
-    message(FATAL_ERROR "${ARGV}\nended with ${status}:\n${output}")
-  endif()
-  string(STRIP "${output}" output)
-  set(output "${output}" PARENT_SCOPE)
-endfunction()
+# Builds and runs the C++ of README.md and of docs/embedding.md. Checks what else is installed: scenes, man pages, completions,
+# what desktops need.
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
 # The first fenced block of a language in a page.
 function(block_of page language)
@@ -23,15 +16,13 @@ endfunction()
 
 # Builds and runs the program in ${WORK}/NAME.
 function(build name)
-  run(${CMAKE_COMMAND} -S ${WORK}/${name} -B ${WORK}/${name}/build -G ${GENERATOR} -D CMAKE_PREFIX_PATH=${WORK}/prefix
-      -D CMAKE_CXX_COMPILER=${COMPILER})
+  configure(${WORK}/${name} ${WORK}/${name}/build)
   run(${CMAKE_COMMAND} --build ${WORK}/${name}/build)
   run(${WORK}/${name}/build/example)
   set(output "${output}" PARENT_SCOPE)
 endfunction()
 
 file(REMOVE_RECURSE ${WORK})
-run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 
 block_of(README.md cpp)
 file(WRITE ${WORK}/readme/main.cpp "${block}")
@@ -51,19 +42,19 @@ if(NOT output MATCHES "^[0-9]+ grains at 1[.]06 s; the shot is number [0-9]+\nat
 endif()
 
 # The installed program finds the scenes that were installed with it.
-run(${WORK}/prefix/bin/hooke scenes)
-if(NOT output MATCHES "In ${WORK}/prefix/share/hooke/scenes:" OR NOT output MATCHES "water.json")
+run(${PREFIX}/bin/hooke scenes)
+if(NOT output MATCHES "In ${PREFIX}/share/hooke/scenes:" OR NOT output MATCHES "water.json")
   message(FATAL_ERROR "the installed program lists other scenes:\n${output}")
 endif()
 
-set(share ${WORK}/prefix/share)
+set(share ${PREFIX}/share)
 foreach(file man/man1/hooke.1 man/man1/hooke-run.1 man/man1/hooke-view.1 bash-completion/completions/hooke
              zsh/vendor-completions/_hooke)
   if(NOT EXISTS ${share}/${file})
     message(FATAL_ERROR "${file} is not installed")
   endif()
 endforeach()
-if(EXISTS ${WORK}/prefix/bin/hooke-view)
+if(EXISTS ${PREFIX}/bin/hooke-view)
   find_program(DESKTOP_CHECK desktop-file-validate)
   find_program(METAINFO_CHECK appstreamcli)
   if(DESKTOP_CHECK)

@@ -6,7 +6,8 @@
 
 namespace hooke {
 
-/// Threads to run on, at least one. There may be more threads than the machine has cores.
+/// Threads to run on, at least one: oneTBB's, or Hooke's own in a build without it (HOOKE_WITH_TBB). There may be more
+/// threads than the machine has cores.
 class Threads {
  public:
   explicit Threads(int count);
@@ -16,7 +17,8 @@ class Threads {
 
   int count() const { return count_; }
 
-  /// body() on these threads, with Hooke's floating-point modes.
+  /// body() on the calling thread, with Hooke's floating-point modes; what it gives parallel_ranges() runs on these
+  /// threads.
   template <class Body>
   void run(const Body& body) {
     run(&body, [](const void* of) { (*static_cast<const Body*>(of))(); });
