@@ -10,7 +10,7 @@ RUN_ARGS ?=
 BENCH_ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help python run gallery docs test sanitize soak fuzz build build-all bench format lint install clean setup setup-docs setup-test setup-python setup-lint setup-soak setup-bench setup-fuzz
+.PHONY: help python run gallery docs test sanitize soak fuzz package build build-all bench format lint install clean setup setup-docs setup-test setup-python setup-lint setup-soak setup-bench setup-fuzz setup-package
 
 help:  ## this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
@@ -43,9 +43,14 @@ soak: setup-soak  ## hours: the long tests, lint, and everything under sanitizer
 	tools/lint.sh
 	tools/test.sh soak
 	tools/compare_builds.sh build-dev/hooke build-clang/hooke
+	tools/package.sh
+	tools/package.sh test
 
 fuzz: setup-fuzz  ## feed readers with changed inputs, FUZZ_SECONDS (60) each
 	tools/fuzz.sh
+
+package: setup-package  ## make Debian packages: build/packages
+	tools/package.sh
 
 build: setup  ## release build: build/hooke
 	@cmake --preset release >/dev/null
@@ -82,6 +87,9 @@ setup-docs:
 
 setup-test:
 	@tools/setup.sh test
+
+setup-package:
+	@tools/setup.sh package
 
 setup-python:
 	@tools/setup.sh python

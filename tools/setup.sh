@@ -10,6 +10,7 @@
 #   tools/setup.sh docs     to build and run, and to make the documentation site
 #   tools/setup.sh fuzz     also to run fuzzers
 #   tools/setup.sh python   to build the Python module, and to install it with pip
+#   tools/setup.sh package  to make Debian packages, and to test them in a bare system
 #   tools/setup.sh soak     all that soak needs
 set -euo pipefail
 
@@ -28,17 +29,20 @@ test_packages=(appstream clang-format-19 desktop-file-utils groff-base lammps mo
 docs_packages=(doxygen mkdocs mkdocs-material)
 lint_packages=(clang-19 clang-tidy-19)
 cross_packages=(g++-aarch64-linux-gnu googletest qemu-user-static)
+package_packages=(debootstrap dpkg-dev)
 fuzz_packages=(clang-19 libclang-rt-19-dev)
 
 packages=("${build_packages[@]}")
 case "${1:-}" in
+  package) packages+=("${python_packages[@]}" "${package_packages[@]}") ;;
   python) packages+=("${python_packages[@]}") ;;
   test) packages+=("${test_packages[@]}") ;;
   lint) packages+=("${test_packages[@]}" "${lint_packages[@]}") ;;
   fuzz) packages+=("${test_packages[@]}" "${fuzz_packages[@]}") ;;
   docs) packages+=("${docs_packages[@]}") ;;
   bench) packages+=("${bench_packages[@]}") ;;
-  soak) packages+=("${test_packages[@]}" "${lint_packages[@]}" "${bench_packages[@]}" "${cross_packages[@]}") ;;
+  soak) packages+=("${test_packages[@]}" "${lint_packages[@]}" "${bench_packages[@]}" "${cross_packages[@]}"
+    "${package_packages[@]}") ;;
 esac
 
 if ! command -v dpkg-query >/dev/null; then

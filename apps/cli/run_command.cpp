@@ -27,7 +27,7 @@ void log_start(const run::OpenedSimulation& opened) {
   spdlog::info("hooke {}: {}, {} particles, step {} to {} of {} s, {} ({}), {} precision, {} threads", HOOKE_VERSION,
                printable(simulation.scene().name), simulation.particle_count(), simulation.step_count(),
                simulation.scene().steps, simulation.scene().time_step, back_end.device, back_end.isa,
-               io::to_string(back_end.precision), back_end.threads);
+               to_string(back_end.precision), back_end.threads);
   for (const Finding& warning : opened.warnings) report_warning(warning);
   if (simulation.step_count() == 0) {
     for (const std::string& sentence : run::overlapped_bodies(simulation)) spdlog::info(sentence);

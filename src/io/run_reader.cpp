@@ -5,6 +5,7 @@
 
 #include "hooke/base/assert.h"
 #include "hooke/io/failure.h"
+#include "hooke/io/output_file.h"
 #include "hooke/io/particles_file.h"
 #include "hooke/io/run_folder.h"
 
