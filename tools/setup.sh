@@ -25,7 +25,7 @@ build_packages=(
 bench_packages=(lammps python3-numpy python3-matplotlib)
 python_packages=(python3-dev pybind11-dev python3-numpy python3-pip python3-setuptools python3-wheel)
 test_packages=(appstream clang-format-19 desktop-file-utils groff-base lammps mold python3-h5py python3-matplotlib
-  python3-vtk9 xauth xdotool xvfb zsh "${python_packages[@]}")
+  python3-vtk9 x11-xserver-utils xauth xdotool xvfb zsh "${python_packages[@]}")
 docs_packages=(doxygen mkdocs mkdocs-material)
 lint_packages=(clang-19 clang-tidy-19)
 cross_packages=(g++-aarch64-linux-gnu googletest qemu-user-static)

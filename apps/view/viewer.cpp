@@ -226,6 +226,7 @@ Expected<void> Viewer::run() {
   while (!window_.should_close()) {
     const std::vector<InputEvent> events = window_.take_events(busy ? 0 : kIdle);
     if (window_.width() <= 0 || window_.height() <= 0) {  // minimised
+      for (const InputEvent& event : events) handle(event);  // what was pressed is released
       busy = false;
       continue;
     }

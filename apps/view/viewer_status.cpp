@@ -40,6 +40,10 @@ scene::Json Viewer::status_now() const {
   json["gravity"] = {gravity.x, gravity.y, gravity.z};
   json["held_collider"] = now.held_collider;
   json["held_particles"] = now.held_particles;
+  json["drags"] = turning_ || panning_ || zooming_ || holding_;
+  json["pours"] = pouring_;
+  const auto figures = session_.figures();
+  json["broken_springs"] = figures ? figures->ledger.springs.broken : 0;
   json["picked"] = picked_ ? scene::Json(*picked_) : scene::Json(nullptr);
   json["can_undo"] = session_.can_undo();
   json["reach"] = now.reach;
@@ -48,6 +52,7 @@ scene::Json Viewer::status_now() const {
   json["replay_running"] = now.replay.running;
   json["diverged"] = now.replay.diverged ? scene::Json(*now.replay.diverged) : scene::Json(nullptr);
   json["device"] = render::LiveRenderer::device();
+  json["scale"] = window_.scale();
   json["width"] = window_.width();
   json["height"] = window_.height();
   return json;

@@ -14,13 +14,14 @@ class Skip(Exception):
 
 
 class Display:
-    """An X server without a screen, for the time of a with statement."""
+    """An X server without a screen, for the time of a with statement. scale: pixels a pixel of common monitors."""
 
-    def __init__(self, width=1280, height=720):
-        for program in ("Xvfb", "xdotool"):
+    def __init__(self, width=1280, height=720, scale=1):
+        for program in ("Xvfb", "xdotool", "xrdb"):
             if shutil.which(program) is None:
                 raise Skip(f"{program} is not installed (tools/setup.sh test installs it)")
         self.size = f"{width}x{height}x24"
+        self.scale = scale
 
     def __enter__(self):
         read, write = os.pipe()
@@ -33,6 +34,8 @@ class Display:
             raise Skip("Xvfb does not start")
         self.environment = dict(os.environ, DISPLAY=f":{number}", LIBGL_ALWAYS_SOFTWARE="1")
         self.environment.pop("WAYLAND_DISPLAY", None)
+        subprocess.run(["xrdb", "-nocpp", "-merge"], input=f"Xft.dpi: {96 * self.scale}\n", env=self.environment, text=True,
+                       check=True, timeout=30)
         return self
 
     def __exit__(self, *_):
@@ -117,6 +120,20 @@ class Window:
             self.xdotool("keyup", key)
         self.frames(8)
         return status
+
+    def ask_xdotool(self, *words):
+        return subprocess.run(["xdotool", *map(str, words)], env=self.display.environment, check=True, timeout=30,
+                              stdout=subprocess.PIPE, text=True).stdout.split()
+
+    def id(self):
+        return self.ask_xdotool("search", "--name", "Hooke")[-1]
+
+    def focus(self):
+        self.xdotool("windowfocus", "--sync", self.id())
+
+    def lose_focus(self):
+        """To the display's root window, as a click elsewhere does."""
+        self.xdotool("windowfocus", self.ask_xdotool("search", "--maxdepth", 0, "--class", "")[0])
 
     def click(self, place, button=1):
         self.xdotool("mousemove", *place)

@@ -193,6 +193,82 @@ class Tests:
                 return place
         raise AssertionError(f"no {value} near {near}")
 
+    def test_knife(self):
+        with self.window("scene.json") as w:
+            w.key("h")
+            w.key("k")
+            assert w.status()["broken_springs"] == 0
+            w.drag((480, 130), (700, 180))  # across the cloth
+            cut = w.wait(lambda s: s["broken_springs"] > 0, "cut springs")
+            assert cut["message"] == "" and cut["mode"] == "cut", cut
+            w.key("v")
+            w.drag((480, 130), (700, 180))
+            assert w.status()["broken_springs"] == cut["broken_springs"], "only the knife cuts"
+            w.quit()
+
+    def test_lost_focus(self):
+        """What is held when the window loses the keyboard, or is unmapped, is let go; the window goes on."""
+        with self.window("scene.json", "--paused") as w:
+            w.key("h")
+            for lose, regain in ((w.lose_focus, w.focus),
+                                 (lambda: w.xdotool("windowunmap", w.id()), lambda: w.xdotool("windowmap", w.id()))):
+                w.focus()
+                w.frames()
+                self.lose_a_drag(w, lose, regain)
+                self.lose_a_hand(w, lose, regain)
+                self.lose_keys(w, lose, regain)
+            w.quit()
+
+    def press(self, w, place):
+        w.xdotool("mousemove", *place)
+        w.frames(2)
+        w.xdotool("mousedown", 1)
+        return w.wait(lambda s: s["drags"], "drag")
+
+    def regain(self, w, regain):
+        w.xdotool("mouseup", 1)
+        regain()
+        time.sleep(0.2)
+        w.focus()
+        return w.wait(lambda s: not s["drags"], "rest")
+
+    def lose_a_drag(self, w, lose, regain):
+        w.key("v")
+        self.press(w, (500, 300))
+        w.xdotool("mousemove", 560, 320)
+        w.frames(8)
+        lose()
+        w.wait(lambda s: not s["drags"], "end of a drag")
+        still = w.frames(8)
+        w.xdotool("mousemove", 300, 200)  # with the button still down
+        time.sleep(0.5)
+        assert math.dist(w.status()["eye"], still["eye"]) < 1e-6
+        self.regain(w, regain)
+        w.key("Home")
+
+    def lose_a_hand(self, w, lose, regain):
+        w.key("m")
+        place = self.find(w, (610, 250), "held_collider", "ball")
+        self.press(w, place)
+        w.wait(lambda s: s["held_collider"] == "ball", "hold")
+        lose()
+        w.wait(lambda s: s["held_collider"] == "" and not s["drags"], "let go")
+        self.regain(w, regain)
+
+    def lose_keys(self, w, lose, regain):
+        w.xdotool("keydown", "o", "keydown", "Up")
+        w.wait(lambda s: s["pours"], "pouring")
+        w.frames(4)
+        lose()
+        w.wait(lambda s: not s["pours"], "end of pouring")
+        w.frames(30)  # the camera comes to rest
+        still = w.status()
+        later = w.frames(8)
+        assert later["particles"] == still["particles"] and math.dist(later["eye"], still["eye"]) < 1e-3
+        w.xdotool("keyup", "o", "keyup", "Up")
+        self.regain(w, regain)
+        w.key("Home")
+
     def test_tune(self):
         with self.window("scene.json", "--paused") as w:
             step = w.status()["time_step"]
@@ -268,6 +344,25 @@ class Tests:
                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=120, check=False)
             assert done.returncode == 2, (words, changes, done)
             assert re.search(expected, done.stderr), (expected, done.stderr)
+
+    def test_scale(self):
+        """A monitor of twice the common resolution: letters and panels are twice as large, and the mouse meets them."""
+        with Display(1600, 900, scale=2) as display:
+            with Window(display, self.arguments.hooke, self.folder, ["scene.json", "--paused", "--size", "800x450"]) as w:
+                status = w.status()
+                assert (status["scale"], status["width"], status["height"]) == (2, 1600, 900), status
+                w.key("h")
+                w.click((800, 625))
+                w.wait(lambda s: s["picked"] is not None, "picked particle")
+                w.key("m")
+                self.find(w, (762, 312), "held_collider", "ball")
+                w.key("h")
+                step = w.status()["time_step"]
+                w.click((1470, 188))  # the safe step
+                w.wait(lambda s: s["time_step"] != step, "another time step")
+                w.key("s")
+                w.wait(lambda s: "saved scene-001.png" in s["message"], "still")
+                w.quit()
 
     def test_record(self):
         with self.window("scene.json", "--record", "a.record", "--threads", "2") as w:
