@@ -41,6 +41,14 @@ class FilmOfARun : public ProgramTest {
     return words;
   }
 
+  // A line for each frame of a film, with a hash of its bytes.
+  std::string frame_hashes(const std::string& file) const {
+    const std::string command =
+        "ffmpeg -v error -y -i '" + path(file).string() + "' -f framemd5 '" + path("hashes.txt").string() + "'";
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    return read("hashes.txt");
+  }
+
   render::Image frame(const std::string& file, int index) const {
     const std::string command = "ffmpeg -v error -y -i '" + path(file).string() + "' -vf 'select=eq(n\\," +
                                 std::to_string(index) + ")' -frames:v 1 '" + path("frame.png").string() + "'";
@@ -77,6 +85,26 @@ TEST_F(FilmOfARun, ShowsWhatIsDrawnOfTheRunAfterwards) {
   EXPECT_EQ(probe_film(path("g.mp4")).frames, 13);
   for (const int k : {0, 6, 12}) EXPECT_GT(similarity(frame("f.mp4", k), frame("g.mp4", k)), 0.95) << k;
   EXPECT_LT(similarity(frame("f.mp4", 0), frame("g.mp4", 12)), 0.9);
+}
+
+TEST_F(FilmOfARun, AtTheSpeedOfTheSceneIsTheFilmWithoutASpeed) {
+  hooke_ok(run("a", film("a.mp4", {"--quiet"})));
+  hooke_ok(run("b", film("b.mp4", {"--quiet", "--speed", "1"})));
+  EXPECT_EQ(frame_hashes("b.mp4"), frame_hashes("a.mp4"));
+  EXPECT_EQ(probe_film(path("a.mp4")).frames, 13);
+  hooke_ok(run("c", film("c.mp4", {"--quiet", "--speed", "2"})));
+  EXPECT_NE(frame_hashes("c.mp4"), frame_hashes("a.mp4"));
+
+  const auto draw = [this](const std::string& name, const Words& more) {
+    Words words{"render", "a", "-o", name + "%02d.png", "--size", "96x54", "--samples", "1"};
+    words.insert(words.end(), more.begin(), more.end());
+    hooke_ok(words);
+  };
+  draw("plain", {});
+  draw("same", {"--speed", "1"});
+  for (const char* number : {"00", "06", "12"}) {
+    EXPECT_EQ(read("same" + std::string(number) + ".png"), read("plain" + std::string(number) + ".png")) << number;
+  }
 }
 
 TEST_F(FilmOfARun, GoesOnWithTheRun) {
