@@ -10,6 +10,6 @@
 namespace hooke::view {
 
 /// The values at the two ends of the colours that suit a scene, ascending.
-std::tuple<double, double> default_range(const Scene& scene, const ParticleSet& first, Coloring by);
+std::tuple<double, double> default_range(const Scene& scene, const ParticleSet& first, const ColoringInfo& coloring);
 
 }  // namespace hooke::view

@@ -5,11 +5,13 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "hooke/base/expected.h"
 #include "hooke/core/simulation.h"
+#include "hooke/render/coloring.h"
 #include "hooke/render/live_picture.h"
 #include "timeline.h"
 
@@ -20,15 +22,16 @@ enum class Coloring { material, speed, height, pressure, contacts, age, id };
 
 struct ColoringInfo {
   const char* name;
-  const char* unit;  ///< empty: none
+  const char* unit;                ///< empty: none
+  std::optional<render::ColorBy> of_films;  ///< the same in films, whose range it takes; empty: films have none
 };
-inline constexpr std::array<ColoringInfo, 7> kColorings = {{{"material", ""},
-                                                            {"speed", "m/s"},
-                                                            {"height", "m"},
-                                                            {"pressure", "Pa"},
-                                                            {"contacts", ""},
-                                                            {"age", "s"},
-                                                            {"id", ""}}};
+inline constexpr std::array<ColoringInfo, 7> kColorings = {{{"material", "", render::ColorBy::material},
+                                                            {"speed", "m/s", render::ColorBy::speed},
+                                                            {"height", "m", render::ColorBy::height},
+                                                            {"pressure", "Pa", render::ColorBy::pressure},
+                                                            {"contacts", "", render::ColorBy::contacts},
+                                                            {"age", "s", {}},
+                                                            {"id", "", render::ColorBy::id}}};
 
 /// Values of some particles, found on another thread, by ascending id.
 struct ColorColumn {

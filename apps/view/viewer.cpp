@@ -22,23 +22,6 @@ constexpr auto kMessageTime = 6s;
 
 double seconds(std::chrono::steady_clock::duration time) { return std::chrono::duration<double>(time).count(); }
 
-// One particle of each material, to ask what pictures make of it.
-render::Frame specimen(const Scene& scene, const render::Look& look) {
-  Scene plain = scene;
-  plain.colliders.clear();
-  plain.structure = nullptr;
-  ParticleSet one_each;
-  for (std::size_t k = 0; k < scene.materials.size(); ++k) {
-    one_each.id.push_back(k + 1);
-    one_each.material.push_back(static_cast<std::uint16_t>(k));
-    one_each.position.push_back(look.action.center());
-    one_each.velocity.push_back({0, 0, 0});
-  }
-  render::Look by_material = look;
-  by_material.scale = render::ColorScale{};
-  return render::make_frame(plain, one_each, 0, by_material, 1);
-}
-
 }  // namespace
 
 Viewer::Viewer(Window& window, Session& session, const ViewerOptions& options, render::LiveRenderer renderer)
@@ -63,7 +46,7 @@ Expected<std::unique_ptr<Viewer>> Viewer::open(Window& window, Session& session,
   v.camera_.emplace(render::camera_at(*scene, v.look_.action, aspect, 0), render::level_axes(v.look_.action, v.up_),
                     v.up_, v.size_);
   for (std::size_t k = 0; k < kColorings.size(); ++k) {
-    std::tie(v.state_.low[k], v.state_.high[k]) = default_range(*scene, first, static_cast<Coloring>(k));
+    std::tie(v.state_.low[k], v.state_.high[k]) = default_range(*scene, first, kColorings[k]);
   }
   v.follow_scene();
   for (const Finding& warning : session.warnings()) v.show_message(warning.where + ": " + warning.message);
@@ -82,12 +65,11 @@ void Viewer::follow_scene() {
   poses_.clear();
   std::vector<render::LiveMaterial> materials(std::max<std::size_t>(scene_->materials.size(), 1));
   radii_.assign(scene_->materials.size(), 0);
-  const render::Frame shown = specimen(*scene_, look_);
+  colors_ = render::material_colors(*scene_);
   ball_ = 0;
   for (std::size_t k = 0; k < scene_->materials.size(); ++k) {
-    const render::Sphere& sphere = shown.spheres[k];
-    materials[k] = {sphere.color, sphere.radius, scene_->materials[k].look == MaterialLook::water};
-    radii_[k] = sphere.radius;
+    radii_[k] = render::drawn_radius(scene_->materials[k]);
+    materials[k] = {colors_[k], radii_[k], scene_->materials[k].look == MaterialLook::water};
     const double radius = scene_->materials[k].radius;
     if (radius > 0 && (ball_ == 0 || radius < ball_)) ball_ = radius;
     if (state_.ball_material.empty() && radius > 0) state_.ball_material = scene_->materials[k].name;
@@ -185,8 +167,7 @@ void Viewer::upload(const std::shared_ptr<const ViewFrame>& frame) {
   // Particles that a cloth's surface shows are not drawn as balls.
   std::vector<render::LiveParticle> particles = frame->particles;
   std::vector<char> covered(particles.size(), 0);
-  const render::Frame looks = specimen(*scene_, look_);
-  const auto color_of = [&](std::size_t i) { return looks.spheres[frame->snapshot->particles.material[i]].color; };
+  const auto color_of = [&](std::size_t i) { return colors_[frame->snapshot->particles.material[i]]; };
   cloth_meshes_ = render::cloth_meshes(*scene_, frame->snapshot->particles, session_.origin(), color_of, covered);
   for (std::size_t i = 0; i < particles.size(); ++i) {
     if (covered[i] != 0) particles[i].tag = render::kHiddenParticle;

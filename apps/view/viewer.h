@@ -119,7 +119,8 @@ class Viewer {
 
   std::shared_ptr<const Scene> scene_;
   std::uint64_t scene_version_ = 0;
-  std::vector<float> radii_;  // by material, as they are drawn
+  std::vector<float> radii_;   // by material, as they are drawn
+  std::vector<render::Color> colors_;  // by material
   double ball_ = 1;           // radius of a typical particle, m
   double reference_force_ = 1;  // N, > 0
   ColliderView colliders_;

@@ -181,7 +181,7 @@ void Viewer::draw_see() {
     tooltip("the range of the particles as they are now");
     ImGui::SameLine();
     if (ImGui::Button("Default")) {
-      std::tie(state_.low[by], state_.high[by]) = default_range(*scene_, session_.first_particles(), state_.coloring);
+      std::tie(state_.low[by], state_.high[by]) = default_range(*scene_, session_.first_particles(), kColorings[by]);
     }
   }
   ImGui::Separator();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "hooke/base/assert.h"
 #include "hooke/core/contacts.h"
@@ -12,6 +13,10 @@
 namespace hooke::render {
 
 namespace {
+
+// Colours of materials without one of their own, by the material's index.
+constexpr const char* kPalette[] = {"#2f7fd6", "#e4933a", "#4cb35a", "#c9485b",
+                                    "#8e5bc0", "#5bb8c4", "#d6c12f", "#7d8794"};
 
 double norm(const Vec3d& v) { return std::sqrt(dot(v, v)); }
 
@@ -39,6 +44,15 @@ double weight_pressure(const Scene& scene, const ParticleSet& first, const Box3d
 double or_one(double value) { return value > 0 && std::isfinite(value) ? value : 1; }
 
 }  // namespace
+
+std::vector<Color> material_colors(const Scene& scene) {
+  std::vector<Color> colors;
+  for (const Material& material : scene.materials) {
+    const char* own = material.color.c_str();
+    colors.push_back(parse_color(*own ? own : kPalette[colors.size() % std::size(kPalette)]));
+  }
+  return colors;
+}
 
 ColorTitle title(ColorBy by) {
   switch (by) {

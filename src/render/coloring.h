@@ -9,6 +9,7 @@
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
 #include "hooke/render/camera.h"
+#include "hooke/render/color_map.h"
 
 namespace hooke::render {
 
@@ -45,6 +46,9 @@ struct ColorTitle {
   const char* unit;
 };
 ColorTitle title(ColorBy by);
+
+/// The colour of each material's particles: its own, or one of a palette by its index.
+std::vector<Color> material_colors(const Scene& scene);
 
 /// A scale that suits a whole run, from its scene and its `first` snapshot, from 0 up to: the speed of a fall through
 /// the scene's action (or the fastest in `first`), twice the pressure of all particles' weight spread over the floor,

@@ -17,23 +17,7 @@ namespace hooke::render {
 
 namespace {
 
-// Colours of materials without one of their own, by the material's index.
-constexpr const char* kPalette[] = {"#2f7fd6", "#e4933a", "#4cb35a", "#c9485b",
-                                    "#8e5bc0", "#5bb8c4", "#d6c12f", "#7d8794"};
-
-std::vector<Color> material_colors(const Scene& scene) {
-  std::vector<Color> colors;
-  for (const Material& material : scene.materials) {
-    const char* own = material.color.c_str();
-    colors.push_back(parse_color(*own ? own : kPalette[colors.size() % std::size(kPalette)]));
-  }
-  return colors;
-}
-
 constexpr float kNight = 0.12f;  // of the day's light
-
-// Radius of the sphere that draws a particle of a skin, over its own: spheres of a body's lattice then leave no gaps.
-constexpr float kSkinRadius = 1.4f;
 
 float smoothstep(float low, float high, float x) {
   const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
@@ -127,6 +111,13 @@ void add_structure(const Scene& scene, const ParticleSet& particles, Frame& fram
 
 }  // namespace
 
+// Spheres of a skin's lattice leave no gaps.
+float drawn_radius(const Material& material) {
+  constexpr float kSkinRadius = 1.4f;  // over the particle's own
+  const auto own = static_cast<float>(material.radius);
+  return material.look == MaterialLook::skin ? kSkinRadius * own : own;
+}
+
 float typical_radius(const Frame& frame, SphereKind kind) {
   const auto is_one = [kind](const Sphere& sphere) { return kind_of(sphere) == kind; };
   const auto middle = frame.spheres.begin() + static_cast<std::ptrdiff_t>(frame.spheres.size() / 2);
@@ -183,13 +174,10 @@ Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, 
       const Material& material = scene.materials[particles.material[i]];
       const Vec3f at = vec_cast<float>(particles.position[i] - frame.origin);
       Sphere& sphere = frame.spheres[i];
-      sphere = {at.x, at.y, at.z, static_cast<float>(material.radius), colors[particles.material[i]], 0};
+      sphere = {at.x, at.y, at.z, drawn_radius(material), colors[particles.material[i]], 0};
       sphere.glows = glows(material);
       sphere.roughness = static_cast<std::uint8_t>(std::lround(255 * material.roughness));
-      if (material.look == MaterialLook::skin) {
-        sphere.skin = true;
-        sphere.radius *= kSkinRadius;
-      }
+      sphere.skin = material.look == MaterialLook::skin;
       if (!values.empty()) {
         sphere.color = map_color((values[i] - look.scale.low) / (look.scale.high - look.scale.low));
       } else if (material.look == MaterialLook::water) {

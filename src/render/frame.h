@@ -66,6 +66,9 @@ struct Frame {
   std::optional<ColorScale> scale;  ///< of the legend; empty: no legend
 };
 
+/// The radius of the sphere that draws a particle of a material, m. Of water it is changed by what is around.
+float drawn_radius(const Material& material);
+
 /// The radius of a sphere in the middle of those of a kind, m; 1 m where there is none.
 float typical_radius(const Frame& frame, SphereKind kind);
 
