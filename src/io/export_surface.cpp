@@ -22,16 +22,20 @@ struct MaterialMeshes : volumes::SurfaceMesh {
   std::vector<MeshPart> parts;                     // one a material
 };
 
-ParticleSet particles_of(const ParticleSet& all, std::uint16_t material) {
-  ParticleSet chosen;
+// The particles of each material, in the order of `all`.
+std::vector<ParticleSet> by_material(const ParticleSet& all, std::size_t materials) {
+  std::vector<std::size_t> counts(materials);
+  for (const std::uint16_t m : all.material) ++counts[m];
+  std::vector<ParticleSet> sets(materials);
+  for (std::size_t m = 0; m < materials; ++m) sets[m].reserve(counts[m]);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all.material[i] != material) continue;
-    chosen.id.push_back(all.id[i]);
-    chosen.material.push_back(material);
-    chosen.position.push_back(all.position[i]);
-    chosen.velocity.push_back(all.velocity[i]);
+    ParticleSet& own = sets[all.material[i]];
+    own.id.push_back(all.id[i]);
+    own.material.push_back(all.material[i]);
+    own.position.push_back(all.position[i]);
+    own.velocity.push_back(all.velocity[i]);
   }
-  return chosen;
+  return sets;
 }
 
 void append(volumes::SurfaceMesh& whole, const volumes::SurfaceMesh& part) {
@@ -48,12 +52,12 @@ void append(volumes::SurfaceMesh& whole, const volumes::SurfaceMesh& part) {
 MaterialMeshes make_meshes(const ExportJob& job, const ParticleSet& particles, const fs::path& file) {
   const std::vector<MaterialInfo>& materials = job.run.info().materials;
   const std::vector<std::string> words = material_words(materials, kLongestWord, file);
+  const std::vector<ParticleSet> sets = by_material(particles, materials.size());
   MaterialMeshes meshes;
   for (std::size_t m = 0; m < materials.size(); ++m) {
-    const ParticleSet own = particles_of(particles, static_cast<std::uint16_t>(m));
-    if (own.empty()) continue;
+    if (sets[m].empty()) continue;
     const volumes::SurfaceMesh mesh =
-        take(volumes::make_surface_mesh(own, radii(materials), job.options.surface), file);
+        take(volumes::make_surface_mesh(sets[m], radii(materials), job.options.surface), file);
     meshes.parts.push_back({words[m], meshes.face.size()});
     append(meshes, mesh);
     if (job.options.scene == nullptr) continue;
