@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <type_traits>
 
 #include "hooke/base/parallel.h"
 #include "hooke/core/contacts.h"
@@ -70,6 +71,38 @@ class Values {
 
 }  // namespace
 
+namespace {
+
+// Copies what there is of the particles, with positions relative to the frame's origin. It is subtracted before they
+// are rounded to floats: far from 0, that would move them by more than their size.
+template <class Real>
+Expected<void> copy_particles(const Simulation& simulation, std::vector<Vec3<Real>>& positions,
+                              std::vector<Vec3<Real>>& velocities, ViewFrame& frame) {
+  const auto count = static_cast<std::size_t>(simulation.particle_count());
+  frame.particles.resize(count);
+  frame.ids.resize(count);
+  frame.materials.resize(count);
+  frame.positions.resize(count);
+  frame.velocities.resize(count);
+  positions.resize(count);
+  velocities.resize(count);
+  ParticleColumns<Real> columns;
+  columns.id = frame.ids.data();
+  columns.material = frame.materials.data();
+  columns.position = positions.data();
+  columns.velocity = velocities.data();
+  if (auto copied = simulation.copy_particles(columns); !copied) return copied;
+  parallel_ranges(count, kPiece, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      frame.positions[i] = vec_cast<float>(vec_cast<double>(positions[i]) - frame.origin);
+      if constexpr (!std::is_same_v<Real, float>) frame.velocities[i] = vec_cast<float>(velocities[i]);
+    }
+  });
+  return {};
+}
+
+}  // namespace
+
 Expected<void> fill_frame(const Simulation& simulation, const Timeline& timeline, const ColorRequest& color,
                           const Vec3d& origin, ViewFrame& frame) {
   const auto count = static_cast<std::size_t>(simulation.particle_count());
@@ -78,17 +111,10 @@ Expected<void> fill_frame(const Simulation& simulation, const Timeline& timeline
   frame.time = simulation.time();
   frame.origin = origin;
   frame.poses.assign(simulation.collider_poses().begin(), simulation.collider_poses().end());
-  frame.particles.resize(count);
-  frame.ids.resize(count);
-  frame.positions.resize(count);
-  frame.velocities.resize(count);
-  frame.materials.resize(count);
-  ParticleColumns<float> columns;
-  columns.id = frame.ids.data();
-  columns.material = frame.materials.data();
-  columns.position = frame.positions.data();
-  columns.velocity = frame.velocities.data();
-  if (auto copied = simulation.copy_particles(columns); !copied) return copied;
+  const bool single = simulation.backend_info().precision == Precision::single_precision;
+  auto copied = single ? copy_particles(simulation, frame.positions, frame.velocities, frame)
+                       : copy_particles(simulation, frame.double_positions, frame.double_velocities, frame);
+  if (!copied) return copied;
   const auto& structure = simulation.scene().structure;
   frame.snapshot = structure && !structure->surfaces.empty() ? simulation.snapshot() : nullptr;
 
@@ -97,7 +123,6 @@ Expected<void> fill_frame(const Simulation& simulation, const Timeline& timeline
   const double low = by_material ? 0.35 * color.foam_speed : color.low;
   const double high = by_material ? 0.9 * color.foam_speed : color.high;
   const auto scale = static_cast<float>(1 / (high - low));
-  const Vec3f shift = vec_cast<float>(origin);
   std::mutex mutex;
   frame.lowest = std::numeric_limits<double>::infinity();
   frame.highest = -frame.lowest;
@@ -105,7 +130,6 @@ Expected<void> fill_frame(const Simulation& simulation, const Timeline& timeline
     Values values(frame, color, timeline.births());
     float least = std::numeric_limits<float>::infinity(), most = -least;
     for (std::size_t i = first; i < last; ++i) {
-      frame.positions[i] -= shift;
       const float value = values.at(i);
       least = std::min(least, value);
       most = std::max(most, value);

@@ -64,7 +64,9 @@ struct ViewFrame {
   std::shared_ptr<const Snapshot> snapshot;  ///< where the scene has cloths; else null
   double lowest = 0, highest = 0;            ///< of the values that colour
 
-  std::vector<Vec3f> positions, velocities;  ///< room for copies
+  // Room for copies; positions are relative to the origin but for the double ones.
+  std::vector<Vec3f> positions, velocities;
+  std::vector<Vec3d> double_positions, double_velocities;
   std::vector<std::uint16_t> materials;
 };
 

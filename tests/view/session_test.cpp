@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <thread>
 
 #include "replay.h"
@@ -290,6 +291,30 @@ TEST_F(Sessions, TakeScenesWithoutParticles) {
   session->wait();
   EXPECT_EQ(session->readings().particles, 0u);
   EXPECT_THAT(messages(*session), HasSubstr("no particle may be moved"));
+}
+
+// A grid of balls 10,000 km from 0, a metre apart, where floats lie a metre apart.
+TEST_F(Sessions, ShowParticlesOfFarScenesWhereTheyAre) {
+  write("far.json", R"({
+    "hooke": 1, "precision": "double", "time": { "step": 0.001, "end": 1 }, "gravity": [0, 0, 0],
+    "domain": { "min": [1e7, 0, 0], "max": [10000010, 10, 10] },
+    "materials": { "ball": { "radius": 0.3, "mass": 1, "stiffness": 100 } },
+    "particles": [ { "material": "ball", "block": { "min": [10000001.25, 1, 1], "max": [10000008.25, 9, 1], "spacing": 1 } } ] })");
+  SessionOptions far = options();
+  far.scene.file = path("far.json");
+  const auto session = opened(far);
+  const auto frame = [&] {
+    while (true) {
+      if (auto ready = session->frame({})) return ready;
+      session->wait();
+    }
+  }();
+  ASSERT_GT(frame->particles.size(), 20u);
+  for (const LiveParticle& p : frame->particles) {
+    const double x = session->origin().x + static_cast<double>(p.x) - 10000001.25;
+    EXPECT_NEAR(x, std::round(x), 1e-5);
+  }
+  EXPECT_LT(frame->particles[0].x, frame->particles[1].x);
 }
 
 }  // namespace
