@@ -60,6 +60,16 @@ if("render" IN_LIST HOOKE_COMPONENTS)
   hooke_with(GL ${found} "libepoxy-dev libpng-dev libcairo2-dev pkg-config" "Pictures, films and the window, by OpenGL")
 endif()
 
+if("render" IN_LIST HOOKE_COMPONENTS)
+  find_package(OpenEXR QUIET CONFIG)
+  if(OpenEXR_FOUND)
+    set(found ON)
+  else()
+    set(found OFF)
+  endif()
+  hooke_with(OPENEXR ${found} "libopenexr-dev" "Pictures in linear light, by OpenEXR")
+endif()
+
 # The program has everything.
 set(hooke_program_can_be_built ${PROJECT_IS_TOP_LEVEL})
 foreach(component IN LISTS all_components)
@@ -67,4 +77,5 @@ foreach(component IN LISTS all_components)
     set(hooke_program_can_be_built OFF)
   endif()
 endforeach()
-message(VERBOSE "oneTBB ${HOOKE_WITH_TBB}, HDF5 ${HOOKE_WITH_HDF5}, OpenVDB ${HOOKE_WITH_OPENVDB}, OpenGL ${HOOKE_WITH_GL}")
+message(VERBOSE "oneTBB ${HOOKE_WITH_TBB}, HDF5 ${HOOKE_WITH_HDF5}, OpenVDB ${HOOKE_WITH_OPENVDB}, OpenGL ${HOOKE_WITH_GL}, "
+  "OpenEXR ${HOOKE_WITH_OPENEXR}")

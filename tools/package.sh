@@ -63,7 +63,7 @@ int main() { return hooke::make_cpu_backend() ? 0 : 1; }
 CPP
     printf "cmake_minimum_required(VERSION 3.25)\nproject(core CXX)\nfind_package(hooke REQUIRED COMPONENTS core)\nadd_executable(core main.cpp)\ntarget_link_libraries(core hooke::hooke)\n" >CMakeLists.txt
     cmake -S . -B build >/dev/null && cmake --build build >/dev/null && build/core'
-  install libfmt-dev libhdf5-dev zlib1g-dev libcairo2-dev libepoxy-dev libpng-dev pkg-config libopenvdb-dev libboost-iostreams-dev
+  install libfmt-dev libhdf5-dev zlib1g-dev libcairo2-dev libepoxy-dev libopenexr-dev libpng-dev pkg-config libopenvdb-dev libboost-iostreams-dev
   in_it sh -ec '
     mkdir -p /work/embedding && cd /work/embedding
     sed -n "/^```cpp/,/^```$/p" ../embedding.md | sed "/^```/d" >main.cpp

@@ -19,10 +19,10 @@ build_packages=(
   libtbb-dev nlohmann-json3-dev libvalijson-dev libcli11-dev libfmt-dev libspdlog-dev libhdf5-dev
   libopenvdb-dev libboost-iostreams-dev
   libgtest-dev libgmock-dev libbenchmark-dev pkg-config
-  libepoxy-dev libegl1 libgl1 libgl1-mesa-dri libpng-dev libcairo2-dev fonts-dejavu-core ffmpeg
+  libepoxy-dev libegl1 libgl1 libgl1-mesa-dri libpng-dev libopenexr-dev libcairo2-dev fonts-dejavu-core ffmpeg
   libglfw3-dev libimgui-dev
   python3)
-bench_packages=(lammps python3-numpy python3-matplotlib)
+bench_packages=(lammps python3-numpy python3-matplotlib x11-xserver-utils xauth xdotool xvfb)
 python_packages=(python3-dev pybind11-dev python3-numpy python3-pip python3-setuptools python3-wheel)
 test_packages=(appstream clang-format-19 desktop-file-utils groff-base lammps mold python3-h5py python3-matplotlib
   python3-vtk9 x11-xserver-utils xauth xdotool xvfb zsh "${python_packages[@]}")

@@ -87,7 +87,8 @@ void add_render(CLI::App& app, CommandLine& line) {
   command
       .add_option(
           "-o,--output", render.output,
-          fmt::format("picture (.png), numbered pictures (frame_%04d.png) or film ({})", render::film_extensions()))
+          fmt::format("picture (.png; .exr: in linear light), numbered pictures (frame_%04d.png) or film ({})",
+                      render::film_extensions()))
       ->option_text("FILE")
       ->required();
   command.add_option("--time", render.time, "of a picture, s, between two snapshots too (default: the last snapshot)")
@@ -99,7 +100,7 @@ void add_render(CLI::App& app, CommandLine& line) {
       ->option_text("N")
       ->check(CLI::PositiveNumber)
       ->excludes("--speed");
-  command.add_flag("--alpha", render.picture.alpha, "pictures (.png) with alpha, without ground, sky and legend");
+  command.add_flag("--alpha", render.picture.alpha, "pictures (.png, .exr) with alpha, without ground, sky and legend");
   command
       .add_option("--set", render.overrides,
                   "replace a value of the run's scene, e.g. camera.orbit=5 or picture.box=false; may be repeated")

@@ -28,7 +28,9 @@
 namespace hooke::cli {
 namespace {
 
-bool is_picture(const std::filesystem::path& file) { return file.extension() == ".png" || file.extension() == ".PNG"; }
+bool is_png(const std::filesystem::path& file) { return file.extension() == ".png" || file.extension() == ".PNG"; }
+bool is_exr(const std::filesystem::path& file) { return file.extension() == ".exr" || file.extension() == ".EXR"; }
+bool is_picture(const std::filesystem::path& file) { return is_png(file) || is_exr(file); }
 
 // "frames/%04d.png": the position of the number and its minimum number of digits.
 std::optional<std::string> numbered_name(const std::filesystem::path& pattern, std::size_t number) {
@@ -40,8 +42,18 @@ std::optional<std::string> numbered_name(const std::filesystem::path& pattern, s
   return match.prefix().str() + fmt::format("{:0{}}", number, digits) + match.suffix().str();
 }
 
-Expected<void> write_picture(const render::Image& image, bool alpha, const std::filesystem::path& file) {
-  const auto bytes = render::encode_png(image, alpha);
+Expected<std::string> encode(const Expected<render::Image>& image, bool alpha) {
+  return image ? render::encode_png(*image, alpha) : fail(image.error());
+}
+Expected<std::string> encode(const Expected<render::LinearImage>& image) {
+  return image ? render::encode_exr(*image) : fail(image.error());
+}
+
+// Draws a picture into a file, by its extension.
+Expected<void> draw_picture(run::Studio& studio, const ParticleSet& particles, double time, bool alpha,
+                            const std::filesystem::path& file) {
+  const auto bytes =
+      is_exr(file) ? encode(studio.linear_picture(particles, time)) : encode(studio.picture(particles, time), alpha);
   if (!bytes) return fail(bytes.error());
   return io::write_text_file(file, *bytes);
 }
@@ -58,14 +70,15 @@ Expected<void> check_time(const char* option, std::optional<double> time, const 
 // What is wrong with the options, for a picture or a film.
 Expected<void> check_options(const RenderArguments& arguments, bool still) {
   const auto wrong = [](const char* option, const char* why) { return fail(Error::Kind::bad_input, option, why); };
-  if (!still && arguments.time) return wrong("--time", "is of a single picture (.png); a film has --from and --to");
+  if (!still && arguments.time)
+    return wrong("--time", "is of a single picture (.png, .exr); a film has --from and --to");
   if (still && (arguments.from || arguments.to)) return wrong(arguments.from ? "--from" : "--to", "is of a film");
   if (still && arguments.every) return wrong("--every", "is of a film");
   if (arguments.from && arguments.to && !(*arguments.from <= *arguments.to)) {
     return wrong("--to", "must not be before --from");
   }
   if (arguments.picture.alpha && render::is_film(arguments.output)) {
-    return wrong("--alpha", "is of pictures (.png), which may be numbered; films have no alpha");
+    return wrong("--alpha", "is of pictures (.png, .exr), which may be numbered; films have no alpha");
   }
   return {};
 }
@@ -105,17 +118,18 @@ Expected<void> render_still(const RenderArguments& arguments, const io::RunReade
   const double time = std::clamp(arguments.time.value_or(last), run.times().front(), last);
   const auto particles = playback.at(time);
   if (!particles) return fail(particles.error());
-  const auto image = studio.picture(*particles, time);
-  if (!image) return fail(image.error());
-  if (auto written = write_picture(*image, arguments.picture.alpha, arguments.output); !written) return written;
+  if (auto drawn = draw_picture(studio, *particles, time, arguments.picture.alpha, arguments.output); !drawn) {
+    return drawn;
+  }
   fmt::print("{} particles at {:.6g} s in {}\n", run::with_commas(particles->size()), time, arguments.output.string());
   return {};
 }
 
-// Gives one image per frame to `take`; returns their number and whether a signal came first.
+// Gives the particles of each frame, its time and its number to `take`; returns their number and whether it was all of
+// them, or a signal came first.
 template <class Take>
 Expected<std::pair<std::int64_t, bool>> render_frames(const RenderArguments& arguments, const io::RunReader& run,
-                                                      run::Playback& playback, run::Studio& studio, const Take& take) {
+                                                      run::Playback& playback, const Take& take) {
   const std::vector<double> times = frame_times(arguments, run);
   const auto count = static_cast<std::int64_t>(times.size());
   const Interrupt interrupt;
@@ -125,9 +139,7 @@ Expected<std::pair<std::int64_t, bool>> render_frames(const RenderArguments& arg
     const double time = times[static_cast<std::size_t>(frame)];
     const auto particles = playback.at(time);
     if (!particles) return fail(particles.error());
-    const auto image = studio.picture(*particles, time);
-    if (!image) return fail(image.error());
-    if (auto taken = take(*image, frame); !taken) return fail(std::move(taken).error());
+    if (auto taken = take(*particles, time, frame); !taken) return fail(std::move(taken).error());
     progress.update(frame + 1);
   }
   return std::pair{frame, frame == count};
@@ -138,8 +150,11 @@ Expected<ExitStatus> render_film(const RenderArguments& arguments, const io::Run
   const PictureArguments& picture = arguments.picture;
   auto film = render::FilmWriter::create(arguments.output, {picture.width, picture.height, picture.frames_per_second});
   if (!film) return fail(std::move(film).error());
-  const auto done = render_frames(arguments, run, playback, studio,
-                                  [&](const render::Image& image, std::int64_t) { return film->add(image); });
+  const auto done =
+      render_frames(arguments, run, playback, [&](const ParticleSet& particles, double time, std::int64_t) {
+        const auto image = studio.picture(particles, time);
+        return image ? film->add(*image) : fail(image.error());
+      });
   if (!done) return fail(done.error());
   if (auto finished = film->finish(); !finished) return fail(std::move(finished).error());
   fmt::print("{} frames, {:.2f} s, in {}{}\n", done->first,
@@ -151,11 +166,11 @@ Expected<ExitStatus> render_film(const RenderArguments& arguments, const io::Run
 Expected<ExitStatus> render_sequence(const RenderArguments& arguments, const io::RunReader& run,
                                      run::Playback& playback, run::Studio& studio) {
   const std::filesystem::path folder = arguments.output.parent_path();
-  const auto done =
-      render_frames(arguments, run, playback, studio, [&](const render::Image& image, std::int64_t frame) {
-        return write_picture(image, arguments.picture.alpha,
-                             folder / *numbered_name(arguments.output, static_cast<std::size_t>(frame)));
-      });
+  const auto draw = [&](const ParticleSet& particles, double time, std::int64_t frame) {
+    return draw_picture(studio, particles, time, arguments.picture.alpha,
+                        folder / *numbered_name(arguments.output, static_cast<std::size_t>(frame)));
+  };
+  const auto done = render_frames(arguments, run, playback, draw);
   if (!done) return fail(done.error());
   fmt::print("{} pictures, the first of them {}{}\n", done->first,
              (folder / *numbered_name(arguments.output, 0)).string(), done->second ? "" : ", interrupted");
@@ -166,7 +181,10 @@ Expected<ExitStatus> render(const RenderArguments& arguments) {
   const bool still = is_picture(arguments.output) && !numbered_name(arguments.output, 0);
   if (!is_picture(arguments.output) && !render::is_film(arguments.output)) {
     return fail(Error::Kind::bad_input, arguments.output.string(),
-                "has no extension of a picture or a film; known are .png, " + render::film_extensions());
+                "has no extension of a picture or a film; known are .png, .exr, " + render::film_extensions());
+  }
+  if (is_exr(arguments.output) && !render::has_openexr()) {
+    return fail(Error::Kind::bad_input, arguments.output.string(), "needs OpenEXR, which is not in this build (HOOKE_WITH_OPENEXR)");
   }
   if (auto good = check_options(arguments, still); !good) return fail(std::move(good).error());
   if (auto writable = run::check_output_file(arguments.output, "--output"); !writable) return fail(writable.error());
@@ -193,7 +211,7 @@ Expected<ExitStatus> render(const RenderArguments& arguments) {
                   run->info().materials.end(), is_same)) {
     return fail(Error::Kind::bad_input, arguments.run.string(), "has particles of other materials than its scene");
   }
-  auto studio = run::Studio::open(arguments.picture);
+  auto studio = run::Studio::open(arguments.picture, is_exr(arguments.output));
   if (!studio) return fail(std::move(studio).error());
   const auto first = run->read(0);
   if (!first) return fail(first.error());

@@ -7,6 +7,7 @@
 
 #include "hooke/render/frame.h"
 #include "hooke/render/image.h"
+#include "hooke/render/linear_image.h"
 
 namespace hooke::render {
 
@@ -15,6 +16,7 @@ struct RenderSettings {
   int height = 720;
   /// Along each side of a pixel: a pixel is the mean of samples squared; 1 to 4.
   int samples = 2;
+  bool linear = false;  ///< whether it draws pictures in linear light, and no others
 };
 
 /// Figures of the last frame drawn.
@@ -30,6 +32,8 @@ class Renderer {
   virtual ~Renderer() = default;
   /// bad_input where the device can't draw a picture of this size.
   virtual Expected<Image> render(const Frame& frame) = 0;
+  /// The same picture in linear light, not cut off at white. Either this or render(), as RenderSettings::linear says.
+  virtual Expected<LinearImage> render_linear(const Frame& frame) = 0;
   virtual RenderFigures figures() const = 0;
   /// The device that draws, in its driver's words.
   virtual std::string device() const = 0;

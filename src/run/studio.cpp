@@ -12,8 +12,8 @@
 
 namespace hooke::run {
 
-Expected<Studio> Studio::open(const PictureArguments& arguments) {
-  auto renderer = load_gl_renderer({arguments.width, arguments.height, arguments.samples});
+Expected<Studio> Studio::open(const PictureArguments& arguments, bool linear) {
+  auto renderer = load_gl_renderer({arguments.width, arguments.height, arguments.samples, linear});
   if (!renderer) return fail(std::move(renderer).error());
   return Studio(arguments, std::move(*renderer));
 }
@@ -28,7 +28,7 @@ void Studio::frame_action(std::span<const ParticleSet> moments) {
   look_.action = render::seen_action_box(*scene_, moments);
 }
 
-Expected<render::Image> Studio::picture(const ParticleSet& particles, double time) {
+render::Frame Studio::frame_at(const ParticleSet& particles, double time) const {
   HOOKE_ASSERT(scene_ != nullptr);
   const double aspect = static_cast<double>(arguments_.width) / arguments_.height;
   render::Frame frame = render::make_frame(*scene_, particles, time, look_, aspect);
@@ -36,6 +36,17 @@ Expected<render::Image> Studio::picture(const ParticleSet& particles, double tim
     frame.transparent = true;
     frame.ground.reset();
   }
+  return frame;
+}
+
+Expected<render::LinearImage> Studio::linear_picture(const ParticleSet& particles, double time) {
+  auto image = renderer_->render_linear(frame_at(particles, time));
+  figures_ = renderer_->figures();
+  return image;
+}
+
+Expected<render::Image> Studio::picture(const ParticleSet& particles, double time) {
+  const render::Frame frame = frame_at(particles, time);
   auto image = renderer_->render(frame);
   if (!image) return image;
   figures_ = renderer_->figures();

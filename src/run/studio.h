@@ -19,8 +19,9 @@ namespace hooke::run {
 /// that made it.
 class Studio {
  public:
-  /// bad_input where OpenGL is missing or can't draw pictures of this size.
-  static Expected<Studio> open(const PictureArguments& arguments);
+  /// bad_input where OpenGL is missing or can't draw pictures of this size. `linear`: for linear_picture(), else for
+  /// picture().
+  static Expected<Studio> open(const PictureArguments& arguments, bool linear = false);
 
   /// `first`: the first snapshot of the run, which determines scales and camera. `scene` must outlive the studio.
   void set_scene(const Scene& scene, const ParticleSet& first);
@@ -30,6 +31,8 @@ class Studio {
 
   /// The picture at `time` (s), with its legend. To be called after set_scene().
   Expected<render::Image> picture(const ParticleSet& particles, double time);
+  /// The same in linear light, without a legend.
+  Expected<render::LinearImage> linear_picture(const ParticleSet& particles, double time);
 
   const render::RenderFigures& figures() const { return figures_; }
   std::string device() const { return renderer_->device(); }
@@ -38,6 +41,8 @@ class Studio {
   Studio(const PictureArguments& arguments, std::unique_ptr<render::Renderer> renderer)
       : arguments_(arguments),
         renderer_(std::move(renderer)) {}
+
+  render::Frame frame_at(const ParticleSet& particles, double time) const;
 
   PictureArguments arguments_;
   std::unique_ptr<render::Renderer> renderer_;

@@ -95,6 +95,7 @@ class PlainRenderer : public render::Renderer {
     figures_.total_seconds = 0.25;
     return render::Image(settings_.width, settings_.height);
   }
+  Expected<render::LinearImage> render_linear(const render::Frame&) override { return render::LinearImage(); }
   render::RenderFigures figures() const override { return figures_; }
   std::string device() const override { return "none"; }
 

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "hooke/render/image.h"
+#include "hooke/render/linear_image.h"
 #include "program.h"
 #include "support/environment.h"
 #include "support/film_probe.h"
@@ -145,8 +146,20 @@ TEST_F(RenderCommand, PicturesMayHaveAlpha) {
   EXPECT_GT(solid, 96 * 54 / 40);
 }
 
+TEST_F(RenderCommand, PicturesMayBeInLinearLight) {
+  if (!has_openexr()) {
+    expect_refused(render("p.exr"), "needs OpenEXR, which is not in this build");
+    return;
+  }
+  const std::string magic("\x76\x2f\x31\x01", 4);
+  EXPECT_THAT(hooke_ok(render("p.exr", {"--alpha"})), HasSubstr("in p.exr"));
+  EXPECT_EQ(read("p.exr").substr(0, 4), magic);
+  EXPECT_THAT(hooke_ok(render("p_%d.exr", {"--fps", "10"})), HasSubstr("4 pictures, the first of them p_0.exr"));
+  EXPECT_EQ(read("p_3.exr").substr(0, 4), magic);
+}
+
 TEST_F(RenderCommand, RefusesWhatItCanNotDraw) {
-  expect_refused(render("f.avi"), "known are .png, .mp4, .mov, .mkv, .webm, .gif");
+  expect_refused(render("f.avi"), "known are .png, .exr, .mp4, .mov, .mkv, .webm, .gif");
   expect_refused(render("f"), "known are");
   expect_refused(render("nowhere/f.mp4"), "there is no folder nowhere");
   expect_refused(render("nowhere/f.png"), "there is no folder nowhere");

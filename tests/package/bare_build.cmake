@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: The Hooke authors
 # SPDX-License-Identifier: MIT
 
-# A build of the program without oneTBB, HDF5, OpenVDB and OpenGL: it computes the same, and says by name what it lacks.
+# A build of the program without oneTBB, HDF5, OpenVDB, OpenEXR and OpenGL: it computes the same, and says by name what it lacks.
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G ${GENERATOR} -D CMAKE_CXX_COMPILER=${COMPILER}
-    -D HOOKE_WITH_TBB=OFF -D HOOKE_WITH_HDF5=OFF -D HOOKE_WITH_OPENVDB=OFF -D HOOKE_WITH_GL=OFF
+    -D HOOKE_WITH_TBB=OFF -D HOOKE_WITH_HDF5=OFF -D HOOKE_WITH_OPENVDB=OFF -D HOOKE_WITH_OPENEXR=OFF -D HOOKE_WITH_GL=OFF
     -D HOOKE_BUILD_TESTS=OFF -D HOOKE_BUILD_BENCH=OFF)
 run(${CMAKE_COMMAND} --build ${WORK}/build --target hooke)
 set(bare ${WORK}/build/hooke)

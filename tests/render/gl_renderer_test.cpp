@@ -9,6 +9,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -304,6 +305,59 @@ TEST_F(GlRenderer, AlphaTellsWhereSomethingIs) {
   EXPECT_EQ(image.at(x, y)[3], 255);
   EXPECT_TRUE(is_red(at(image, x, y)));
   EXPECT_EQ(image.at(2, 2)[3], 0);
+}
+
+// Linear light as an sRGB picture stores it.
+double as_stored(double light) {
+  const double l = std::clamp(light, 0.0, 1.0);
+  return 255 * (l < 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055);
+}
+
+TEST_F(GlRenderer, LinearLightIsTheSamePictureNotCutOffAtWhite) {
+  RenderSettings settings{kWidth, kHeight, 2};
+  settings.linear = true;
+  const auto linear = make(settings);
+  for (const PictureScene& p : picture_scenes()) {
+    const Frame frame = frame_of(p);
+    const Image image = draw(frame);
+    const auto light = linear->render_linear(frame);
+    ASSERT_TRUE(light) << light.error().text();
+    int different = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+      const double stored = i % 4 == 3 ? 255.0 * light->pixels[i] : as_stored(light->pixels[i]);
+      different += std::abs(stored - image.pixels[i]) > 4;  // rounded to 8 bits at each stage
+    }
+    EXPECT_LT(different, 0.01 * static_cast<double>(image.pixels.size())) << p.name;
+  }
+  Frame bright = red_balls({{4, 2, 3}}, "#ffffff");
+  bright.spheres[0].roughness = 0;
+  bright.sunlight = 3;
+  const auto light = linear->render_linear(bright);
+  ASSERT_TRUE(light);
+  EXPECT_GT(*std::max_element(light->pixels.begin(), light->pixels.end()), 1.5f);
+}
+
+TEST_F(GlRenderer, LinearLightIsMultipliedByAlpha) {
+  RenderSettings settings{kWidth, kHeight, 4};
+  settings.linear = true;
+  Frame frame = red_balls({{4, 2, 3}});
+  frame.transparent = true;
+  frame.ground.reset();
+  frame.tank.walls = {};
+  const auto light = make(settings)->render_linear(frame);
+  ASSERT_TRUE(light);
+  EXPECT_EQ(light->at(2, 2)[0], 0);
+  EXPECT_EQ(light->at(2, 2)[3], 0);
+  int partly = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const float* p = light->at(x, y);
+      if (p[3] == 0 || p[3] == 1) continue;
+      ++partly;
+      EXPECT_LT(p[0], p[3]) << "a red of no more than white";
+    }
+  }
+  EXPECT_GT(partly, 20) << "the edge of the ball";
 }
 
 // At night, balls that do not glow are dark, and balls that glow are as bright as their colour.

@@ -58,6 +58,20 @@ class GlRenderer final : public Renderer {
   ~GlRenderer() override { context_.make_current(); }
 
   Expected<Image> render(const Frame& frame) override {
+    HOOKE_ASSERT(!settings_.linear);
+    return draw(frame, [this] { return targets_.read_result(); });
+  }
+  Expected<LinearImage> render_linear(const Frame& frame) override {
+    HOOKE_ASSERT(settings_.linear);
+    return draw(frame, [this] { return targets_.read_linear_result(); });
+  }
+
+  RenderFigures figures() const override { return figures_; }
+  std::string device() const override { return context_.device(); }
+
+ private:
+  template <class Read>
+  auto draw(const Frame& frame, const Read& read) -> Expected<decltype(read())> {
     HOOKE_ASSERT(std::this_thread::get_id() == thread_);
     const Clock::time_point start = Clock::now();
     context_.make_current();
@@ -84,8 +98,8 @@ class GlRenderer final : public Renderer {
     const bool glass = has_glass(frame);
     if (glass) draw_glass(view);
     resolve(targets_.to_result, true, glass);
-    draw_tank(targets_.to_result, frame, pixels);
-    Image image = targets_.read_result();
+    draw_tank(targets_.to_result, frame, pixels, settings_.linear);
+    auto image = read();
     if (const GLenum error = glGetError(); error != GL_NO_ERROR) {
       return fail(Error::Kind::run_failed, "OpenGL", "error " + std::to_string(error) + " of " + context_.device());
     }
@@ -93,10 +107,6 @@ class GlRenderer final : public Renderer {
     return image;
   }
 
-  RenderFigures figures() const override { return figures_; }
-  std::string device() const override { return context_.device(); }
-
- private:
   // The kind of sphere whose size shades are made for.
   SphereKind main_kind() const {
     for (const SphereKind kind : {SphereKind::ball, SphereKind::skin, SphereKind::water}) {
@@ -204,7 +214,7 @@ class GlRenderer final : public Renderer {
     } else {
       targets_.copy(targets_.to_backdrop, targets_.to_behind);
     }
-    draw_tank(targets_.to_behind, frame, pixels);
+    draw_tank(targets_.to_behind, frame, pixels, false);
     draw_smoothed(view, SphereKind::water, GL_GREATER, -1);
     const float water_size = typical_radius(frame, SphereKind::water);
     surface_passes_.smooth(frame, pixels, bounds_on_picture(frame.spheres, eye_.indices(true), pixels), water_size);
@@ -280,14 +290,17 @@ class GlRenderer final : public Renderer {
     program.read("glass", 5, glass ? glass_.texture() : targets_.shaded);
     program.set("has_glass", glass ? 1 : 0);
     program.set("last", last ? 1 : 0);
+    program.set("linear_light", settings_.linear ? 1 : 0);
+    program.set("brightest", targets_.brightest());
     program.set("transparent", light_.frame->transparent ? 1 : 0);
     whole_.draw();
   }
 
-  void draw_tank(const gl::Framebuffer& target, const Frame& frame, const Projection& view) {
+  void draw_tank(const gl::Framebuffer& target, const Frame& frame, const Projection& view, bool linear) {
     targets_.begin_pixels(target);
     tank_edges_.upload(frame.tank);
-    tank_edges_.draw(programs_.edge, view, targets_.depth, settings_.samples);
+    const Vec3f color = linear ? Vec3f{0.85f, 0.89f, 0.93f} : Vec3f{0.93f, 0.95f, 0.97f};  // the same in sRGB
+    tank_edges_.draw(programs_.edge, view, color, targets_.depth, settings_.samples);
   }
 
   std::thread::id thread_ = std::this_thread::get_id();  // the thread that made the renderer

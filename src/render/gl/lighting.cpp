@@ -15,6 +15,7 @@ void Lighting::use(const gl::Program& program, const Projection& view, const Ren
   set_view(program, view);
   program.read("sun_map", 0, targets.sun_map);
   program.read("water_sun_map", 9, targets.water_sun_map);
+  program.set("brightest", targets.brightest());
   program.set("has_water", water ? 1 : 0);
   program.set("sphere_size", sphere_size);
   sun.set(program);

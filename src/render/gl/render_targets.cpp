@@ -11,26 +11,28 @@ namespace hooke::render {
 RenderTargets::RenderTargets(const RenderSettings& settings)
     : width(settings.width),
       height(settings.height),
+      linear(settings.linear),
       samples_across(settings.width * settings.samples),
       samples_down(settings.height * settings.samples) {
   const auto per_sample = [this](GLenum format) {
     return gl::make_texture(samples_across, samples_down, format, GL_NEAREST);
   };
+  const GLenum light = linear ? GL_RGBA16F : GL_RGBA8;
   color = per_sample(GL_RGBA8);
   normal = per_sample(GL_RGBA8);
   depth = per_sample(GL_R32F);
   depth_stencil = per_sample(GL_DEPTH32F_STENCIL8);
-  shaded = per_sample(GL_RGBA8);
+  shaded = per_sample(light);
   for (gl::Texture& s : surface) s = gl::make_texture(width, height, GL_RG32F, GL_NEAREST);
   for (gl::Texture& a : ambient) a = gl::make_texture(half(width), half(height), GL_R8, GL_LINEAR);
   water_normal = gl::make_texture(width, height, GL_RGBA16F, GL_NEAREST);
   outline = gl::make_texture(width, height, GL_R8, GL_LINEAR);
   thickness = gl::make_texture(1, 1, GL_R32F, GL_LINEAR);
-  backdrop = gl::make_texture(width, height, GL_RGBA8, GL_NEAREST);
-  behind = gl::make_texture(width, height, GL_RGBA8, GL_LINEAR);
+  backdrop = gl::make_texture(width, height, light, GL_NEAREST);
+  behind = gl::make_texture(width, height, light, GL_LINEAR);
   solids = gl::make_texture(width, height, GL_RG32F, GL_NEAREST);
-  water = gl::make_texture(width, height, GL_RGBA8, GL_NEAREST);
-  result = gl::make_texture(width, height, GL_RGBA8, GL_NEAREST);
+  water = gl::make_texture(width, height, light, GL_NEAREST);
+  result = gl::make_texture(width, height, light, GL_NEAREST);
   for (gl::Texture* map : {&sun_map, &water_sun_map}) {
     *map = gl::make_texture(kSunMap, kSunMap, GL_DEPTH_COMPONENT32F, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
@@ -64,15 +66,30 @@ void RenderTargets::upload_thickness(const WaterThickness& of_water) const {
   glTexImage2D(GL_TEXTURE_2D, 0, GL_R32F, of_water.columns, of_water.rows, 0, GL_RED, GL_FLOAT, of_water.meters.data());
 }
 
-Image RenderTargets::read_result() const {
-  begin_pixels(to_result);
-  Image flipped(width, height);
-  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, flipped.pixels.data());
-  const std::size_t row = Image::kChannels * static_cast<std::size_t>(width);
+namespace {
+
+// Rows from the top, as images have them.
+template <class Picture>
+Picture read_pixels(int width, int height, GLenum type) {
+  Picture flipped(width, height);
+  glReadPixels(0, 0, width, height, GL_RGBA, type, flipped.pixels.data());
+  const std::size_t row = Picture::kChannels * static_cast<std::size_t>(width);
   for (int y = 0; y < height / 2; ++y) {
     std::swap_ranges(flipped.at(0, y), flipped.at(0, y) + row, flipped.at(0, height - 1 - y));
   }
   return flipped;
+}
+
+}  // namespace
+
+Image RenderTargets::read_result() const {
+  begin_pixels(to_result);
+  return read_pixels<Image>(width, height, GL_UNSIGNED_BYTE);
+}
+
+LinearImage RenderTargets::read_linear_result() const {
+  begin_pixels(to_result);
+  return read_pixels<LinearImage>(width, height, GL_FLOAT);
 }
 
 void RenderTargets::begin_sun_map(const gl::Framebuffer& target) const { begin(target, kSunMap, kSunMap); }

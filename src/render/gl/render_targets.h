@@ -15,6 +15,7 @@ struct RenderTargets {
   explicit RenderTargets(const RenderSettings& settings);
 
   int width, height;                ///< of the picture, pixels
+  bool linear;                      ///< whether the picture keeps what is brighter than white
   int samples_across, samples_down;  ///< size of the textures with several samples a pixel
 
   // Several samples a pixel.
@@ -38,8 +39,11 @@ struct RenderTargets {
   void copy(const gl::Framebuffer& from, const gl::Framebuffer& to) const;
   /// Puts the water's thickness into its texture.
   void upload_thickness(const WaterThickness& of_water) const;
-  /// The picture in `result`.
+  /// The brightest light that is kept, in that of white.
+  float brightest() const { return linear ? 1000.0f : 1.0f; }
+  // The picture in `result`.
   Image read_result() const;
+  LinearImage read_linear_result() const;
 
   static int half(int pixels) { return (pixels + 1) / 2; }
 

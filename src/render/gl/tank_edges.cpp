@@ -39,7 +39,8 @@ void TankEdges::upload(const Tank& tank) {
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(ends.size() * sizeof(Vec3f)), ends.data(), GL_STREAM_DRAW);
 }
 
-void TankEdges::draw(const gl::Program& program, const Projection& view, const gl::Texture& depths, int samples) const {
+void TankEdges::draw(const gl::Program& program, const Projection& view, const Vec3f& color, const gl::Texture& depths,
+                     int samples) const {
   program.use();
   set_view(program, view);
   program.set("scale", 2 * view.scale / view.width, 2 * view.scale / view.height);
@@ -48,7 +49,7 @@ void TankEdges::draw(const gl::Program& program, const Projection& view, const g
   program.set("nearest", view.nearest);
   program.read("depths", 0, depths);
   program.set("samples", samples);
-  program.set("color", Vec3f{0.93f, 0.95f, 0.97f});
+  program.set("color", color);
   program.set("opacity", 0.55f);
   glEnable(GL_BLEND);
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);

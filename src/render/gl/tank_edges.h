@@ -14,7 +14,8 @@ class TankEdges {
   TankEdges();
   void upload(const Tank& tank);
   /// Draws them into what is drawn into, where nothing of `depths`, several samples a pixel, is before them.
-  void draw(const gl::Program& program, const Projection& view, const gl::Texture& depths, int samples) const;
+  void draw(const gl::Program& program, const Projection& view, const Vec3f& color, const gl::Texture& depths,
+            int samples) const;
 
  private:
   gl::VertexArray array_;

@@ -22,6 +22,7 @@ uniform vec3 action_center;
 uniform float action_size;       // m
 uniform float sphere_size;       // radius of a typical sphere, m
 uniform float daylight;          // 1 by day
+uniform float brightest;         // light that is kept, in that of white
 
 const vec3 kHorizon = vec3(0.12, 0.16, 0.21), kZenith = vec3(0.03, 0.05, 0.09);
 
@@ -31,7 +32,7 @@ vec3 sun_color() { return sunlight_strength * vec3(1.60, 1.51, 1.38); }
 vec4 stored(vec3 color) {
   color *= daylight;
   color = color * (1.0 + color / 5.0) / (1.0 + color);
-  return vec4(sqrt(clamp(1.25 * color, 0.0, 1.0)), 1.0);
+  return vec4(sqrt(clamp(1.25 * color, 0.0, brightest)), 1.0);
 }
 
 // The light of a stored colour.

@@ -1,5 +1,5 @@
-// The mean of each pixel's samples. The last picture is sRGB, with noise of one step against banding; the one that
-// water lets through stays a root, as colours are stored.
+// The mean of each pixel's samples. The last picture is sRGB, with noise of one step against banding, or linear light
+// multiplied by alpha; the one that water lets through stays a root, as colours are stored.
 uniform sampler2D shaded;     // alpha 0 where a sample shows nothing
 uniform sampler2D backdrop;   // shown where a sample shows nothing
 uniform sampler2D depths;     // of the samples; negative where water
@@ -8,6 +8,8 @@ uniform sampler2D glass;      // over all that, multiplied by its alpha
 uniform bool has_glass;
 uniform int samples;
 uniform bool last;
+uniform bool linear_light;    // whether the last picture is not sRGB
+uniform float brightest;      // light that is kept, in that of white
 uniform bool transparent;     // whether the last picture's alpha tells where it shows something
 
 out vec4 image;
@@ -30,9 +32,13 @@ void main() {
     }
   }
   float alpha = covered / float(samples * samples);
-  vec3 linear = min(sum / max(covered, 1e-3), vec3(1.0));
+  vec3 linear = min(sum / max(covered, 1e-3), vec3(brightest));
   if (!last) {
     image = vec4(sqrt(linear), 1.0);
+    return;
+  }
+  if (linear_light) {
+    image = vec4(linear * alpha, alpha);
     return;
   }
   vec3 encoded = mix(12.92 * linear, 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, linear));
