@@ -79,6 +79,13 @@ class Room {
   FreeSpace free_;
 };
 
+// In contacts between particles and in springs, J.
+Expected<double> bound_energy(const Simulation& simulation) {
+  const auto now = simulation.measure();
+  if (!now) return fail(now.error());
+  return now->elastic_energy + now->spring_energy;
+}
+
 }  // namespace
 
 Expected<void> add_ball(Simulation& simulation, const AddBall& ball) {
@@ -125,6 +132,14 @@ Expected<void> cut_springs(Simulation& simulation, const CutSprings& cut) {
   }
   if (broken.size() == before) return fail(Error::Kind::bad_input, "springs", "there is none to cut");
   state.broken_springs.assign(broken.begin(), broken.end());
+  const auto whole = bound_energy(simulation);
+  if (!whole) return fail(whole.error());
+  if (auto restored = simulation.restore(state); !restored) return restored;
+  const auto now = bound_energy(simulation);
+  if (!now) return fail(now.error());
+  state.ledger.broken += broken.size() - before;
+  state.ledger.broken_energy.add(*whole);
+  state.ledger.broken_energy.add(-*now);
   return simulation.restore(std::move(state));
 }
 

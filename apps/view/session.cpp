@@ -133,6 +133,7 @@ void Session::act(Action action, bool quiet) {
   post(
       [this, action = std::move(action), quiet](Simulation& s) -> Expected<void> {
         auto done = timeline_->act(s, action);
+        if (done && Clock::now() >= measure_from_) measure(s);
         if (!done && quiet) return {};
         return done;
       },

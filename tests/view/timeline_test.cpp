@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "hooke/run/open_simulation.h"
 #include "view_scene.h"
 
@@ -74,6 +76,47 @@ TEST_F(Timelines, CutSpringsForGood) {
   act(CutSprings{{4}});
   EXPECT_EQ(simulation->broken_springs(), (std::vector<std::uint64_t>{3, 4, 9}));
   EXPECT_FALSE(timeline->act(*simulation, CutSprings{{4}})) << "there is none to cut";
+}
+
+// Half of them, under both integrators. Contacts between their ends may begin: their energy is in the entry, too.
+TEST_F(Timelines, BookTheEnergyOfSpringsThatAreCut) {
+  std::uint64_t first = 0;
+  for (const char* integrator : {"symplectic-euler", "velocity-verlet"}) {
+    act(ChangeScene{Json::array({{{"op", "add"}, {"path", "/time/integrator"}, {"value", integrator}}})});
+    advance(40);
+    const auto energy = [&] {
+      const Measurements now = *simulation->measure();
+      return now.kinetic_energy + now.potential_energy + now.elastic_energy + now.spring_energy +
+             simulation->ledger().springs.broken_energy;
+    };
+    const auto error = [&] {
+      return integration_error(*simulation->measure(), simulation->ledger(), simulation->initial_elastic());
+    };
+    const double before = energy(), error_before = error(), springs = simulation->measure()->spring_energy;
+    const std::uint64_t broken = simulation->ledger().springs.broken;
+    const double booked = simulation->ledger().springs.broken_energy;
+    CutSprings half;
+    for (std::uint64_t k = first++; k < simulation->scene().structure->springs.size(); k += 2)
+      half.springs.push_back(k);
+    act(half);
+    EXPECT_NEAR(energy(), before, 1e-13 * std::abs(before)) << integrator;
+    EXPECT_NEAR(error(), error_before, 1e-13 * std::abs(before)) << integrator;
+    EXPECT_LT(simulation->measure()->spring_energy, 0.9 * springs);
+    EXPECT_GT(simulation->ledger().springs.broken_energy, booked);
+    EXPECT_EQ(simulation->ledger().springs.broken - broken, half.springs.size());
+
+    // The work of all causes still adds up to what the particles gain.
+    const Ledger ledger = simulation->ledger();
+    const double kinetic = simulation->measure()->kinetic_energy;
+    advance(40);
+    const Ledger later = simulation->ledger();
+    double work = 0, throughput = 0;
+    for (std::size_t cause = 0; cause < later.work.of.size(); ++cause) {
+      work += later.work.of[cause] - ledger.work.of[cause];
+      throughput += std::abs(later.work.of[cause] - ledger.work.of[cause]);
+    }
+    EXPECT_NEAR(work, simulation->measure()->kinetic_energy - kinetic, 1e-4 * throughput) << integrator;
+  }
 }
 
 TEST_F(Timelines, AddBallsOnlyWhereThereIsRoom) {
