@@ -308,13 +308,26 @@ class Tests:
             w.quit()
 
     def compare(self, drawn, stored):
-        if self.arguments.update:
+        if self.arguments.update and stored.parent != self.folder:
             stored.parent.mkdir(exist_ok=True)
             stored.write_bytes(drawn.read_bytes())
             return
         alike = float(subprocess.run([self.arguments.compare, drawn, stored], check=True, text=True,
                                      stdout=subprocess.PIPE).stdout)
         assert alike >= ALIKE, f"{stored.name}: similarity {alike}"
+
+    def test_film_still(self):
+        """The panel's still with the look of films is the picture that hooke render draws."""
+        hooke = self.arguments.hooke
+        subprocess.run([hooke, "run", "scene.json", "-o", "out", "--steps", "1", "--quiet"], cwd=self.folder, check=True)
+        subprocess.run([hooke, "render", "out", "-o", "rendered.png", "--time", "0", "--no-legend"], cwd=self.folder,
+                       env=self.display.environment, check=True, stdout=subprocess.DEVNULL)
+        with self.window("scene.json", "--paused") as w:
+            w.click((1068, 72))  # the tab Save
+            w.click((1000, 202))
+            w.wait(lambda s: "saved scene-001.png" in s["message"], "still")
+            w.quit()
+        self.compare(self.folder / "scene-001.png", self.folder / "rendered.png")
 
     def test_failures(self):
         with self.window("explodes.json") as w:
