@@ -33,7 +33,7 @@ std::unique_ptr<PythonSimulation> from_arrays(const py::dict& scene, const py::o
                                               const std::string& device) {
   const py::dict rules = py::reinterpret_borrow<py::dict>(scene.attr("copy")());
   rules.attr("setdefault")("particles", py::list());
-  LoadedScene loaded = read_scene(rules, folder, {set, false, {}});
+  scene::LoadedScene loaded = read_scene(rules, folder, {set, false, {}});
   add_particles(loaded, {x, v, material, id});
   return std::make_unique<PythonSimulation>(std::move(loaded), DeviceOptions{threads, device}, OptionalPath{});
 }
@@ -106,7 +106,8 @@ void bind_stepping(Class& c) {
         "before; no ids end it. InputError where an id is unknown or twice there.");
   c.def_property_readonly("time", [](PythonSimulation& s) { return s.get().time(); }, "Simulated time, s.");
   c.def_property_readonly("step_count", [](PythonSimulation& s) { return s.get().step_count(); }, "Steps done.");
-  c.def_property_readonly("time_step", [](PythonSimulation& s) { return s.get().scene().time_step; }, "s.");
+  c.def_property_readonly(
+      "time_step", [](PythonSimulation& s) { return s.get().scene().time_step; }, "The time step, s.");
   c.def_property_readonly(
       "end_step", [](PythonSimulation& s) { return s.get().scene().steps; },
       "The step at which the scene ends, and run() too; step() goes on past it.");
@@ -154,7 +155,7 @@ void bind_reading(Class& c) {
   c.def_property_readonly(
       "threads", [](PythonSimulation& s) { return s.get().backend_info().threads; }, "Threads of the engine.");
   c.def_property_readonly(
-      "precision", [](PythonSimulation& s) { return std::string(to_string(s.get().backend_info().precision)); },
+      "precision", [](PythonSimulation& s) { return std::string(io::to_string(s.get().backend_info().precision)); },
       "\"single\" or \"double\".");
 }
 
@@ -216,6 +217,27 @@ void bind_output(Class& c) {
       "InputError where the folder holds a run and `overwrite` is not set; RunFailed, FileError.");
 }
 
+// The C++ object of an instance, or null before it has one.
+PythonSimulation* object_of(PyObject* self) {
+  auto held = reinterpret_cast<py::detail::instance*>(self)->get_value_and_holder();
+  return static_cast<PythonSimulation*>(held.value_ptr());
+}
+
+// A function of forces that uses its simulation is a cycle, which only Python's garbage collector can end.
+void collect_garbage(PyHeapTypeObject* heap_type) {
+  PyTypeObject& type = heap_type->ht_type;
+  type.tp_flags |= Py_TPFLAGS_HAVE_GC;
+  type.tp_traverse = [](PyObject* self, visitproc visit, void* arg) {
+    Py_VISIT(Py_TYPE(self));
+    if (const PythonSimulation* simulation = object_of(self)) Py_VISIT(simulation->force_function().ptr());
+    return 0;
+  };
+  type.tp_clear = [](PyObject* self) {
+    if (PythonSimulation* simulation = object_of(self)) simulation->drop_force_function();
+    return 0;
+  };
+}
+
 }  // namespace
 
 void bind_simulation(py::module_& module) {
@@ -223,7 +245,7 @@ void bind_simulation(py::module_& module) {
       .def_property_readonly(
           "step", [](const SimulationState& s) { return s.step; }, "Steps done.")
       .def("__len__", [](const SimulationState& s) { return s.particles.size(); });
-  Class simulation(module, "Simulation",
+  Class simulation(module, "Simulation", py::custom_type_setup(&collect_garbage),
                    "A scene, its particles, and the engine that steps them.\n\n"
                    "One thread of Python uses it at a time; while it is at work, calls from others raise BusyError.");
   bind_creation(simulation);

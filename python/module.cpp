@@ -15,7 +15,7 @@ PYBIND11_MODULE(_hooke, module) {
   hooke::python::bind_simulation(module);
   hooke::python::bind_run(module);
   module.def(
-      "schema", [] { return hooke::python::parse_json(std::string(hooke::scene_schema())); },
+      "schema", [] { return hooke::python::parse_json(std::string(hooke::scene::scene_schema())); },
       "The JSON Schema of scene files: keys, units, ranges, defaults.");
   module.attr("__version__") = HOOKE_VERSION;
 }

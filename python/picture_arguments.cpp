@@ -25,11 +25,11 @@ run::PictureArguments to_picture_arguments(std::pair<int, int> size, const std::
   if (range && !(std::isfinite((*range)[0]) && std::isfinite((*range)[1]) && (*range)[0] < (*range)[1])) {
     raise_input("range", fmt::format("({}, {}) must be two ascending numbers", (*range)[0], (*range)[1]));
   }
-  const auto* const known = std::find_if(std::begin(kColorByNames), std::end(kColorByNames),
-                                         [&](const ColorByName& name) { return name.name == color_by; });
-  if (known == std::end(kColorByNames)) {
+  const auto* const known = std::find_if(std::begin(render::kColorByNames), std::end(render::kColorByNames),
+                                         [&](const render::ColorByName& name) { return name.name == color_by; });
+  if (known == std::end(render::kColorByNames)) {
     std::string names;
-    for (const ColorByName& name : kColorByNames)
+    for (const render::ColorByName& name : render::kColorByNames)
       names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", name.name);
     raise_input("color_by", fmt::format("\"{}\" is not known; known are {}", color_by, names));
   }
@@ -43,9 +43,9 @@ run::PictureArguments to_picture_arguments(std::pair<int, int> size, const std::
   return arguments;
 }
 
-py::array to_array(Image image, bool alpha) {
-  const auto kept = std::make_shared<Image>(std::move(image));
-  constexpr auto kChannels = static_cast<py::ssize_t>(Image::kChannels);
+py::array to_array(render::Image image, bool alpha) {
+  const auto kept = std::make_shared<render::Image>(std::move(image));
+  constexpr auto kChannels = static_cast<py::ssize_t>(render::Image::kChannels);
   const auto width = static_cast<py::ssize_t>(kept->width), height = static_cast<py::ssize_t>(kept->height);
   return view(kept, py::dtype::of<std::uint8_t>(), {height, width, alpha ? kChannels : kChannels - 1},
               {kChannels * width, kChannels, 1}, kept->pixels.data());

@@ -18,6 +18,6 @@ run::PictureArguments to_picture_arguments(std::pair<int, int> size, const std::
                                            bool alpha);
 
 /// uint8 of shape (height, width, 3), or 4 with alpha, without a copy of the pixels.
-py::array to_array(Image image, bool alpha);
+py::array to_array(render::Image image, bool alpha);
 
 }  // namespace hooke::python

@@ -3,6 +3,8 @@
 
 #include "picture_thread.h"
 
+#include <unistd.h>
+
 #include <condition_variable>
 #include <deque>
 #include <future>
@@ -19,7 +21,8 @@ class PictureThread {
     std::thread([this] { work(); }).detach();
   }
 
-  void run(const std::function<void()>& task) {
+  bool run(const std::function<void()>& task) {
+    if (getpid() != process_) return false;
     std::packaged_task<void()> packaged(task);
     auto done = packaged.get_future();
     {
@@ -28,6 +31,7 @@ class PictureThread {
     }
     changed_.notify_one();
     done.get();
+    return true;
   }
 
  private:
@@ -42,6 +46,7 @@ class PictureThread {
     }
   }
 
+  const pid_t process_ = getpid();
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::packaged_task<void()>> tasks_;
@@ -49,20 +54,20 @@ class PictureThread {
 
 }  // namespace
 
-void on_picture_thread(const std::function<void()>& task) {
+bool on_picture_thread(const std::function<void()>& task) {
   static PictureThread& thread = *new PictureThread;
-  thread.run(task);
+  return thread.run(task);
 }
 
 void PictureMaker::close() {
-  if (studio_) on_picture_thread([this] { studio_.reset(); });
+  if (studio_ && !on_picture_thread([this] { studio_.reset(); })) (void)studio_.release();  // the driver is not here
 }
 
-Expected<Image> PictureMaker::picture(const run::PictureArguments& arguments, const Scene& scene,
-                                      const ParticleSet& first, const std::vector<ParticleSet>* moments,
-                                      const ParticleSet& now, double time) {
-  Expected<Image> image;
-  on_picture_thread([&] {
+Expected<render::Image> PictureMaker::picture(const run::PictureArguments& arguments, const Scene& scene,
+                                              const ParticleSet& first, const std::vector<ParticleSet>* moments,
+                                              const ParticleSet& now, double time) {
+  Expected<render::Image> image;
+  const bool drawn = on_picture_thread([&] {
     if (!studio_ || !(arguments == arguments_)) {
       studio_.reset();
       auto opened = run::Studio::open(arguments);
@@ -77,6 +82,8 @@ Expected<Image> PictureMaker::picture(const run::PictureArguments& arguments, co
     }
     image = studio_->picture(now, time);
   });
+  if (!drawn)
+    return fail(Error::Kind::bad_input, "process", "was forked from one that has drawn pictures, and can draw none");
   return image;
 }
 

@@ -19,18 +19,19 @@
 namespace hooke::python {
 namespace {
 
-RunReader open_reader(const std::filesystem::path& folder) {
-  Expected<RunReader> reader = [&] {
+io::RunReader open_reader(const std::filesystem::path& folder) {
+  Expected<io::RunReader> reader = [&] {
     const py::gil_scoped_release free;
-    return RunReader::open(folder);
+    return io::RunReader::open(folder);
   }();
   return unwrap(std::move(reader), ErrorClass::input);
 }
 
-ExportContent to_content(const std::string& name) {
+io::ExportContent to_content(const std::string& name) {
   std::string names;
-  for (const ExportContent content : {ExportContent::particles, ExportContent::contacts, ExportContent::surface,
-                                      ExportContent::volume, ExportContent::cloths, ExportContent::springs}) {
+  for (const io::ExportContent content :
+       {io::ExportContent::particles, io::ExportContent::contacts, io::ExportContent::surface,
+        io::ExportContent::volume, io::ExportContent::cloths, io::ExportContent::springs}) {
     if (name == to_string(content)) return content;
     names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", to_string(content));
   }
@@ -82,7 +83,9 @@ const Scene& PythonRun::scene() {
     const py::gil_scoped_release free;
     return run::load_kept_scene(home);
   }();
-  return scene_.emplace(unwrap(std::move(loaded), ErrorClass::scene).scene);
+  Scene scene = unwrap(std::move(loaded), ErrorClass::scene).scene;
+  unwrap(run::check_materials(reader_, scene));
+  return scene_.emplace(std::move(scene));
 }
 
 py::array PythonRun::render(std::optional<double> time, std::pair<int, int> size, const std::string& color_by,
@@ -90,7 +93,7 @@ py::array PythonRun::render(std::optional<double> time, std::pair<int, int> size
   const auto arguments = to_picture_arguments(size, color_by, range, samples, legend, alpha);
   pick(time, {}, {});  // refuses a time outside
   const Scene& drawn = scene();
-  auto image = [&]() -> Expected<Image> {
+  auto image = [&]() -> Expected<render::Image> {
     const py::gil_scoped_release free;
     const auto first = reader_.read(0);
     if (!first) return fail(first.error());
@@ -109,15 +112,15 @@ py::array PythonRun::render(std::optional<double> time, std::pair<int, int> size
 
 std::vector<std::filesystem::path> PythonRun::write(const std::vector<std::size_t>& indices,
                                                     const std::filesystem::path& file, const std::string& content,
-                                                    const SurfaceOptions& surface) {
-  ExportOptions options;
+                                                    const volumes::SurfaceOptions& surface) {
+  io::ExportOptions options;
   options.content = to_content(content);
   options.surface = surface;
   unwrap(run::check_output_file(file, "file"));
-  if (std::filesystem::exists(folder_ / kSceneFile)) options.scene = &scene();
+  if (std::filesystem::exists(folder_ / io::kSceneFile)) options.scene = &scene();
   auto files = [&] {
     const py::gil_scoped_release free;
-    return export_run(reader_, indices, file, options);
+    return io::export_run(reader_, indices, file, options);
   }();
   return unwrap(std::move(files));
 }
@@ -159,7 +162,7 @@ py::array counts_of(const PythonRun& run) {
 
 std::vector<std::string> material_names(const PythonRun& run) {
   std::vector<std::string> names;
-  for (const MaterialInfo& m : run.reader().info().materials) names.push_back(m.name);
+  for (const io::MaterialInfo& m : run.reader().info().materials) names.push_back(m.name);
   return names;
 }
 
@@ -193,12 +196,12 @@ void bind_run(py::module_& module) {
           "masses",
           [](const PythonRun& r) {
             std::vector<double> masses;
-            for (const MaterialInfo& m : r.reader().info().materials) masses.push_back(m.mass);
+            for (const io::MaterialInfo& m : r.reader().info().materials) masses.push_back(m.mass);
             return to_array(masses);
           },
           "Mass of a particle of each material, kg: float64.")
       .def_property_readonly(
-          "time_step", [](const PythonRun& r) { return r.reader().info().time_step; }, "s.")
+          "time_step", [](const PythonRun& r) { return r.reader().info().time_step; }, "The time step, s.")
       .def("render", &PythonRun::render, py::arg("time") = py::none(), py::kw_only(),
            py::arg("size") = std::pair{1280, 720}, py::arg("color_by") = "material", py::arg("range") = py::none(),
            py::arg("samples") = 2, py::arg("legend") = true, py::arg("alpha") = false,

@@ -21,7 +21,7 @@ class PythonRun {
  public:
   explicit PythonRun(const std::filesystem::path& folder);
 
-  const RunReader& reader() const { return reader_; }
+  const io::RunReader& reader() const { return reader_; }
   const std::filesystem::path& folder() const { return folder_; }
 
   /// The snapshot that is picked: by one of the three, or the last. InputError where there is none of this step or
@@ -33,13 +33,13 @@ class PythonRun {
   py::array render(std::optional<double> time, std::pair<int, int> size, const std::string& color_by,
                    const std::optional<std::array<double, 2>>& range, int samples, bool legend, bool alpha);
   std::vector<std::filesystem::path> write(const std::vector<std::size_t>& indices, const std::filesystem::path& file,
-                                           const std::string& content, const SurfaceOptions& surface);
+                                           const std::string& content, const volumes::SurfaceOptions& surface);
 
  private:
   const Scene& scene();  // kept in the folder, read when it is needed
 
   std::filesystem::path folder_;
-  RunReader reader_;
+  io::RunReader reader_;
   std::optional<Scene> scene_;
   PictureMaker pictures_;  // goes before the scene that it draws
 };

@@ -18,8 +18,8 @@ std::string json_text(const py::handle& value) {
   return py::module_::import("hooke._json").attr("dumps")(value).cast<std::string>();
 }
 
-LoadOptions load_options(const SceneOptions& options) {
-  LoadOptions load;
+scene::LoadOptions load_options(const SceneOptions& options) {
+  scene::LoadOptions load;
   for (const auto& [path, value] : options.set) {
     if (!py::isinstance<py::str>(path)) raise_input("set", "its keys must be paths like \"time.step\"");
     load.overrides.push_back(path.cast<std::string>() + "=" + json_text(value));
@@ -54,23 +54,23 @@ std::size_t material_index(const py::handle& value, const Scene& scene) {
 
 }  // namespace
 
-LoadedScene read_scene(const std::filesystem::path& file, const SceneOptions& options) {
-  const LoadOptions load = load_options(options);
-  Expected<LoadedScene> loaded;
+scene::LoadedScene read_scene(const std::filesystem::path& file, const SceneOptions& options) {
+  const scene::LoadOptions load = load_options(options);
+  Expected<scene::LoadedScene> loaded;
   {
     const py::gil_scoped_release free;
-    loaded = load_scene(file, load);
+    loaded = scene::load_scene(file, load);
   }
   return unwrap(std::move(loaded), ErrorClass::scene);
 }
 
-LoadedScene read_scene(const py::dict& scene, const std::filesystem::path& folder, const SceneOptions& options) {
+scene::LoadedScene read_scene(const py::dict& scene, const std::filesystem::path& folder, const SceneOptions& options) {
   const std::string text = json_text(scene);
-  const LoadOptions load = load_options(options);
-  Expected<LoadedScene> loaded;
+  const scene::LoadOptions load = load_options(options);
+  Expected<scene::LoadedScene> loaded;
   {
     const py::gil_scoped_release free;
-    loaded = parse_scene(text, "scene", folder, load);
+    loaded = scene::parse_scene(text, "scene", folder, load);
   }
   return unwrap(std::move(loaded), ErrorClass::scene);
 }
@@ -94,7 +94,7 @@ std::vector<std::size_t> to_materials(const py::object& material, std::size_t co
   return indices;
 }
 
-void add_particles(LoadedScene& scene, const ParticleArrays& arrays) {
+void add_particles(scene::LoadedScene& scene, const ParticleArrays& arrays) {
   const std::vector<Vec3d> x = to_vectors(arrays.positions, "x");
   const std::size_t count = x.size();
   const std::vector<Vec3d> v = arrays.velocities.is_none() ? std::vector<Vec3d>(count, Vec3d{0, 0, 0})

@@ -27,12 +27,12 @@ struct ParticleArrays {
 };
 
 /// Reads a scene from a file; SceneError with every finding.
-LoadedScene read_scene(const std::filesystem::path& file, const SceneOptions& options);
+scene::LoadedScene read_scene(const std::filesystem::path& file, const SceneOptions& options);
 /// The same from a dict like a scene's JSON. Paths in it are relative to `folder`.
-LoadedScene read_scene(const py::dict& scene, const std::filesystem::path& folder, const SceneOptions& options);
+scene::LoadedScene read_scene(const py::dict& scene, const std::filesystem::path& folder, const SceneOptions& options);
 
 /// Adds particles to those of a scene that has been read.
-void add_particles(LoadedScene& scene, const ParticleArrays& arrays);
+void add_particles(scene::LoadedScene& scene, const ParticleArrays& arrays);
 
 /// The index of a material for each of `count` particles.
 std::vector<std::size_t> to_materials(const py::object& material, std::size_t count, const Scene& scene);

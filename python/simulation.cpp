@@ -28,7 +28,7 @@ void refuse_fork() {
 
 }  // namespace
 
-PythonSimulation::PythonSimulation(LoadedScene loaded, const DeviceOptions& device,
+PythonSimulation::PythonSimulation(scene::LoadedScene loaded, const DeviceOptions& device,
                                    const std::optional<std::filesystem::path>& resume) {
   refuse_fork();
   if (device.device != "cpu" && device.device != "reference") {
@@ -155,7 +155,7 @@ std::string PythonSimulation::state_hash() {
 
 void PythonSimulation::write_checkpoint(const std::filesystem::path& file) {
   Simulation& simulation = use();
-  unwrap(without_gil([&] { return hooke::write_checkpoint(file, simulation.state(), describe_run(simulation)); }));
+  unwrap(without_gil([&] { return io::write_checkpoint(file, simulation.state(), io::describe_run(simulation)); }));
 }
 
 SimulationState PythonSimulation::state() {

@@ -51,7 +51,8 @@ struct RunOptions {
 /// hooke.Simulation. Python threads share it: while one is at work without the GIL, calls of others raise BusyError.
 class PythonSimulation {
  public:
-  PythonSimulation(LoadedScene loaded, const DeviceOptions& device, const std::optional<std::filesystem::path>& resume);
+  PythonSimulation(scene::LoadedScene loaded, const DeviceOptions& device,
+                   const std::optional<std::filesystem::path>& resume);
 
   void step(std::int64_t count);
   SnapshotView snapshot();
@@ -65,7 +66,8 @@ class PythonSimulation {
   void set_velocities(const py::object& ids, const py::object& v);
   void set_external_forces(const py::object& ids, const py::object& forces);
   void set_force_function(const py::object& function);  ///< None ends it
-  py::object force_function() const { return force_function_; }
+  const py::object& force_function() const { return force_function_; }
+  void drop_force_function() { force_function_ = py::none(); }  ///< without a look at the engine
   void set_material(const std::string& name, const py::kwargs& values);
   void move_collider(const std::string& name, const py::object& position, const py::object& rotation,
                      const py::object& velocity, const py::object& angular_velocity);

@@ -37,7 +37,7 @@ py::object PythonSimulation::png() {
     const auto image =
         pictures_.picture(arguments, simulation.scene(), now->particles, nullptr, now->particles, now->time);
     if (!image) return fail(image.error());
-    return encode_png(*image);
+    return render::encode_png(*image);
   });
   if (!bytes) return py::none();
   return py::bytes(*bytes);

@@ -206,11 +206,7 @@ Expected<ExitStatus> render(const RenderArguments& arguments) {
       std::filesystem::is_directory(arguments.run) ? arguments.run : arguments.run.parent_path();
   const auto loaded = run::load_kept_scene(folder, arguments.overrides);
   if (!loaded) return fail(loaded.error());
-  const auto is_same = [](const Material& a, const io::MaterialInfo& b) { return a.name == b.name; };
-  if (!std::equal(loaded->scene.materials.begin(), loaded->scene.materials.end(), run->info().materials.begin(),
-                  run->info().materials.end(), is_same)) {
-    return fail(Error::Kind::bad_input, arguments.run.string(), "has particles of other materials than its scene");
-  }
+  if (auto right = run::check_materials(*run, loaded->scene); !right) return fail(std::move(right).error());
   auto studio = run::Studio::open(arguments.picture, is_exr(arguments.output));
   if (!studio) return fail(std::move(studio).error());
   const auto first = run->read(0);

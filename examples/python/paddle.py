@@ -11,7 +11,8 @@ import numpy as np
 
 import hooke
 
-STEP, GRAVITY, RADIUS, TOP = 5e-4, 9.8, 0.08, 1.5
+STEP, GRAVITY, TOP = 5e-4, 9.8, 1.5
+RADIUS, MASS, STIFFNESS, DAMPING = 0.08, 0.2, 4000, 3  # of the ball
 PADDLE = np.array([0.0, 0.5, 0.0])  # its middle in the scene, m
 HALF = np.array([0.25, 0.05, 0.25])  # half its size, m
 
@@ -23,32 +24,52 @@ def scene():
         "time": {"step": STEP, "end": 10},
         "gravity": [0, -GRAVITY, 0],
         "domain": {"min": [-2, 0, -2], "max": [2, 4, 2]},
-        "materials": {"ball": {"radius": RADIUS, "mass": 0.2, "stiffness": 4000, "damping": 3, "color": "#e4453a"}},
+        "materials": {"ball": {"radius": RADIUS, "mass": MASS, "stiffness": STIFFNESS, "damping": DAMPING,
+                               "color": "#e4453a"}},
         "colliders": [{"name": "paddle", "shape": {"box": {"min": (PADDLE - HALF).tolist(),
                                                            "max": (PADDLE + HALF).tolist()}}}],
     }
 
 
-def command(x, v, middle):
-    """The velocity that the paddle should have, m/s: stay under the ball, and rise where it comes down too slowly."""
-    energy = GRAVITY * (TOP - x[1]) - 0.5 * v[1] ** 2  # what a flight to the top lacks, J/kg
-    level = np.clip(12 * (x - middle) + v, -4, 4)
-    strike = v[1] < 0 and x[1] - middle[1] < 0.25
-    rise = np.clip(0.6 + 0.35 * energy, 0, 3) if strike else 6 * (PADDLE[1] - middle[1])
-    return np.array([level[0], rise, level[2]])
+class Controller:
+    """Says how the paddle should move. It follows the ball, meets it with the speed that sends it to TOP, and pushes it
+    back towards the middle, by what it knows of the contact law."""
+
+    def __init__(self):
+        zeta = DAMPING / (2 * np.sqrt(STIFFNESS * MASS))
+        self.restitution = np.exp(-np.pi * zeta / np.sqrt(1 - zeta**2))
+        self.grip = 1 - np.exp(-np.pi * DAMPING / np.sqrt(STIFFNESS * MASS))  # how far a ball takes on the level speed
+        self.stroke = None  # the velocity of the stroke that is going on
+
+    def velocity(self, x, v, middle):
+        """The paddle's velocity, m/s, for a ball at x (m) that moves at v."""
+        gap = x[1] - middle[1] - HALF[1] - RADIUS
+        if self.stroke is not None and gap > 0 and v[1] > 0:
+            self.stroke = None  # the ball has left
+        meets = np.sqrt(max(v[1] ** 2 + 2 * GRAVITY * gap, 0))  # the speed at which it will arrive
+        if self.stroke is None and v[1] < 0 and gap < 0.03 * meets:
+            leaves = np.sqrt(2 * GRAVITY * (TOP - RADIUS - HALF[1] - middle[1]))
+            rise = (leaves - self.restitution * meets) / (1 + self.restitution)
+            wanted = -0.5 * x  # level: back to the middle within two seconds
+            level = v + (wanted - v) / self.grip
+            self.stroke = np.clip([level[0], rise, level[2]], -2, 2)
+        if self.stroke is not None:
+            return self.stroke
+        follow = np.clip(12 * (x - middle) + v, -4, 4)
+        return np.array([follow[0], 6 * (PADDLE[1] - middle[1]), follow[2]])
 
 
 def play(seconds):
     """Places of the ball over time, m: (n, 3), one a millisecond."""
     sim = hooke.Simulation.from_arrays(scene(), [[0.05, TOP, 0]], [0.1, 0, -0.05])
-    middle, track = PADDLE.copy(), []
+    controller, middle, track = Controller(), PADDLE.copy(), []
     while sim.time < seconds:
         now = sim.snapshot()
-        velocity = command(now.x[0], now.v[0], middle)
-        middle = middle + 2 * STEP * velocity
+        velocity = controller.velocity(now.x[0], now.v[0], middle)
         # The paddle is led: it stands where it is put, and what touches it feels the velocity.
-        for k in (1, 2):
-            sim.move_collider("paddle", position=middle - PADDLE - (2 - k) * STEP * velocity, velocity=velocity)
+        for _ in range(2):
+            middle = middle + STEP * velocity
+            sim.move_collider("paddle", position=middle - PADDLE, velocity=velocity)
             sim.step()
         track.append(now.x[0])
     return np.array(track)

@@ -3,10 +3,10 @@
 
 #include "hooke/run/kept_scene.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "hooke/io/checkpoint.h"
-#include "hooke/io/run_folder.h"
 
 namespace hooke::run {
 
@@ -27,6 +27,13 @@ Expected<scene::LoadedScene> load_kept_scene(const std::filesystem::path& folder
   if (auto whole = scene::load_scene(folder / io::kSceneFile, options))
     loaded->scene.structure = std::move(whole->scene.structure);
   return loaded;
+}
+
+Expected<void> check_materials(const io::RunReader& run, const Scene& scene) {
+  const std::vector<io::MaterialInfo>& of_run = run.info().materials;
+  const auto is_same = [](const Material& a, const io::MaterialInfo& b) { return a.name == b.name; };
+  if (std::equal(scene.materials.begin(), scene.materials.end(), of_run.begin(), of_run.end(), is_same)) return {};
+  return fail(Error::Kind::bad_input, run.file().string(), "has particles of other materials than its scene");
 }
 
 }  // namespace hooke::run

@@ -4,7 +4,8 @@
 import contextlib
 import importlib.util
 import io
-import unittest
+import os
+import re
 
 import hooke
 import numpy as np
@@ -18,6 +19,20 @@ def load(name):
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+class Guide(scenes.FolderTest):
+    def test_what_it_shows_runs(self):
+        (self.folder / "scenes").symlink_to(scenes.ROOT / "scenes")
+        here = os.getcwd()
+        os.chdir(self.folder)
+        self.addCleanup(os.chdir, here)
+        for page in ("README.md", "docs/python.md"):
+            blocks = re.findall(r"```python\n(.*?)```", (scenes.ROOT / page).read_text(), re.S)
+            self.assertTrue(blocks, page)
+            for block in blocks:
+                with self.subTest(page=page, block=block), contextlib.redirect_stdout(io.StringIO()):
+                    exec(compile(block, page, "exec"), {})
 
 
 class Examples(scenes.FolderTest):

@@ -11,6 +11,7 @@ import sys
 import threading
 import time
 import unittest
+import weakref
 
 import hooke
 import numpy as np
@@ -164,9 +165,12 @@ class Threads(unittest.TestCase):
         sim.measure()
 
     def test_a_forked_process_is_told(self):
-        scenes.simulation().step()
+        sim = scenes.simulation()
+        sim.step()
+        sim.render(size=(32, 18))
         child = os.fork()
         if child == 0:
+            del sim
             try:
                 scenes.simulation()
             except hooke.BusyError as error:
@@ -236,6 +240,19 @@ class Objects(unittest.TestCase):
                     lambda: sim.checkpoint("c.h5"), lambda: sim.run("out"), lambda: sim.add([[1, 1, 1]])):
             with self.assertRaises(hooke.ClosedError):
                 use()
+
+    def test_cycles_are_collected(self):
+        sim = scenes.simulation()
+        sim.external_forces = lambda now: [0, sim.time, 0]
+        sim.step(3)
+        gone = weakref.ref(sim)
+        del sim
+        gc.collect()
+        self.assertIsNone(gone())
+        raw = hooke.Simulation.__new__(hooke.Simulation)
+        gc.collect()
+        with self.assertRaises(TypeError):
+            raw.step()
 
     def test_many_simulations(self):
         many = [scenes.simulation() for _ in range(100)]
