@@ -5,7 +5,6 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include "hooke/io/snapshot.h"
 #include "simulation.h"
 
 namespace hooke::python {
@@ -155,7 +154,7 @@ void bind_reading(Class& c) {
   c.def_property_readonly(
       "threads", [](PythonSimulation& s) { return s.get().backend_info().threads; }, "Threads of the engine.");
   c.def_property_readonly(
-      "precision", [](PythonSimulation& s) { return std::string(io::to_string(s.get().backend_info().precision)); },
+      "precision", [](PythonSimulation& s) { return std::string(to_string(s.get().backend_info().precision)); },
       "\"single\" or \"double\".");
 }
 
