@@ -85,10 +85,9 @@ void add_render(CLI::App& app, CommandLine& line) {
   RenderArguments& render = line.render;
   command.add_option("RUN", render.run, "run folder")->required();
   command
-      .add_option(
-          "-o,--output", render.output,
-          fmt::format("picture (.png; .exr: in linear light), numbered pictures (frame_%04d.png) or film ({})",
-                      render::film_extensions()))
+      .add_option("-o,--output", render.output,
+                  fmt::format("picture (.png; .exr: in linear light), numbered pictures (frame_%04d.png) or film ({})",
+                              render::film_extensions()))
       ->option_text("FILE")
       ->required();
   command.add_option("--time", render.time, "of a picture, s, between two snapshots too (default: the last snapshot)")

@@ -184,7 +184,8 @@ Expected<ExitStatus> render(const RenderArguments& arguments) {
                 "has no extension of a picture or a film; known are .png, .exr, " + render::film_extensions());
   }
   if (is_exr(arguments.output) && !render::has_openexr()) {
-    return fail(Error::Kind::bad_input, arguments.output.string(), "needs OpenEXR, which is not in this build (HOOKE_WITH_OPENEXR)");
+    return fail(Error::Kind::bad_input, arguments.output.string(),
+                "needs OpenEXR, which is not in this build (HOOKE_WITH_OPENEXR)");
   }
   if (auto good = check_options(arguments, still); !good) return fail(std::move(good).error());
   if (auto writable = run::check_output_file(arguments.output, "--output"); !writable) return fail(writable.error());

@@ -20,6 +20,8 @@ namespace hooke {
 struct Finding {
   std::string where;    ///< JSON path ("materials.water.radius"), "file.csv:12", or a file's name; may be empty
   std::string message;  ///< what is wrong, the value, and what is allowed
+
+  friend bool operator==(const Finding&, const Finding&) = default;
 };
 
 /// Why an operation failed. Errors are values: Hooke's libraries never print or exit, and no exception leaves a public
@@ -92,11 +94,11 @@ class [[nodiscard]] Expected {
   explicit operator bool() const noexcept { return has_value(); }
 
   /// The value, which must be there.
-  T& operator*() & noexcept { return *present(); }
-  const T& operator*() const& noexcept { return *present(); }
-  T&& operator*() && noexcept { return std::move(*present()); }
-  T* operator->() noexcept { return present(); }
-  const T* operator->() const noexcept { return present(); }
+  T& operator*() & { return *present(); }
+  const T& operator*() const& { return *present(); }
+  T&& operator*() && { return std::move(*present()); }
+  T* operator->() { return present(); }
+  const T* operator->() const { return present(); }
 
   /// The value; throws BadExpectedAccess where there is an error.
   T& value() & { return check(), *present(); }
@@ -112,21 +114,21 @@ class [[nodiscard]] Expected {
   }
 
   /// The error, which must be there.
-  Error& error() & noexcept { return *absent(); }
-  const Error& error() const& noexcept { return *absent(); }
-  Error&& error() && noexcept { return std::move(*absent()); }
+  Error& error() & { return *absent(); }
+  const Error& error() const& { return *absent(); }
+  Error&& error() && { return std::move(*absent()); }
 
  private:
   void check() const {
     if (!has_value()) throw BadExpectedAccess(error());
   }
-  T* present() noexcept { return const_cast<T*>(std::as_const(*this).present()); }
-  const T* present() const noexcept {
+  T* present() { return const_cast<T*>(std::as_const(*this).present()); }
+  const T* present() const {
     HOOKE_ASSERT(has_value());
     return std::get_if<0>(&state_);
   }
-  Error* absent() noexcept { return const_cast<Error*>(std::as_const(*this).absent()); }
-  const Error* absent() const noexcept {
+  Error* absent() { return const_cast<Error*>(std::as_const(*this).absent()); }
+  const Error* absent() const {
     HOOKE_ASSERT(!has_value());
     return std::get_if<1>(&state_);
   }
@@ -146,19 +148,19 @@ class [[nodiscard]] Expected<void> {
 
   bool has_value() const noexcept { return !error_.has_value(); }
   explicit operator bool() const noexcept { return has_value(); }
-  void operator*() const noexcept { HOOKE_ASSERT(has_value()); }
+  void operator*() const { HOOKE_ASSERT(has_value()); }
   /// Throws BadExpectedAccess where there is an error.
   void value() const {
     if (error_) throw BadExpectedAccess(*error_);
   }
 
   /// The error, which must be there.
-  Error& error() & noexcept { return const_cast<Error&>(std::as_const(*this).error()); }
-  const Error& error() const& noexcept {
+  Error& error() & { return const_cast<Error&>(std::as_const(*this).error()); }
+  const Error& error() const& {
     HOOKE_ASSERT(!has_value());
     return *error_;
   }
-  Error&& error() && noexcept { return std::move(error()); }
+  Error&& error() && { return std::move(error()); }
 
  private:
   std::optional<Error> error_;

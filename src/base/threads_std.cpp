@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -72,7 +73,11 @@ class Pool {
  public:
   explicit Pool(int count) {
     workers_.reserve(static_cast<std::size_t>(count - 1));
-    for (int i = 1; i < count; ++i) workers_.emplace_back([this] { wait_and_work(); });
+    try {
+      for (int i = 1; i < count; ++i) workers_.emplace_back([this] { wait_and_work(); });
+    } catch (const std::system_error&) {
+      // The system has no more threads to give: those that there are do the work.
+    }
   }
   ~Pool() {
     job_ = nullptr;

@@ -147,7 +147,7 @@ TEST_F(RenderCommand, PicturesMayHaveAlpha) {
 }
 
 TEST_F(RenderCommand, PicturesMayBeInLinearLight) {
-  if (!has_openexr()) {
+  if (!render::has_openexr()) {
     expect_refused(render("p.exr"), "needs OpenEXR, which is not in this build");
     return;
   }

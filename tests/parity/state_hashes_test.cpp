@@ -59,7 +59,7 @@ TEST_P(States, HaveThePromisedBits) {
     for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
       Scene scene = GetParam().scene;
       scene.integrator = integrator;
-      Simulation cpu = simulate(scene, GetParam().particles, {"cpu", precision, 2});
+      Simulation cpu = simulate(scene, GetParam().particles, {"cpu", precision, 2, ""});
       (void)cpu.step(GetParam().steps);  // may fail
       char hash[17];
       std::snprintf(hash, sizeof hash, "%016" PRIx64, cpu.state_hash());

@@ -37,8 +37,8 @@ class Bytes final : public Imf::IStream {
 };
 
 // From dark to far brighter than white.
-LinearImage bright_noise(int width, int height) {
-  LinearImage image(width, height);
+render::LinearImage bright_noise(int width, int height) {
+  render::LinearImage image(width, height);
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     const auto u = uniform4(1, i, 0);
     image.pixels[i] = static_cast<float>(u[0] * std::pow(2.0, 20 * u[1] - 10));
@@ -48,9 +48,9 @@ LinearImage bright_noise(int width, int height) {
 
 TEST(Exr, EveryPixelComesBackWithElevenBits) {
   for (const auto& [width, height] : {std::pair{1, 1}, {17, 5}, {1, 300}, {640, 2}}) {
-    LinearImage image = bright_noise(width, height);
+    render::LinearImage image = bright_noise(width, height);
     image.pixels[0] = 1e6f;  // more than a half float holds
-    const auto bytes = encode_exr(image);
+    const auto bytes = render::encode_exr(image);
     ASSERT_TRUE(bytes) << bytes.error().text();
     Bytes stream(*bytes);
     Imf::RgbaInputFile file(stream);

@@ -314,12 +314,12 @@ double as_stored(double light) {
 }
 
 TEST_F(GlRenderer, LinearLightIsTheSamePictureNotCutOffAtWhite) {
-  RenderSettings settings{kWidth, kHeight, 2};
+  render::RenderSettings settings{kWidth, kHeight, 2};
   settings.linear = true;
   const auto linear = make(settings);
   for (const PictureScene& p : picture_scenes()) {
-    const Frame frame = frame_of(p);
-    const Image image = draw(frame);
+    const render::Frame frame = frame_of(p);
+    const render::Image image = draw(frame);
     const auto light = linear->render_linear(frame);
     ASSERT_TRUE(light) << light.error().text();
     int different = 0;
@@ -329,7 +329,7 @@ TEST_F(GlRenderer, LinearLightIsTheSamePictureNotCutOffAtWhite) {
     }
     EXPECT_LT(different, 0.01 * static_cast<double>(image.pixels.size())) << p.name;
   }
-  Frame bright = red_balls({{4, 2, 3}}, "#ffffff");
+  render::Frame bright = red_balls({{4, 2, 3}}, "#ffffff");
   bright.spheres[0].roughness = 0;
   bright.sunlight = 3;
   const auto light = linear->render_linear(bright);
@@ -338,9 +338,9 @@ TEST_F(GlRenderer, LinearLightIsTheSamePictureNotCutOffAtWhite) {
 }
 
 TEST_F(GlRenderer, LinearLightIsMultipliedByAlpha) {
-  RenderSettings settings{kWidth, kHeight, 4};
+  render::RenderSettings settings{kWidth, kHeight, 4};
   settings.linear = true;
-  Frame frame = red_balls({{4, 2, 3}});
+  render::Frame frame = red_balls({{4, 2, 3}});
   frame.transparent = true;
   frame.ground.reset();
   frame.tank.walls = {};

@@ -38,19 +38,19 @@ TEST(ForeignKeys, SayWhatToWriteInstead) {
                                    {"DES_EN_INPUT", "\"damping\""},
                                    {"D_p0", "\"radius\""},
                                    {"RO_s0", "\"mass\""}}) {
-    EXPECT_THAT(foreign_key_hint(key), HasSubstr(words)) << key;
+    EXPECT_THAT(scene::foreign_key_hint(key), HasSubstr(words)) << key;
   }
 }
 
 TEST(ForeignKeys, AreWholeWords) {
   for (const std::string key : {"", " ", "_", "raduis", "densit", "restitution2", "density rho", "stiffnes"}) {
-    EXPECT_EQ(foreign_key_hint(key), "") << key;
+    EXPECT_EQ(scene::foreign_key_hint(key), "") << key;
   }
-  EXPECT_EQ(foreign_key_hint(std::string(100000, 'k')), "");
+  EXPECT_EQ(scene::foreign_key_hint(std::string(100000, 'k')), "");
 }
 
 // Keys of the schema, at any level.
-void collect_keys(const Json& schema, std::vector<std::string>& keys) {
+void collect_keys(const scene::Json& schema, std::vector<std::string>& keys) {
   if (schema.is_object() && schema.contains("properties")) {
     for (const auto& property : schema.at("properties").items()) keys.push_back(property.key());
   }
@@ -61,15 +61,15 @@ void collect_keys(const Json& schema, std::vector<std::string>& keys) {
 
 TEST(ForeignKeys, AreNoMaterialKeys) {
   std::vector<std::string> keys;
-  collect_keys(schema_root().at("properties").at("materials"), keys);
+  collect_keys(scene::schema_root().at("properties").at("materials"), keys);
   ASSERT_GT(keys.size(), 15U);
-  for (const std::string& key : keys) EXPECT_EQ(foreign_key_hint(key), "") << key;
+  for (const std::string& key : keys) EXPECT_EQ(scene::foreign_key_hint(key), "") << key;
 }
 
 TEST(ForeignKeys, AreExplainedInTheError) {
   std::string scene = kMinimalScene;
   scene.replace(scene.find("\"mass\""), 0, R"("restitution": 0.5, "dampin": 1, )");
-  const auto loaded = parse_scene(scene, "s.json", ".");
+  const auto loaded = scene::parse_scene(scene, "s.json", ".");
   ASSERT_FALSE(loaded);
   const std::string text = loaded.error().text();
   EXPECT_THAT(text, HasSubstr("materials.water.restitution"));

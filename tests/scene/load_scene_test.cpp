@@ -124,7 +124,7 @@ TEST(LoadScene, RangesOfEmittersMayBeNumbers) {
     "emitters": [ { "material": "water", "shape": { "sphere": { "center": [5, 5, 5], "radius": 1 } }, "rate": 10,
                     "speed": 3, "life": 2.5, "decay": 0.5 } ]
   })";
-  const auto loaded = parse_scene(scene, "s.json", ".");
+  const auto loaded = scene::parse_scene(scene, "s.json", ".");
   ASSERT_TRUE(loaded) << loaded.error().text();
   EXPECT_TRUE(loaded->particles.empty());
   const Emitter& emitter = loaded->scene.emitters.front();
@@ -135,7 +135,7 @@ TEST(LoadScene, RangesOfEmittersMayBeNumbers) {
   EXPECT_EQ(emitter.decay.least, 0.5);
   std::string wrong = scene;
   wrong.replace(wrong.find("\"speed\": 3"), 10, "\"speed\": \"3\"");
-  const auto refused = parse_scene(wrong, "s.json", ".");
+  const auto refused = scene::parse_scene(wrong, "s.json", ".");
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().text(), testing::HasSubstr("must be a number >= 0, or a list of 2 numbers (m/s)"));
 }
@@ -143,7 +143,7 @@ TEST(LoadScene, RangesOfEmittersMayBeNumbers) {
 TEST(LoadScene, NeedsASourceOfParticles) {
   std::string scene = kMinimalScene;
   scene.erase(scene.rfind(",\n  \"particles\""));
-  const auto loaded = parse_scene(scene + "}", "s.json", ".");
+  const auto loaded = scene::parse_scene(scene + "}", "s.json", ".");
   ASSERT_FALSE(loaded);
   EXPECT_THAT(loaded.error().text(),
               testing::HasSubstr("needs \"particles\" or \"emitters\" or \"cloths\" or \"bodies\"; none is given"));
