@@ -22,8 +22,7 @@ test_packages() {
     echo "needs root: it makes a system in a folder" >&2
     exit 2
   fi
-  local root
-  root=$(mktemp -d)
+  root=$(mktemp -d)  # for the trap too, which runs when this function's own variables are gone
   # Nothing of the folder is kept, and nothing may stay mounted in it.
   trap 'umount "$root/proc" 2>/dev/null || true; rm -rf "$root"' EXIT
   echo "== a bare system"
@@ -34,7 +33,8 @@ test_packages() {
   mount -t proc proc "$root/proc"
   mkdir "$root/packages" "$root/work"
   cp build/packages/*.deb "$root/packages/"
-  cp -r docs/embedding.md examples/python "$root/work/"
+  cp -r examples/python "$root/work/"
+  block_of() { awk -v start='^```'"$1" '$0 ~ start { on = 1; next } on && /^```$/ { exit } on' docs/embedding.md; }
   in_it() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"; }
   install() { in_it sh -c "apt-get install -y --no-install-recommends $* >/tmp/log 2>&1 || { tail -20 /tmp/log; exit 1; }"; }
 
@@ -64,10 +64,11 @@ CPP
     printf "cmake_minimum_required(VERSION 3.25)\nproject(core CXX)\nfind_package(hooke REQUIRED COMPONENTS core)\nadd_executable(core main.cpp)\ntarget_link_libraries(core hooke::hooke)\n" >CMakeLists.txt
     cmake -S . -B build >/dev/null && cmake --build build >/dev/null && build/core'
   install libfmt-dev libhdf5-dev zlib1g-dev libcairo2-dev libepoxy-dev libopenexr-dev libpng-dev pkg-config libopenvdb-dev libboost-iostreams-dev
+  mkdir "$root/work/embedding"
+  block_of cpp >"$root/work/embedding/main.cpp"
+  block_of cmake >"$root/work/embedding/CMakeLists.txt"
   in_it sh -ec '
-    mkdir -p /work/embedding && cd /work/embedding
-    sed -n "/^```cpp/,/^```$/p" ../embedding.md | sed "/^```/d" >main.cpp
-    sed -n "/^```cmake/,/^```$/p" ../embedding.md | sed "/^```/d" >CMakeLists.txt
+    cd /work/embedding
     cmake -S . -B build >/dev/null && cmake --build build >/dev/null && build/example'
 
   echo "== python3-hooke"

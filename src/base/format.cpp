@@ -45,7 +45,7 @@ void append(std::string& out, std::string_view rule, const FormatValue& value) {
       return x;
     } else if constexpr (std::is_floating_point_v<T>) {
       if (rule.empty()) return shortest(digits, x);
-      HOOKE_ASSERT(rule.size() >= 4 && rule.starts_with(":.") && rule.ends_with("g"), rule);
+      HOOKE_ASSERT(is_precision(rule), rule);
       int precision = 6;
       std::from_chars(rule.data() + 2, rule.data() + rule.size() - 1, precision);
       return written(digits, x, std::chars_format::general, precision);

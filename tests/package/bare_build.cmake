@@ -3,12 +3,11 @@
 
 # A build of the program without oneTBB, HDF5, OpenVDB, OpenEXR and OpenGL: it computes the same, and says by name what it lacks.
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
+file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G ${GENERATOR} -D CMAKE_CXX_COMPILER=${COMPILER}
-    -D HOOKE_WITH_TBB=OFF -D HOOKE_WITH_HDF5=OFF -D HOOKE_WITH_OPENVDB=OFF -D HOOKE_WITH_OPENEXR=OFF -D HOOKE_WITH_GL=OFF
-    -D HOOKE_BUILD_TESTS=OFF -D HOOKE_BUILD_BENCH=OFF)
+    -D HOOKE_WITH_TBB=OFF -D HOOKE_WITH_HDF5=OFF -D HOOKE_WITH_OPENVDB=OFF -D HOOKE_WITH_OPENEXR=OFF -D HOOKE_WITH_GL=OFF)
 run(${CMAKE_COMMAND} --build ${WORK}/build --target hooke)
 set(bare ${WORK}/build/hooke)
-file(REMOVE_RECURSE ${WORK}/run)
 file(MAKE_DIRECTORY ${WORK}/kept)
 file(WRITE ${WORK}/kept/particles.vtkhdf "what was there")
 
