@@ -310,7 +310,7 @@ TEST_F(Sessions, ShowParticlesOfFarScenesWhereTheyAre) {
     }
   }();
   ASSERT_GT(frame->particles.size(), 20u);
-  for (const LiveParticle& p : frame->particles) {
+  for (const render::LiveParticle& p : frame->particles) {
     const double x = session->origin().x + static_cast<double>(p.x) - 10000001.25;
     EXPECT_NEAR(x, std::round(x), 1e-5);
   }

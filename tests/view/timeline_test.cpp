@@ -82,7 +82,7 @@ TEST_F(Timelines, CutSpringsForGood) {
 TEST_F(Timelines, BookTheEnergyOfSpringsThatAreCut) {
   std::uint64_t first = 0;
   for (const char* integrator : {"symplectic-euler", "velocity-verlet"}) {
-    act(ChangeScene{Json::array({{{"op", "add"}, {"path", "/time/integrator"}, {"value", integrator}}})});
+    act(ChangeScene{scene::Json::array({{{"op", "add"}, {"path", "/time/integrator"}, {"value", integrator}}})});
     advance(40);
     const auto energy = [&] {
       const Measurements now = *simulation->measure();
