@@ -19,7 +19,7 @@ public_headers=$(for list in src/CMakeLists.txt src/*/CMakeLists.txt src/*/*/CMa
   awk -v folder="$(dirname "$list")" '/LINKS/ { on = 0 } /PUBLIC_HEADERS/ { on = 1 }
     on { for (i = 1; i <= NF; ++i) if ($i ~ /[.]h$/) print folder "/" $i }' "$list"
 done)
-{ cat tools/Doxyfile; echo "INPUT = " $public_headers; } | doxygen -
+{ cat tools/Doxyfile; echo "INPUT = tools/api_main_page.md " $public_headers; } | doxygen -
 mv build-docs/api/html "$pages/api"
 mkdocs build --quiet
 echo "Made site/index.html"
