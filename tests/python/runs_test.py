@@ -22,8 +22,10 @@ class Runs(scenes.FolderTest):
         np.testing.assert_array_equal(run.particle_counts, [27] * 5)
         for ours, other in zip(run, theirs):
             np.testing.assert_array_equal(ours.x, other.x)
-        self.assertEqual((self.folder / "ours" / "series.csv").read_text(),
-                         (self.folder / "theirs" / "series.csv").read_text())
+        self.assertEqual(run.series.dtype.names, theirs.series.dtype.names)
+        for name in run.series.dtype.names:
+            if "rebuilds" not in name:  # depends on how many steps were taken at a time
+                np.testing.assert_array_equal(run.series[name], theirs.series[name], name)
         self.assertEqual(run.scene, theirs.scene)
 
     def test_reading(self):
