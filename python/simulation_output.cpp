@@ -44,7 +44,7 @@ py::object PythonSimulation::png() {
 }
 
 void PythonSimulation::run(const RunOptions& options) {
-  Simulation& simulation = use();
+  use();  // refuses where it is closed or at work
   if (stepping_) raise(ErrorClass::busy, {{"simulation", "is in a step already"}});
   if (!force_function_.is_none()) {
     raise_input("external_forces", "is a function, which run() does not call: step() and write what you need");

@@ -56,7 +56,7 @@ class Examples(scenes.FolderTest):
     def test_angle_of_repose(self):
         angles = self.run_example("angle_of_repose", "--frictions", 0.1, 0.6, "--grains", 6, 10, *self.plot())
         self.assertGreater(angles[1], angles[0] + 3)
-        self.assertTrue(all(0 <= angle < 45 for angle in angles), angles)
+        self.assertTrue(all(-5 < angle < 50 for angle in angles), angles)
         self.check_plot()
 
     def test_paddle(self):
