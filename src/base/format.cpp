@@ -3,6 +3,7 @@
 
 #include "hooke/base/format.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstddef>
@@ -23,35 +24,39 @@ std::string_view written(Digits& digits, Rules... rules) {
   return {digits.data(), static_cast<std::size_t>(end.ptr - digits.data())};
 }
 
-// With the fewest digits; with an exponent only where the number is below 1e-4, or 1e16 or above.
+// With the fewest digits, and zeros where they are too few for a whole number; with an exponent only where the number
+// is below 1e-4, or 1e16 or above.
 template <class Real>
-std::string_view shortest(Digits& digits, Real value) {
-  const std::string_view scientific = written(digits, value, std::chars_format::scientific);
+std::string shortest(Real value) {
+  Digits digits;
+  std::string scientific(written(digits, value, std::chars_format::scientific));
   const std::size_t e = scientific.find('e');
-  if (e == std::string_view::npos) return scientific;  // inf or nan
+  if (e == std::string::npos) return scientific;  // inf or nan
   int exponent = 0;
   const char* const sign = scientific.data() + e + 1;
   std::from_chars(*sign == '+' ? sign + 1 : sign, scientific.data() + scientific.size(), exponent);
   if (exponent < -4 || exponent >= 16) return scientific;
-  return written(digits, value, std::chars_format::fixed);
+  std::string whole = scientific.substr(0, e);
+  std::erase(whole, '.');
+  const std::size_t most = static_cast<std::size_t>(std::max(exponent, 0)) + (value < 0 ? 2 : 1);
+  if (exponent < 0 || whole.size() > most) return std::string(written(digits, value, std::chars_format::fixed));
+  return whole.append(most - whole.size(), '0');
 }
 
 // `rule` is what stands between the braces: nothing, or ":.Ng".
 void append(std::string& out, std::string_view rule, const FormatValue& value) {
   Digits digits;
-  const auto show = [&]<class T>(const T& x) -> std::string_view {
+  const auto show = [&]<class T>(const T& x) -> std::string {
     if constexpr (std::is_same_v<T, std::string_view>) {
-      HOOKE_ASSERT(rule.empty(), rule);
-      return x;
+      return std::string(x);
     } else if constexpr (std::is_floating_point_v<T>) {
-      if (rule.empty()) return shortest(digits, x);
+      if (rule.empty()) return shortest(x);
       HOOKE_ASSERT(is_precision(rule), rule);
       int precision = 6;
       std::from_chars(rule.data() + 2, rule.data() + rule.size() - 1, precision);
-      return written(digits, x, std::chars_format::general, precision);
+      return std::string(written(digits, x, std::chars_format::general, precision));
     } else {
-      HOOKE_ASSERT(rule.empty(), rule);
-      return written(digits, x);
+      return std::string(written(digits, x));
     }
   };
   out += std::visit(show, value);
