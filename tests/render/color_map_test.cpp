@@ -10,13 +10,16 @@
 #include <ostream>
 #include <vector>
 
-namespace hooke {
+namespace hooke::render {
 
 // How GoogleTest shows it.
-static void PrintTo(const render::Color& c, std::ostream* out) {
+static void PrintTo(const Color& c, std::ostream* out) {
   *out << '(' << +c.red << ", " << +c.green << ", " << +c.blue << ')';
 }
 
+}  // namespace hooke::render
+
+namespace hooke {
 namespace {
 
 double distance(render::Color p, render::Color q) {
