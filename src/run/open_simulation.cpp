@@ -39,7 +39,8 @@ Expected<OpenedSimulation> open_simulation(scene::LoadedScene loaded, const Devi
 
   auto simulation = [&]() -> Expected<Simulation> {
     if (resume.empty()) {
-      return Simulation::create(std::move(loaded.scene), std::move(loaded.particles), std::move(*backend));
+      return Simulation::create(std::move(loaded.scene), std::move(loaded.particles), std::move(*backend),
+                                {.allow_unstable_step = true});  // start_checks.h warns of it
     }
     auto checkpoint = io::read_checkpoint(resume);
     if (!checkpoint) return fail(std::move(checkpoint).error());

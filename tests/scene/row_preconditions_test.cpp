@@ -26,7 +26,7 @@ TEST(ScenePreconditions, RowsAreOfTheScenesMaterials) {
   scene::Row row = rows.blank();
   row.material = 4;
   EXPECT_ASSERTS(rows.add(row, 12), "row.material = 4, rules_.materials.size() = 1, place = 12");
-  EXPECT_ASSERTS((void)row[scene::Quantity::id], "field = 8");
+  EXPECT_ASSERTS((void)row[scene::Quantity::id], "quantity = 8");
   EXPECT_TRUE(rows.set_columns({{scene::Quantity::x, "x"},
                                 {scene::Quantity::y, "y"},
                                 {scene::Quantity::z, "z"},
