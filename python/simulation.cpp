@@ -42,7 +42,7 @@ PythonSimulation::PythonSimulation(scene::LoadedScene loaded, const DeviceOption
 
 Simulation& PythonSimulation::use() {
   if (!opened_) raise(ErrorClass::closed, {{"simulation", "is closed"}});
-  if (working_) raise(ErrorClass::busy, {{"simulation", "is at work in another thread"}});
+  if (is_busy()) raise(ErrorClass::busy, {{"simulation", "is at work in another thread"}});
   refuse_fork();
   return opened_->simulation;
 }
@@ -55,16 +55,18 @@ const run::OpenedSimulation& PythonSimulation::opened() {
 void PythonSimulation::close() {
   if (!opened_) return;
   use();
-  if (stepping_) raise(ErrorClass::busy, {{"simulation", "can't be closed while it steps"}});
+  if (is_stepping()) raise(ErrorClass::busy, {{"simulation", "can't be closed while it steps"}});
   pictures_.close();
   opened_.reset();
+  drop_force_function();
 }
 
 void PythonSimulation::step(std::int64_t count) {
   Simulation& simulation = use();
   if (count < 0) raise_input("count", fmt::format("{} steps; 0 or more are possible", count));
-  if (stepping_) raise(ErrorClass::busy, {{"simulation", "is in a step already: external_forces must not step it"}});
-  const Flag stepping(stepping_);
+  if (is_stepping())
+    raise(ErrorClass::busy, {{"simulation", "is in a step already: external_forces must not step it"}});
+  const ThreadMark stepping(stepper_);
   std::int64_t left = count;
   do {
     step_batch(simulation, left);
@@ -165,7 +167,7 @@ SimulationState PythonSimulation::state() {
 
 void PythonSimulation::restore(const SimulationState& state) {
   Simulation& simulation = use();
-  if (stepping_) raise(ErrorClass::busy, {{"simulation", "can't be restored while it steps"}});
+  if (is_stepping()) raise(ErrorClass::busy, {{"simulation", "can't be restored while it steps"}});
   unwrap(without_gil([&] { return simulation.restore(state); }));
 }
 

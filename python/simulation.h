@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "arrays.h"
@@ -29,6 +30,18 @@ class Flag {
   bool& flag_;
 };
 
+/// Names the calling thread while it exists.
+class ThreadMark {
+ public:
+  explicit ThreadMark(std::thread::id& thread) : thread_(thread) { thread_ = std::this_thread::get_id(); }
+  ~ThreadMark() { thread_ = {}; }
+  ThreadMark(const ThreadMark&) = delete;
+  ThreadMark& operator=(const ThreadMark&) = delete;
+
+ private:
+  std::thread::id& thread_;
+};
+
 /// The back end, as Python asks for it.
 struct DeviceOptions {
   int threads = 0;  ///< 0: as many as the machine has
@@ -48,7 +61,8 @@ struct RunOptions {
   py::object on_progress = py::none();
 };
 
-/// hooke.Simulation. Python threads share it: while one is at work without the GIL, calls of others raise BusyError.
+/// hooke.Simulation. Python threads share it: while one is at work without the GIL, or in step() or run(), calls of
+/// others raise BusyError.
 class PythonSimulation {
  public:
   PythonSimulation(scene::LoadedScene loaded, const DeviceOptions& device,
@@ -96,7 +110,11 @@ class PythonSimulation {
   py::list warnings();
 
  private:
+  // ClosedError, BusyError. The reference is good until Python code runs, which may close the simulation.
   Simulation& use();
+  bool is_stepping() const { return stepper_ != std::thread::id(); }
+  // Whether another thread is at work; the one that steps may call from the Python code that step() and run() call.
+  bool is_busy() const { return working_ || (is_stepping() && stepper_ != std::this_thread::get_id()); }
   template <class Body>
   auto without_gil(const Body& body) {
     const Flag working(working_);
@@ -117,7 +135,7 @@ class PythonSimulation {
   py::object force_function_ = py::none();
   bool forces_set_ = false;   // by the force function
   bool working_ = false;      // without the GIL
-  bool stepping_ = false;     // in step() or run(), which may call Python
+  std::thread::id stepper_;   // the thread in step() or run(), which may call Python; none outside of them
   std::int64_t batch_ = 1;    // steps between two looks at signals
   PictureMaker pictures_;     // goes before the scene that it draws
 };

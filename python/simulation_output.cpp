@@ -27,7 +27,7 @@ py::array PythonSimulation::render(std::pair<int, int> size, const std::string& 
 }
 
 py::object PythonSimulation::png() {
-  if (is_closed() || working_) return py::none();
+  if (is_closed() || is_busy()) return py::none();
   const Simulation& simulation = use();
   run::PictureArguments arguments;
   arguments.width = 640;
@@ -45,7 +45,7 @@ py::object PythonSimulation::png() {
 
 void PythonSimulation::run(const RunOptions& options) {
   use();  // refuses where it is closed or at work
-  if (stepping_) raise(ErrorClass::busy, {{"simulation", "is in a step already"}});
+  if (is_stepping()) raise(ErrorClass::busy, {{"simulation", "is in a step already"}});
   if (!force_function_.is_none()) {
     raise_input("external_forces", "is a function, which run() does not call: step() and write what you need");
   }
@@ -69,7 +69,7 @@ void PythonSimulation::run(const RunOptions& options) {
   unwrap(run::check_record(record, "overwrite=True replaces it"));
   if (options.film) unwrap(run::check_output_file(*options.film, "film"));
 
-  const Flag stepping(stepping_);
+  const ThreadMark stepping(stepper_);
   // Python is asked several times a second: for signals, and by the caller's function.
   bool raised = false;
   const auto watch = [&](std::int64_t step, std::uint64_t particles) {

@@ -8,6 +8,7 @@ import pickle
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
@@ -164,6 +165,43 @@ class Threads(unittest.TestCase):
         self.assertTrue(refused)
         sim.measure()
 
+    def test_python_code_of_a_step_lets_no_other_thread_in(self):
+        """Not even while on_progress or external_forces waits, and lets other threads of Python run."""
+        sim = hooke.Simulation.from_scene(scenes.BALL_PIT, threads=1, set={"time.end": 0.02})
+        outcomes, inside, tried = [], threading.Event(), threading.Event()
+
+        def intrude():
+            inside.wait()
+            for call in (sim.measure, sim.snapshot, lambda: sim.add([[1, 1, 1]]), sim.close, lambda: len(sim)):
+                try:
+                    call()
+                    outcomes.append("let in")
+                except hooke.BusyError:
+                    outcomes.append("refused")
+            outcomes.append("refused" if sim._repr_png_() is None else "let in")
+            tried.set()
+
+        def wait(*_):
+            inside.set()
+            tried.wait()
+            return [0, 0, 0] if sim.measure().particles else None  # the thread itself may look
+
+        def step(count=3):
+            sim.external_forces = wait
+            sim.step(count)
+            sim.external_forces = None
+
+        with tempfile.TemporaryDirectory() as folder:
+            for call in (step, lambda: sim.run(folder + "/out", on_progress=wait)):
+                for event in (inside, tried):
+                    event.clear()
+                outcomes.clear()
+                thread = threading.Thread(target=intrude)
+                thread.start()
+                call()
+                thread.join()
+                self.assertEqual(outcomes, ["refused"] * 6)
+
     def test_a_forked_process_is_told(self):
         sim = scenes.simulation()
         sim.step()
@@ -230,11 +268,15 @@ class Objects(unittest.TestCase):
     def test_close(self):
         with scenes.simulation() as sim:
             now = sim.snapshot()
+            sim.external_forces = lambda now: [0, 0, 0]
+            function = weakref.ref(sim.external_forces)
             self.assertTrue(sim)
         self.assertTrue(sim.closed)
         self.assertEqual(len(now), 27)
         self.assertIn("closed", repr(sim))
         sim.close()
+        self.assertIsNone(sim.external_forces)
+        self.assertIsNone(function())
         for use in (sim.step, sim.snapshot, sim.measure, sim.contacts, sim.render, sim.positions, sim.state,
                     lambda: sim.ledger, lambda: len(sim), lambda: sim.time, lambda: sim.scene,
                     lambda: sim.checkpoint("c.h5"), lambda: sim.run("out"), lambda: sim.add([[1, 1, 1]])):
