@@ -37,12 +37,6 @@ std::unique_ptr<PythonSimulation> from_arrays(const py::dict& scene, const py::o
   return std::make_unique<PythonSimulation>(std::move(loaded), DeviceOptions{threads, device}, OptionalPath{});
 }
 
-std::vector<std::string> material_names(PythonSimulation& s) {
-  std::vector<std::string> names;
-  for (const Material& m : s.get().scene().materials) names.push_back(m.name);
-  return names;
-}
-
 std::vector<std::string> collider_names(PythonSimulation& s) {
   std::vector<std::string> names;
   for (const Collider& c : s.get().scene().colliders) names.push_back(c.name);
@@ -133,7 +127,7 @@ void bind_reading(Class& c) {
                           "16 hex digits that are equal only where every id, position and velocity, the clock and the\n"
                           "id counter are: those that `hooke run` reports.");
   c.def_property_readonly(
-      "scene", [](PythonSimulation& s) { return parse_json(s.opened().resolved); },
+      "scene", [](PythonSimulation& s) { return parse_json(std::string(s.opened().resolved)); },
       "The scene as it was understood, with all defaults: a new dict like its JSON.");
   c.def_property_readonly("warnings", &PythonSimulation::warnings,
                           "What is likely a mistake, of the scene and of this instant: a list of hooke.Finding, empty\n"
@@ -141,7 +135,9 @@ void bind_reading(Class& c) {
   c.def_property_readonly(
       "stable_step", [](PythonSimulation& s) { return stable_step(s.get()).seconds; },
       "The longest stable time step, s; inf where nothing can oscillate.");
-  c.def_property_readonly("materials", &material_names, "Names of the materials, which snapshots index.");
+  c.def_property_readonly(
+      "materials", [](PythonSimulation& s) { return material_names(s.get().scene()); },
+      "Names of the materials, which snapshots index.");
   c.def_property_readonly("radii", &of_materials<&Material::radius>, "Radius of each material, m: float64.");
   c.def_property_readonly("masses", &of_materials<&Material::mass>,
                           "Mass of a particle of each material, kg: float64.");

@@ -29,25 +29,23 @@ scene::LoadOptions load_options(const SceneOptions& options) {
   return load;
 }
 
-std::size_t material_index(const py::handle& value, const Scene& scene) {
-  const auto& materials = scene.materials;
+std::size_t material_index(const py::handle& value, const std::vector<std::string>& names) {
   if (py::isinstance<py::str>(value)) {
     const auto name = value.cast<std::string>();
-    const auto found =
-        std::find_if(materials.begin(), materials.end(), [&](const Material& m) { return m.name == name; });
-    if (found != materials.end()) return static_cast<std::size_t>(found - materials.begin());
-    std::string names;
-    for (const Material& m : materials) names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", printable(m.name));
-    raise_input("material", fmt::format("there is no \"{}\"; there are {}", printable(name), names));
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+    std::string known;
+    for (const std::string& each : names) known += fmt::format("{}\"{}\"", known.empty() ? "" : ", ", printable(each));
+    raise_input("material", fmt::format("there is no \"{}\"; there are {}", printable(name), known));
   }
   if (PyIndex_Check(value.ptr()) != 0 && !py::isinstance<py::bool_>(value)) {
     const long long index = PyLong_AsLongLong(py::int_(py::reinterpret_borrow<py::object>(value)).ptr());
-    if (PyErr_Occurred() == nullptr && index >= 0 && static_cast<std::size_t>(index) < materials.size()) {
+    if (PyErr_Occurred() == nullptr && index >= 0 && static_cast<std::size_t>(index) < names.size()) {
       return static_cast<std::size_t>(index);
     }
     PyErr_Clear();
-    raise_input("material", fmt::format("{} is no index of the {} materials", py::str(value).cast<std::string>(),
-                                        materials.size()));
+    raise_input("material",
+                fmt::format("{} is no index of the {} materials", py::str(value).cast<std::string>(), names.size()));
   }
   raise_input("material", fmt::format("expected a name or an index, got {}", Py_TYPE(value.ptr())->tp_name));
 }
@@ -75,18 +73,25 @@ scene::LoadedScene read_scene(const py::dict& scene, const std::filesystem::path
   return unwrap(std::move(loaded), ErrorClass::scene);
 }
 
-std::vector<std::size_t> to_materials(const py::object& material, std::size_t count, const Scene& scene) {
+std::vector<std::string> material_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Material& material : scene.materials) names.push_back(material.name);
+  return names;
+}
+
+std::vector<std::size_t> to_materials(const py::object& material, std::size_t count,
+                                      const std::vector<std::string>& names) {
   if (material.is_none()) {
-    if (scene.materials.size() == 1) return std::vector<std::size_t>(count, 0);
-    raise_input("material", fmt::format("must be given: the scene has {} materials", scene.materials.size()));
+    if (names.size() == 1) return std::vector<std::size_t>(count, 0);
+    raise_input("material", fmt::format("must be given: the scene has {} materials", names.size()));
   }
   if (py::isinstance<py::str>(material) || PyIndex_Check(material.ptr()) != 0) {
-    return std::vector<std::size_t>(count, material_index(material, scene));
+    return std::vector<std::size_t>(count, material_index(material, names));
   }
-  if (!py::isinstance<py::sequence>(material) && !py::isinstance<py::array>(material)) material_index(material, scene);
+  if (!py::isinstance<py::sequence>(material) && !py::isinstance<py::array>(material)) material_index(material, names);
   std::vector<std::size_t> indices;
   for (const py::handle value : py::reinterpret_borrow<py::sequence>(material)) {
-    indices.push_back(material_index(value, scene));
+    indices.push_back(material_index(value, names));
   }
   if (indices.size() != count) {
     raise_input("material", fmt::format("{} materials for {} particles", indices.size(), count));
@@ -99,7 +104,7 @@ void add_particles(scene::LoadedScene& scene, const ParticleArrays& arrays) {
   const std::size_t count = x.size();
   const std::vector<Vec3d> v = arrays.velocities.is_none() ? std::vector<Vec3d>(count, Vec3d{0, 0, 0})
                                                            : to_vectors(arrays.velocities, count, "v");
-  const std::vector<std::size_t> materials = to_materials(arrays.material, count, scene.scene);
+  const std::vector<std::size_t> materials = to_materials(arrays.material, count, material_names(scene.scene));
   ParticleSet& particles = scene.particles;
   std::vector<std::uint64_t> ids;
   if (!arrays.ids.is_none()) {

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "arrays.h"
 #include "hooke/core/particles.h"
@@ -34,8 +36,12 @@ scene::LoadedScene read_scene(const py::dict& scene, const std::filesystem::path
 /// Adds particles to those of a scene that has been read.
 void add_particles(scene::LoadedScene& scene, const ParticleArrays& arrays);
 
-/// The index of a material for each of `count` particles.
-std::vector<std::size_t> to_materials(const py::object& material, std::size_t count, const Scene& scene);
+std::vector<std::string> material_names(const Scene& scene);
+
+/// The index of a material for each of `count` particles: from a name or an index for all, or from `count` of them, in
+/// a sequence or an array. `names`: those of the scene. InputError.
+std::vector<std::size_t> to_materials(const py::object& material, std::size_t count,
+                                      const std::vector<std::string>& names);
 
 /// The Python object that JSON stands for.
 py::object parse_json(const std::string& text);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "simulation.h"
 
@@ -82,30 +83,32 @@ void PythonSimulation::set_particles(const std::vector<ParticleAt>& particles) {
   }));
 }
 
+// Arguments are Python's: to convert them may run code that closes the simulation. So use() comes after that.
 py::array PythonSimulation::add(const py::object& x, const py::object& v, const py::object& material) {
-  Simulation& simulation = use();
+  const std::vector<std::string> names = material_names(use().scene());
   const std::vector<Vec3d> positions = to_vectors(x, "x");
   const std::size_t count = positions.size();
   const std::vector<Vec3d> velocities =
       v.is_none() ? std::vector<Vec3d>(count, Vec3d{0, 0, 0}) : to_vectors(v, count, "v");
-  const std::vector<std::size_t> materials = to_materials(material, count, simulation.scene());
+  const std::vector<std::size_t> materials = to_materials(material, count, names);
   std::vector<NewParticle> particles(count);
   for (std::size_t i = 0; i < count; ++i) particles[i] = {materials[i], positions[i], velocities[i]};
+  Simulation& simulation = use();
   return to_array(unwrap(without_gil([&] { return simulation.add_particles(particles); })));
 }
 
 void PythonSimulation::remove(const py::object& ids) {
-  Simulation& simulation = use();
   const std::vector<std::uint64_t> gone = to_ids(ids);
   find_all(gone);
+  Simulation& simulation = use();
   unwrap(without_gil([&] { return simulation.remove_particles(gone); }));
 }
 
 void PythonSimulation::apply_impulse(const py::object& ids, const py::object& impulses) {
-  Simulation& simulation = use();
   const std::vector<std::uint64_t> pushed = to_ids(ids);
   const std::vector<Vec3d> by = to_vectors(impulses, pushed.size(), "impulses");
   find_all(pushed);
+  Simulation& simulation = use();
   unwrap(without_gil([&]() -> Expected<void> {
     for (std::size_t k = 0; k < pushed.size(); ++k) {
       if (auto done = simulation.apply_impulse(pushed[k], by[k]); !done) return done;
@@ -115,57 +118,62 @@ void PythonSimulation::apply_impulse(const py::object& ids, const py::object& im
 }
 
 void PythonSimulation::set_positions(const py::object& ids, const py::object& x, const py::object& v) {
-  std::vector<ParticleAt> particles = find_all(to_ids(ids));
-  const std::vector<Vec3d> positions = to_vectors(x, particles.size(), "x");
-  for (std::size_t k = 0; k < particles.size(); ++k) particles[k].position = positions[k];
-  if (!v.is_none()) {
-    const std::vector<Vec3d> velocities = to_vectors(v, particles.size(), "v");
-    for (std::size_t k = 0; k < particles.size(); ++k) particles[k].velocity = velocities[k];
+  const std::vector<std::uint64_t> moved = to_ids(ids);
+  const std::vector<Vec3d> positions = to_vectors(x, moved.size(), "x");
+  const std::vector<Vec3d> velocities = v.is_none() ? std::vector<Vec3d>{} : to_vectors(v, moved.size(), "v");
+  std::vector<ParticleAt> particles = find_all(moved);
+  for (std::size_t k = 0; k < particles.size(); ++k) {
+    particles[k].position = positions[k];
+    if (!v.is_none()) particles[k].velocity = velocities[k];
   }
   set_particles(particles);
 }
 
 void PythonSimulation::set_velocities(const py::object& ids, const py::object& v) {
-  std::vector<ParticleAt> particles = find_all(to_ids(ids));
-  const std::vector<Vec3d> velocities = to_vectors(v, particles.size(), "v");
+  const std::vector<std::uint64_t> pushed = to_ids(ids);
+  const std::vector<Vec3d> velocities = to_vectors(v, pushed.size(), "v");
+  std::vector<ParticleAt> particles = find_all(pushed);
   for (std::size_t k = 0; k < particles.size(); ++k) particles[k].velocity = velocities[k];
   set_particles(particles);
 }
 
 void PythonSimulation::set_external_forces(const py::object& ids, const py::object& forces) {
-  Simulation& simulation = use();
-  if (!force_function_.is_none()) raise_input("external_forces", "is a function, which sets the forces of each step");
   const std::vector<std::uint64_t> pushed = to_ids(ids);
   const std::vector<Vec3d> by = to_vectors(forces, pushed.size(), "forces");
+  Simulation& simulation = use();
+  if (!force_function_.is_none()) raise_input("external_forces", "is a function, which sets the forces of each step");
   unwrap(without_gil([&] { return simulation.set_external_forces(pushed, by); }));
 }
 
 void PythonSimulation::set_material(const std::string& name, const py::kwargs& values) {
-  Simulation& simulation = use();
-  const auto& materials = simulation.scene().materials;
-  Material material = materials[to_materials(py::str(name), 1, simulation.scene()).front()];
+  const std::size_t index = to_materials(py::str(name), 1, material_names(use().scene())).front();
+  std::vector<std::pair<std::string, double>> changes;
   for (const auto& [key, value] : values) {
     const auto word = key.cast<std::string>();
+    changes.emplace_back(word, to_number(value, word));
+  }
+  Simulation& simulation = use();
+  Material material = simulation.scene().materials[index];
+  for (const auto& [word, value] : changes) {
     double* const number = coefficient(material, word);
     if (number == nullptr) {
       raise_input(word,
                   "is nothing that a material can change; known are radius, mass, stiffness, shear, damping, "
                   "drag, friction, tension, cohesion, range");
     }
-    *number = to_number(value, word);
+    *number = value;
   }
   unwrap(without_gil([&] { return simulation.set_material(material); }));
 }
 
 void PythonSimulation::move_collider(const std::string& name, const py::object& position, const py::object& rotation,
                                      const py::object& velocity, const py::object& angular_velocity) {
-  Simulation& simulation = use();
   HeldMotion motion;
   motion.position = to_vector(position, "position");
   motion.rotation = to_vector(rotation, "rotation");
   motion.velocity = to_vector(velocity, "velocity");
   motion.angular_velocity = to_vector(angular_velocity, "angular_velocity");
-  unwrap(simulation.set_collider_motion(name, motion));
+  unwrap(use().set_collider_motion(name, motion));
 }
 
 }  // namespace hooke::python

@@ -10,6 +10,8 @@
 namespace hooke::python {
 namespace {
 
+// What follows builds Python objects, and so may run Python code that closes the simulation: all is copied before.
+
 // One of the tuples of hooke/_figures.py.
 py::object figures(const char* type, const py::dict& fields) {
   return py::module_::import("hooke._figures").attr(type)(**fields);
@@ -19,7 +21,13 @@ constexpr const char* kCauseNames[kCauses] = {
     "contact_spring", "contact_shear", "contact_damping", "contact_friction", "wall",    "collider", "drag", "gravity",
     "hold",           "springs",       "field",           "attraction",       "external"};
 
-py::dict collider_loads(const Measurements& m, const Scene& scene) {
+std::vector<std::string> collider_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Collider& collider : scene.colliders) names.push_back(collider.name);
+  return names;
+}
+
+py::dict collider_loads(const Measurements& m, const std::vector<std::string>& names) {
   py::dict loads;
   for (std::size_t k = 0; k < m.colliders.size(); ++k) {
     const ColliderLoad& load = m.colliders[k];
@@ -27,7 +35,7 @@ py::dict collider_loads(const Measurements& m, const Scene& scene) {
     fields["force"] = to_array(load.force);
     fields["torque"] = to_array(load.torque);
     fields["contacts"] = load.contacts;
-    loads[py::str(scene.colliders[k].name)] = figures("ColliderLoad", fields);
+    loads[py::str(names[k])] = figures("ColliderLoad", fields);
   }
   return loads;
 }
@@ -36,6 +44,7 @@ py::dict collider_loads(const Measurements& m, const Scene& scene) {
 
 py::object PythonSimulation::measure() {
   const Simulation& simulation = use();
+  const std::vector<std::string> names = collider_names(simulation.scene());
   const Measurements m = unwrap(without_gil([&] { return simulation.measure(); }));
   py::dict fields;
   fields["particles"] = m.particles;
@@ -57,7 +66,7 @@ py::object PythonSimulation::measure() {
   fields["min"] = to_array(m.min);
   fields["max"] = to_array(m.max);
   fields["wall_force"] = to_array(m.wall_force);
-  fields["colliders"] = collider_loads(m, simulation.scene());
+  fields["colliders"] = collider_loads(m, names);
   return figures("Measurements", fields);
 }
 
@@ -122,16 +131,17 @@ py::object PythonSimulation::contacts() {
 
 py::dict PythonSimulation::collider_poses() {
   const Simulation& simulation = use();
+  const std::vector<std::string> names = collider_names(simulation.scene());
+  const std::vector<ColliderPose> now(simulation.collider_poses().begin(), simulation.collider_poses().end());
   py::dict poses;
-  const auto& colliders = simulation.scene().colliders;
-  for (std::size_t k = 0; k < colliders.size(); ++k) {
-    const ColliderPose& pose = simulation.collider_poses()[k];
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const ColliderPose& pose = now[k];
     py::dict fields;
     fields["pivot"] = to_array(pose.pivot);
     fields["axes"] = to_array(std::vector<Vec3d>(pose.turn.begin(), pose.turn.end()));
     fields["velocity"] = to_array(pose.velocity);
     fields["angular_velocity"] = to_array(pose.angular_velocity);
-    poses[py::str(colliders[k].name)] = figures("ColliderPose", fields);
+    poses[py::str(names[k])] = figures("ColliderPose", fields);
   }
   return poses;
 }

@@ -17,8 +17,8 @@ namespace hooke::python {
 py::array PythonSimulation::render(std::pair<int, int> size, const std::string& color_by,
                                    const std::optional<std::array<double, 2>>& range, int samples, bool legend,
                                    bool alpha) {
-  const Simulation& simulation = use();
   const auto arguments = to_picture_arguments(size, color_by, range, samples, legend, alpha);
+  const Simulation& simulation = use();
   auto image = without_gil([&] {
     const auto now = simulation.snapshot();
     return pictures_.picture(arguments, simulation.scene(), now->particles, nullptr, now->particles, now->time);

@@ -71,6 +71,55 @@ class Edits(unittest.TestCase):
         np.testing.assert_array_equal(sim.masses, [1, 4])
 
 
+class Closers:
+    """Values that close a simulation while they are converted."""
+
+    def __init__(self, sim, value):
+        self.sim, self.value = sim, value
+
+    def __array__(self, *_, **__):
+        self.sim.close()
+        return np.array(self.value, float)
+
+    def __float__(self):
+        self.sim.close()
+        return 1.0
+
+    def __len__(self):
+        return 1
+
+    def __getitem__(self, index):
+        self.sim.close()
+        return ["light"][index]
+
+
+class Closing(unittest.TestCase):
+    def test_arguments_that_close_the_simulation(self):
+        one = [0.5, 1, 1]
+        calls = (lambda sim, it: sim.add(it), lambda sim, it: sim.add([one], v=it),
+                 lambda sim, it: sim.add([one], material=it), lambda sim, it: sim.apply_impulse([1], it),
+                 lambda sim, it: sim.set_positions([1], it), lambda sim, it: sim.set_positions([1], one, v=it),
+                 lambda sim, it: sim.set_velocities([1], it), lambda sim, it: sim.set_external_forces([1], it),
+                 lambda sim, it: sim.set_material("light", mass=it),
+                 lambda sim, it: sim.move_collider("ball", position=it))
+        for k, call in enumerate(calls):
+            sim = balls(one)
+            with self.assertRaises((hooke.ClosedError, hooke.InputError), msg=f"call {k}"):
+                call(sim, Closers(sim, one if k == 9 else [one]))
+            self.assertTrue(sim.closed, f"call {k}")
+
+    def test_materials_are_looked_up_after_their_numbers(self):
+        sim = balls((0.5, 1, 1))
+
+        class Number:
+            def __float__(self):
+                sim.set_material("light", radius=0.07)
+                return 3.0
+
+        sim.set_material("light", mass=Number())
+        np.testing.assert_array_equal([sim.radii[0], sim.masses[0]], [0.07, 3])
+
+
 class ExternalForces(unittest.TestCase):
     def test_a_function_of_the_snapshot(self):
         sim = balls((0.5, 1, 1), (1, 1, 1), material=["light", "heavy"])
