@@ -90,10 +90,12 @@ void bind_stepping(Class& c) {
         "Takes `count` (>= 0) steps of time_step. Other threads of Python run meanwhile. Ctrl-C ends it within about\n"
         "0.05 s with KeyboardInterrupt, between two steps: the simulation is good to go on. RunFailed where the run\n"
         "goes bad, with the step, the particles and the likely cause; it then takes no more steps.");
-  c.def_property("external_forces", &PythonSimulation::force_function, &PythonSimulation::set_force_function,
-                 "A function that step() calls before each step with the present snapshot, and that returns the force\n"
-                 "on each of its particles, N: an array of shape (n, 3), or (3,) for all. None, the default, ends it.\n"
-                 "Its exceptions end step(). Forces are no part of a checkpoint.");
+  c.def_property(
+      "external_forces", &PythonSimulation::force_function, &PythonSimulation::set_force_function,
+      "A function that step() calls before each step with the present snapshot, and that returns the force\n"
+      "on each of its particles, N: an array of shape (n, 3), or (3,) for all. None, the default, ends it: where\n"
+      "the function sets that itself, or another function, the step has no forces. Its exceptions end step().\n"
+      "Forces are no part of a checkpoint.");
   c.def("set_external_forces", &PythonSimulation::set_external_forces, py::arg("ids"), py::arg("forces"),
         "Pushes particles with constant forces, N, (n, 3) or (3,), in every step from now on, in place of those set\n"
         "before; no ids end it. InputError where an id is unknown or twice there.");

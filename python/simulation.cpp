@@ -92,7 +92,9 @@ void PythonSimulation::step_batch(Simulation& simulation, std::int64_t& left) {
 void PythonSimulation::apply_force_function() {
   const SnapshotView now = snapshot();
   const ParticleSet& particles = now.get().particles;
-  const py::object value = force_function_(py::cast(now));
+  const py::object function = force_function_;
+  const py::object value = function(py::cast(now));
+  if (!force_function_.is(function)) return;  // it has ended itself, or named another for the steps to come
   const std::vector<Vec3d> forces = to_vectors(value, particles.size(), "external_forces");
   Simulation& simulation = use();
   unwrap(without_gil([&] { return simulation.set_external_forces(particles.id, forces); }));

@@ -160,6 +160,26 @@ class ExternalForces(unittest.TestCase):
         with self.assertRaises(hooke.BusyError):
             sim.step()
 
+    def test_it_may_end_itself(self):
+        sim = balls((0.5, 1, 1))
+
+        def once(now):
+            if now.step == 1:
+                sim.external_forces = None
+            return [1, 0, 0]
+
+        sim.external_forces = once
+        sim.step(5)
+        self.assertIsNone(sim.external_forces)
+        np.testing.assert_allclose(sim.snapshot().v, [[0.001, 0, 0]], rtol=1e-12)
+
+        def first(now):
+            sim.external_forces = lambda now: [0, 1, 0]
+
+        sim.external_forces = first
+        sim.step(3)
+        np.testing.assert_allclose(sim.snapshot().v, [[0.001, 0.002, 0]], rtol=1e-12)
+
     def test_its_faults_end_the_step(self):
         sim = balls((0.5, 1, 1))
 
