@@ -209,6 +209,7 @@ void bind_output(Class& c) {
       py::arg("film") = py::none(), py::arg("size") = std::pair{1280, 720}, py::arg("fps") = 30.0,
       py::arg("speed") = 1.0, py::arg("color_by") = "material", py::arg("on_progress") = py::none(),
       "Steps to the end of the scene, and meanwhile writes a run folder and, if asked, a film, as `hooke run` does.\n"
+      "`fps` is 0.001 to 1000, `speed`, the simulated seconds that a second of film shows, 1e-6 to 1e6.\n"
       "`checkpoint_every`: simulated seconds, by default ten a run. `on_progress(step, particles)` is called several\n"
       "times a second; its exceptions, and Ctrl-C, end the run with a snapshot and a checkpoint of the last step.\n"
       "InputError where the folder holds a run and `overwrite` is not set; RunFailed, FileError.");

@@ -10,6 +10,7 @@
 #include <chrono>
 
 #include "hooke/io/checkpoint.h"
+#include "hooke/run/numbers.h"
 #include "hooke/run/start_checks.h"
 
 namespace hooke::python {
@@ -67,23 +68,22 @@ void PythonSimulation::step(std::int64_t count) {
   if (is_stepping())
     raise(ErrorClass::busy, {{"simulation", "is in a step already: external_forces must not step it"}});
   const ThreadMark stepping(stepper_);
-  std::int64_t left = count;
+  std::int64_t left = count, batch = 1;
   do {
-    step_batch(simulation, left);
+    step_batch(simulation, left, batch);
     if (left > 0 && PyErr_CheckSignals() != 0) throw py::error_already_set();
   } while (left > 0);
 }
 
-void PythonSimulation::step_batch(Simulation& simulation, std::int64_t& left) {
+void PythonSimulation::step_batch(Simulation& simulation, std::int64_t& left, std::int64_t& batch) {
   const bool has_forces = !force_function_.is_none();
   if (has_forces && left > 0) apply_force_function();
-  const std::int64_t now = std::min(left, has_forces ? std::int64_t{1} : batch_);
+  const std::int64_t now = std::min(left, has_forces ? std::int64_t{1} : batch);
   const auto start = std::chrono::steady_clock::now();
   auto taken = without_gil([&] { return simulation.step(now); });
   if (now > 0 && !has_forces) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const double a_step = std::max(seconds / static_cast<double>(now), 1e-9);
-    batch_ = static_cast<std::int64_t>(std::clamp(kBatchSeconds / a_step, 1.0, 1e6));
+    batch = run::next_batch(now, seconds, kBatchSeconds);
   }
   unwrap(std::move(taken));
   left -= now;

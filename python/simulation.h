@@ -128,7 +128,8 @@ class PythonSimulation {
   py::array column(const py::object& out, bool velocities);
   py::array column(const py::object& out, bool velocities);
   void apply_force_function();
-  void step_batch(Simulation& simulation, std::int64_t& left);
+  // Steps between two looks at signals, so that Ctrl-C works soon: about as many as take 0.05 s.
+  void step_batch(Simulation& simulation, std::int64_t& left, std::int64_t& batch);
 
   std::optional<run::OpenedSimulation> opened_;
   std::filesystem::path resume_;
@@ -136,7 +137,6 @@ class PythonSimulation {
   bool forces_set_ = false;   // by the force function
   bool working_ = false;      // without the GIL
   std::thread::id stepper_;   // the thread in step() or run(), which may call Python; none outside of them
-  std::int64_t batch_ = 1;    // steps between two looks at signals
   PictureMaker pictures_;     // goes before the scene that it draws
 };
 

@@ -13,6 +13,14 @@
 #include "simulation.h"
 
 namespace hooke::python {
+namespace {
+
+void check_limits(const char* name, double value, const run::Limits& limits) {
+  if (value >= limits.least && value <= limits.most) return;
+  raise_input(name, fmt::format("{} must be {} to {}", value, limits.least, limits.most));
+}
+
+}  // namespace
 
 py::array PythonSimulation::render(std::pair<int, int> size, const std::string& color_by,
                                    const std::optional<std::array<double, 2>>& range, int samples, bool legend,
@@ -52,10 +60,10 @@ void PythonSimulation::run(const RunOptions& options) {
   if (!options.on_progress.is_none() && PyCallable_Check(options.on_progress.ptr()) == 0) {
     raise_input("on_progress", "expected a function of step and particles, or None");
   }
-  for (const auto& [name, value] : {std::pair{"fps", options.frames_per_second},
-                                    {"speed", options.speed},
-                                    {"checkpoint_every", options.checkpoint_every.value_or(1)}}) {
-    if (!(std::isfinite(value) && value > 0)) raise_input(name, fmt::format("{} must be above 0", value));
+  check_limits("fps", options.frames_per_second, run::kFramesPerSecond);
+  check_limits("speed", options.speed, run::kFilmSpeed);
+  if (const double seconds = options.checkpoint_every.value_or(1); !(std::isfinite(seconds) && seconds > 0)) {
+    raise_input("checkpoint_every", fmt::format("{} must be above 0", seconds));
   }
   run::RecordArguments record;
   record.output = options.folder;

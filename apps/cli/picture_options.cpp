@@ -47,12 +47,12 @@ void add_picture_options(CLI::App& command, PictureArguments& picture) {
       ->check([&picture](const std::string& text) { return parse_size(text, picture); });
   command.add_option("--fps", picture.frames_per_second, "frames a second of film (default: 30)")
       ->option_text("F")
-      ->check(CLI::Range(1e-3, 1000.0) & CLI::Validator(not_nan, ""));
+      ->check(CLI::Range(run::kFramesPerSecond.least, run::kFramesPerSecond.most) & CLI::Validator(not_nan, ""));
   command
       .add_option("--speed", picture.speed,
                   "simulated seconds that a second of film shows: 0.25 is slow motion (default: 1)")
       ->option_text("X")
-      ->check(CLI::Range(1e-6, 1e6) & CLI::Validator(not_nan, ""));
+      ->check(CLI::Range(run::kFilmSpeed.least, run::kFilmSpeed.most) & CLI::Validator(not_nan, ""));
   std::vector<std::pair<std::string, render::ColorBy>> names;
   for (const render::ColorByName& name : render::kColorByNames) names.emplace_back(name.name, name.by);
   add_choice(command, "--color-by", picture.color_by, names,

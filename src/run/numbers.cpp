@@ -29,4 +29,9 @@ std::string clock_time(double seconds) {
                    : fmt::format("{}:{:02}", minutes, whole % 60);
 }
 
+std::int64_t next_batch(std::int64_t steps, double seconds, double most_seconds) {
+  const double a_step = std::max(seconds / static_cast<double>(steps), 1e-9);
+  return static_cast<std::int64_t>(std::clamp(most_seconds / a_step, 1.0, 2 * static_cast<double>(steps)));
+}
+
 }  // namespace hooke::run

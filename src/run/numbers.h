@@ -12,4 +12,8 @@ std::string with_commas(std::uint64_t number);
 /// "1:02:03" or "2:03".
 std::string clock_time(double seconds);
 
+/// How many steps (>= 1) to take at once so that they take about `most_seconds`, after `steps` (>= 1) took `seconds`:
+/// at most twice as many, because steps may get slower.
+std::int64_t next_batch(std::int64_t steps, double seconds, double most_seconds);
+
 }  // namespace hooke::run

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "hooke/render/film.h"
+#include "hooke/run/numbers.h"
 
 namespace hooke::run {
 namespace {
@@ -119,8 +120,7 @@ struct Recorder::Impl {
     if (auto stepped = simulation.step(target - now); !stepped) return stepped;
     const double seconds = seconds_since(start);
     stepping_seconds += seconds;
-    const double a_step = seconds / static_cast<double>(target - now);
-    batch = static_cast<std::int64_t>(std::clamp(kBatchSeconds / std::max(a_step, 1e-9), 1.0, 1e6));
+    batch = next_batch(target - now, seconds, kBatchSeconds);
     return {};
   }
 

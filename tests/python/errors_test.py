@@ -144,7 +144,8 @@ class Calls(unittest.TestCase):
         self.refuses(lambda: sim.render(size=(0, 10)), lambda: sim.render(size=(10**6, 10)),
                      lambda: sim.render(color_by="taste"), lambda: sim.render(samples=9),
                      lambda: sim.render(range=(2, 1)), lambda: sim.run("out", film="film.txt"),
-                     lambda: sim.run("out", fps=0), lambda: sim.run("out", speed=float("nan")),
+                     lambda: sim.run("out", fps=0), lambda: sim.run("out", fps=1e308), lambda: sim.run("out", fps=1e-4),
+                     lambda: sim.run("out", speed=1e7), lambda: sim.run("out", speed=float("nan")),
                      lambda: sim.run("out", checkpoint_every=-1), lambda: sim.run("out", on_progress=5))
         self.refuses(lambda: sim.render(size=5), lambda: sim.render(range=1), error=TypeError)
 
