@@ -85,7 +85,8 @@ const Scene& PythonRun::scene() {
   }();
   Scene scene = unwrap(std::move(loaded), ErrorClass::scene).scene;
   unwrap(run::check_materials(reader_, scene));
-  return scene_.emplace(std::move(scene));
+  if (!scene_) scene_.emplace(std::move(scene));  // another thread may have read it meanwhile, and may draw it
+  return *scene_;
 }
 
 py::array PythonRun::render(std::optional<double> time, std::pair<int, int> size, const std::string& color_by,

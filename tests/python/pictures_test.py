@@ -3,6 +3,7 @@
 """Pictures, from any thread, and films."""
 import concurrent.futures
 import subprocess
+import threading
 import unittest
 
 import hooke
@@ -50,6 +51,19 @@ class Pictures(scenes.FolderTest):
         np.testing.assert_array_equal(ours, theirs)
         with self.assertRaises(hooke.InputError):
             run.render(7)
+
+    def test_any_thread_may_draw_a_run(self):
+        hooke.run(scenes.box(), self.folder / "out", threads=1)
+        expected = hooke.Run(self.folder / "out").render(0.1, size=self.SIZE)
+        run, together = hooke.Run(self.folder / "out"), threading.Barrier(6)
+
+        def draw(_):
+            together.wait()
+            return run.render(0.1, size=self.SIZE)
+
+        with concurrent.futures.ThreadPoolExecutor(6) as pool:
+            for image in pool.map(draw, range(6)):
+                np.testing.assert_array_equal(image, expected)
 
     def test_a_film(self):
         hooke.run(scenes.box(), self.folder / "out", film=self.folder / "f.mp4", size=self.SIZE, fps=20, threads=1)
