@@ -39,7 +39,8 @@ std::size_t material_index(const py::handle& value, const std::vector<std::strin
     raise_input("material", fmt::format("there is no \"{}\"; there are {}", printable(name), known));
   }
   if (PyIndex_Check(value.ptr()) != 0 && !py::isinstance<py::bool_>(value)) {
-    const long long index = PyLong_AsLongLong(py::int_(py::reinterpret_borrow<py::object>(value)).ptr());
+    const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+    const long long index = whole ? PyLong_AsLongLong(whole.ptr()) : -1;
     if (PyErr_Occurred() == nullptr && index >= 0 && static_cast<std::size_t>(index) < names.size()) {
       return static_cast<std::size_t>(index);
     }
@@ -85,10 +86,13 @@ std::vector<std::size_t> to_materials(const py::object& material, std::size_t co
     if (names.size() == 1) return std::vector<std::size_t>(count, 0);
     raise_input("material", fmt::format("must be given: the scene has {} materials", names.size()));
   }
-  if (py::isinstance<py::str>(material) || PyIndex_Check(material.ptr()) != 0) {
+  // Every array of numpy has an index's method, but only one without dimensions is one.
+  const bool is_array = py::isinstance<py::array>(material);
+  const bool is_list = is_array && py::reinterpret_borrow<py::array>(material).ndim() > 0;
+  if (!is_list && (is_array || py::isinstance<py::str>(material) || PyIndex_Check(material.ptr()) != 0)) {
     return std::vector<std::size_t>(count, material_index(material, names));
   }
-  if (!py::isinstance<py::sequence>(material) && !py::isinstance<py::array>(material)) material_index(material, names);
+  if (!is_list && !py::isinstance<py::sequence>(material)) material_index(material, names);  // raises
   std::vector<std::size_t> indices;
   for (const py::handle value : py::reinterpret_borrow<py::sequence>(material)) {
     indices.push_back(material_index(value, names));

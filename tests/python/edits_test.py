@@ -46,6 +46,14 @@ class Edits(unittest.TestCase):
         np.testing.assert_array_equal(now.v[1:], [[0, 1, 0]] * 2)
         sim.remove(ids[:1])
         np.testing.assert_array_equal(sim.snapshot().id, [1, 3])
+        for material in (np.array([1, 0]), np.array([1, 0], np.uint16), np.array(["heavy", "light"]), ("heavy", 0),
+                         [np.int64(1), np.str_("light")], [np.array(1), 0]):
+            ids = sim.add([[1, 1, 1], [1.5, 1, 1]], material=material)
+            np.testing.assert_array_equal(sim.snapshot().material[-2:], [1, 0], repr(material))
+            sim.remove(ids)
+        ids = sim.add([[1, 1, 1]] * 2, material=np.array(1))
+        np.testing.assert_array_equal(sim.snapshot().material[-2:], [1, 1])
+        sim.remove(ids)
         sim.remove(np.array([], dtype=int))
         np.testing.assert_array_equal(sim.add(np.zeros((0, 3)), material="light"), [])
 

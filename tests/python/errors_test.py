@@ -75,7 +75,8 @@ class Scenes(scenes.FolderTest):
                 make(x)
         for options in ({"v": np.zeros((2, 3))}, {"material": "wood"}, {"material": None}, {"material": 2},
                         {"material": -1}, {"material": ["light", "light"]}, {"material": [None]}, {"material": 1.5},
-                        {"material": [True]}, {"id": [1, 2]}, {"id": [-1]}, {"id": [1.5]}, {"id": ["a"]}, {"id": [[1]]}):
+                        {"material": [True]}, {"material": np.array([0.0])},
+                        {"material": np.array([7])}, {"material": np.array([[0]])}, {"material": np.array(2)}, {"id": [1, 2]}, {"id": [-1]}, {"id": [1.5]}, {"id": ["a"]}, {"id": [[1]]}):
             with self.assertRaises(hooke.InputError, msg=repr(options)):
                 make(one, **options)
         with self.assertRaises(hooke.InputError):
@@ -135,7 +136,8 @@ class Calls(unittest.TestCase):
         sim = self.sim
         read_only = np.zeros((27, 3))
         read_only.flags.writeable = False
-        for out in (np.zeros((26, 3)), np.zeros((27, 3), int), np.zeros((3, 27)).T, np.zeros(81), [1], read_only,
+        unaligned = np.zeros(27 * 3 * 8 + 1, np.uint8)[1:].view(float).reshape(27, 3)
+        for out in (unaligned, np.zeros((26, 3)), np.zeros((27, 3), int), np.zeros((3, 27)).T, np.zeros(81), [1], read_only,
                     np.zeros((27, 3), ">f8"), np.zeros((27, 3), np.float16)):
             self.refuses(lambda: sim.positions(out=out), lambda: sim.velocities(out=out))
 
