@@ -127,8 +127,9 @@ py::array PythonSimulation::column(const py::object& out, bool velocities) {
   } else {
     array = py::reinterpret_borrow<py::array_t<Real>>(out);
     const bool fits = array.ndim() == 2 && array.shape(0) == count && array.shape(1) == 3;
-    if (!fits || (array.flags() & py::array::c_style) == 0 || !array.writeable()) {
-      raise_input("out", fmt::format("expected a writeable array of shape ({}, 3) in C order", count));
+    constexpr int kPlain = py::array::c_style | py::detail::npy_api::NPY_ARRAY_ALIGNED_;
+    if (!fits || (array.flags() & kPlain) != kPlain || !array.writeable()) {
+      raise_input("out", fmt::format("expected a writeable, aligned array of shape ({}, 3) in C order", count));
     }
   }
   static_assert(sizeof(Vec3<Real>) == 3 * sizeof(Real));
