@@ -179,6 +179,10 @@ void bind_run(py::module_& module) {
           "__getitem__", [](const PythonRun& r, std::int64_t index) { return r.snapshot(r.pick({}, {}, index)); },
           py::arg("index"), "Snapshot by index, from the end where it is below 0.")
       .def(
+          "__iter__",
+          [](const py::object& run) { return py::reinterpret_steal<py::iterator>(PySeqIter_New(run.ptr())); },
+          "Its snapshots, one after another.")
+      .def(
           "snapshot",
           [](const PythonRun& r, std::optional<double> time, std::optional<std::int64_t> step,
              std::optional<std::int64_t> index) { return r.snapshot(r.pick(time, step, index)); },

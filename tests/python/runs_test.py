@@ -50,6 +50,7 @@ class Runs(scenes.FolderTest):
         for wrong in ({"time": 7}, {"time": float("nan")}, {"step": 3}, {"time": 0, "step": 0}):
             with self.assertRaises(hooke.InputError):
                 run.snapshot(**wrong)
+        self.assertEqual([snapshot.step for snapshot in iter(run)], list(run.steps))
         for index in (5, -6):
             with self.assertRaises(IndexError):
                 run[index]
