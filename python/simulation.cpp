@@ -80,6 +80,7 @@ void PythonSimulation::step_batch(Simulation& simulation, std::int64_t& left, st
   if (has_forces && left > 0) apply_force_function();
   const std::int64_t now = std::min(left, has_forces ? std::int64_t{1} : batch);
   const auto start = std::chrono::steady_clock::now();
+  if (now > 0) resume_.clear();
   auto taken = without_gil([&] { return simulation.step(now); });
   if (now > 0 && !has_forces) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -97,7 +98,7 @@ void PythonSimulation::apply_force_function() {
   if (!force_function_.is(function)) return;  // it has ended itself, or named another for the steps to come
   const std::vector<Vec3d> forces = to_vectors(value, particles.size(), "external_forces");
   Simulation& simulation = use();
-  unwrap(without_gil([&] { return simulation.set_external_forces(particles.id, forces); }));
+  change([&] { return simulation.set_external_forces(particles.id, forces); });
   forces_set_ = true;
 }
 
@@ -107,7 +108,7 @@ void PythonSimulation::set_force_function(const py::object& function) {
     raise_input("external_forces",
                 fmt::format("expected a function of a snapshot, or None, got {}", Py_TYPE(function.ptr())->tp_name));
   }
-  if (forces_set_) unwrap(simulation.set_external_forces({}, {}));
+  if (forces_set_) change([&] { return simulation.set_external_forces({}, {}); });
   forces_set_ = false;
   force_function_ = function;
 }
@@ -171,7 +172,7 @@ SimulationState PythonSimulation::state() {
 void PythonSimulation::restore(const SimulationState& state) {
   Simulation& simulation = use();
   if (is_stepping()) raise(ErrorClass::busy, {{"simulation", "can't be restored while it steps"}});
-  unwrap(without_gil([&] { return simulation.restore(state); }));
+  change([&] { return simulation.restore(state); });
 }
 
 py::list PythonSimulation::warnings() {

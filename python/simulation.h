@@ -121,6 +121,13 @@ class PythonSimulation {
     const py::gil_scoped_release free;
     return body();
   }
+  // Calls the engine for a change. Afterwards, a folder that the simulation goes on from is another run's.
+  template <class Body>
+  auto change(const Body& body) {
+    auto done = without_gil(body);
+    if (done) resume_.clear();
+    return unwrap(std::move(done));
+  }
   // Refuses unknown ids before anything is changed.
   std::vector<ParticleAt> find_all(const std::vector<std::uint64_t>& ids);
   void set_particles(const std::vector<ParticleAt>& particles);
@@ -132,7 +139,7 @@ class PythonSimulation {
   void step_batch(Simulation& simulation, std::int64_t& left, std::int64_t& batch);
 
   std::optional<run::OpenedSimulation> opened_;
-  std::filesystem::path resume_;
+  std::filesystem::path resume_;  // empty once the simulation was changed
   py::object force_function_ = py::none();
   bool forces_set_ = false;   // by the force function
   bool working_ = false;      // without the GIL

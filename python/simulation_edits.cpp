@@ -75,12 +75,12 @@ void PythonSimulation::set_particles(const std::vector<ParticleAt>& particles) {
     }
   }
   if (!findings.empty()) raise(ErrorClass::input, findings);
-  unwrap(without_gil([&]() -> Expected<void> {
+  change([&]() -> Expected<void> {
     for (const ParticleAt& p : particles) {
       if (auto set = simulation.set_particle(p.id, p.position, p.velocity); !set) return set;
     }
     return {};
-  }));
+  });
 }
 
 // Arguments are Python's: to convert them may run code that closes the simulation. So use() comes after that.
@@ -94,14 +94,14 @@ py::array PythonSimulation::add(const py::object& x, const py::object& v, const 
   std::vector<NewParticle> particles(count);
   for (std::size_t i = 0; i < count; ++i) particles[i] = {materials[i], positions[i], velocities[i]};
   Simulation& simulation = use();
-  return to_array(unwrap(without_gil([&] { return simulation.add_particles(particles); })));
+  return to_array(change([&] { return simulation.add_particles(particles); }));
 }
 
 void PythonSimulation::remove(const py::object& ids) {
   const std::vector<std::uint64_t> gone = to_ids(ids);
   find_all(gone);
   Simulation& simulation = use();
-  unwrap(without_gil([&] { return simulation.remove_particles(gone); }));
+  change([&] { return simulation.remove_particles(gone); });
 }
 
 void PythonSimulation::apply_impulse(const py::object& ids, const py::object& impulses) {
@@ -109,12 +109,12 @@ void PythonSimulation::apply_impulse(const py::object& ids, const py::object& im
   const std::vector<Vec3d> by = to_vectors(impulses, pushed.size(), "impulses");
   find_all(pushed);
   Simulation& simulation = use();
-  unwrap(without_gil([&]() -> Expected<void> {
+  change([&]() -> Expected<void> {
     for (std::size_t k = 0; k < pushed.size(); ++k) {
       if (auto done = simulation.apply_impulse(pushed[k], by[k]); !done) return done;
     }
     return {};
-  }));
+  });
 }
 
 void PythonSimulation::set_positions(const py::object& ids, const py::object& x, const py::object& v) {
@@ -142,7 +142,7 @@ void PythonSimulation::set_external_forces(const py::object& ids, const py::obje
   const std::vector<Vec3d> by = to_vectors(forces, pushed.size(), "forces");
   Simulation& simulation = use();
   if (!force_function_.is_none()) raise_input("external_forces", "is a function, which sets the forces of each step");
-  unwrap(without_gil([&] { return simulation.set_external_forces(pushed, by); }));
+  change([&] { return simulation.set_external_forces(pushed, by); });
 }
 
 void PythonSimulation::set_material(const std::string& name, const py::kwargs& values) {
@@ -163,7 +163,7 @@ void PythonSimulation::set_material(const std::string& name, const py::kwargs& v
     }
     *number = value;
   }
-  unwrap(without_gil([&] { return simulation.set_material(material); }));
+  change([&] { return simulation.set_material(material); });
 }
 
 void PythonSimulation::move_collider(const std::string& name, const py::object& position, const py::object& rotation,
@@ -173,7 +173,8 @@ void PythonSimulation::move_collider(const std::string& name, const py::object& 
   motion.rotation = to_vector(rotation, "rotation");
   motion.velocity = to_vector(velocity, "velocity");
   motion.angular_velocity = to_vector(angular_velocity, "angular_velocity");
-  unwrap(use().set_collider_motion(name, motion));
+  Simulation& simulation = use();
+  change([&] { return simulation.set_collider_motion(name, motion); });
 }
 
 }  // namespace hooke::python

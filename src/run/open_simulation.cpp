@@ -51,8 +51,10 @@ Expected<OpenedSimulation> open_simulation(scene::LoadedScene loaded, const Devi
     return Simulation::resume(std::move(loaded.scene), std::move(checkpoint->state), std::move(*backend));
   }();
   if (!simulation) return fail(std::move(simulation).error());
-  return OpenedSimulation{std::move(*simulation), std::move(loaded.resolved), std::move(loaded.files),
-                          std::move(loaded.warnings), loaded.fields};
+  const std::int64_t step = simulation->step_count();
+  return OpenedSimulation{std::move(*simulation),  std::move(loaded.resolved),
+                          std::move(loaded.files), std::move(loaded.warnings),
+                          loaded.fields,           step};
 }
 
 }  // namespace hooke::run

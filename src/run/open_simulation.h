@@ -35,6 +35,8 @@ struct OpenedSimulation {
   std::vector<scene::SceneFile> files;   ///< the other files that it needs
   std::vector<Finding> warnings;  ///< of the loader
   scene::FieldMemory fields;
+  /// The step up to which the folder of the checkpoint that it goes on from holds its output.
+  std::int64_t kept_step = 0;
 };
 
 /// The back end that is asked for; HOOKE_ISA in the environment picks the instruction set.

@@ -87,6 +87,7 @@ Expected<void> check_record(const RecordArguments& arguments, const std::string&
 }
 
 struct Recorder::Impl {
+  OpenedSimulation& opened;
   Simulation& simulation;
   io::RunWriter writer;
   std::unique_ptr<FilmThread> film;  // null without a film
@@ -157,6 +158,13 @@ Expected<Recorder> Recorder::start(OpenedSimulation& opened, const RecordArgumen
                 fmt::format("is of step {}, after the end of the run at step {}", simulation.step_count(),
                             simulation.scene().steps));
   }
+  const bool in_place = resumes_in_place(arguments);
+  if (in_place && simulation.step_count() != opened.kept_step) {
+    return fail(
+        Error::Kind::bad_input, arguments.output.string(),
+        fmt::format("holds the run up to step {}, from which the simulation was stepped to {}: name another folder",
+                    opened.kept_step, simulation.step_count()));
+  }
   std::unique_ptr<FilmThread> film;
   if (!arguments.film.empty()) {
     auto started = FilmThread::start(arguments.film, arguments.picture, simulation, events.film_failed);
@@ -165,9 +173,9 @@ Expected<Recorder> Recorder::start(OpenedSimulation& opened, const RecordArgumen
   }
   auto writer = open_writer(arguments, opened);
   if (!writer) return fail(std::move(writer).error());
-  return Recorder(std::make_unique<Impl>(Impl{simulation, std::move(*writer), std::move(film),
+  return Recorder(std::make_unique<Impl>(Impl{opened, simulation, std::move(*writer), std::move(film),
                                               checkpoint_cadence(arguments.checkpoint_every, simulation.scene().steps),
-                                              std::move(events), resumes_in_place(arguments)}));
+                                              std::move(events), in_place}));
 }
 
 Expected<bool> Recorder::to_the_end(const Watch& watch) {
@@ -181,6 +189,7 @@ Expected<bool> Recorder::to_the_end(const Watch& watch) {
   }
   if (auto written = run.write_outputs(true); !written) return fail(std::move(written).error());
   if (auto flushed = run.writer.flush(); !flushed) return fail(std::move(flushed).error());
+  if (run.in_place) run.opened.kept_step = run.simulation.step_count();
   return run.simulation.step_count() == run.last;
 }
 

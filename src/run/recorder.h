@@ -22,7 +22,7 @@ namespace hooke::run {
 struct RecordArguments {
   std::filesystem::path output;            ///< the run folder
   bool overwrite = false;                  ///< replaces the run that it holds
-  std::filesystem::path resume;            ///< the checkpoint that the simulation goes on from, or empty
+  std::filesystem::path resume;            ///< the checkpoint that the simulation goes on from, unchanged, or empty
   std::optional<double> checkpoint_every;  ///< simulated seconds; without, ten checkpoints a run
   std::filesystem::path film;              ///< empty: none
   PictureArguments picture;                ///< of the film
@@ -45,7 +45,8 @@ class Recorder {
   using Watch = std::function<bool(std::int64_t step, std::uint64_t particles)>;
 
   /// Creates the folder and begins the film; check_record() has been called before. `opened` must outlive the recorder.
-  /// bad_input where the checkpoint is of a step after the end of the run.
+  /// bad_input where the checkpoint is of a step after the end of the run, and where the simulation has been stepped
+  /// since the run in this folder; nor may it have been changed otherwise.
   static Expected<Recorder> start(OpenedSimulation& opened, const RecordArguments& arguments, RecordEvents events = {});
 
   ~Recorder();

@@ -73,6 +73,45 @@ class Runs(scenes.FolderTest):
         self.assertEqual(run.report["state_hash"], whole.report["state_hash"])
         np.testing.assert_array_equal(run.steps, whole.steps)
 
+    def test_what_was_changed_is_no_longer_the_run_of_its_folder(self):
+        hooke.run(scenes.box(), self.folder / "out", threads=1, set={"time.end": 0.1})
+        kept = (self.folder / "out" / "series.csv").read_text()
+
+        def back(sim):
+            state = sim.state()
+            sim.step()
+            sim.restore(state)
+
+        changes = (lambda sim: sim.step(20), lambda sim: sim.apply_impulse(1, [0, 1, 0]), back,
+                   lambda sim: sim.set_material("rubber", mass=1), lambda sim: sim.remove(1),
+                   lambda sim: sim.add([[1, 1, 1]]), lambda sim: sim.set_velocities(1, [0, 0, 1]),
+                   lambda sim: sim.set_external_forces(1, [0, 0, 1]), lambda sim: sim.move_collider("ball"))
+        for k, change in enumerate(changes):
+            sim = scenes.simulation(resume=self.folder / "out")
+            change(sim)
+            with self.assertRaisesRegex(hooke.InputError, "holds a run already", msg=f"change {k}"):
+                sim.run(self.folder / "out")
+        self.assertEqual((self.folder / "out" / "series.csv").read_text(), kept)
+
+    def test_a_run_that_was_ended_goes_on_in_its_folder(self):
+        whole = hooke.run(scenes.box(), self.folder / "whole", threads=1)
+        hooke.run(scenes.box(), self.folder / "out", threads=1, set={"time.end": 0.1})
+        sim = scenes.simulation(resume=self.folder / "out")
+        with self.assertRaises(hooke.InputError):
+            sim.apply_impulse(99, [0, 1, 0])
+
+        def stop(step, particles):
+            if step > 100:
+                raise StopIteration
+
+        with self.assertRaises(StopIteration):
+            sim.run(self.folder / "out", on_progress=stop)
+        self.assertTrue(100 < sim.step_count < 200)
+        sim.run(self.folder / "out")
+        run = hooke.Run(self.folder / "out")
+        self.assertEqual(run.report["state_hash"], whole.report["state_hash"])
+        np.testing.assert_array_equal(run.steps[[0, 2, -1]], [0, 100, 200])
+
     def test_a_simulation_that_was_changed(self):
         sim = scenes.simulation()
         sim.step(10)
