@@ -6,8 +6,10 @@
 #include <cmath>
 #include <condition_variable>
 #include <deque>
+#include <exception>
 #include <future>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -44,13 +46,31 @@ struct FilmThread::Impl {
   double time_of(std::int64_t frame) const { return static_cast<double>(frame) * picture.seconds_a_frame(); }
 
   // Runs in the film's own thread: OpenGL belongs to the thread that opened it.
-  void draw(std::shared_ptr<const Snapshot> first, std::promise<Expected<void>> started) {
-    auto studio = Studio::open(picture);
-    if (!studio) return started.set_value(fail(std::move(studio).error()));
-    studio->set_scene(scene, first->particles);
-    first.reset();
+  void run(std::shared_ptr<const Snapshot> first, std::promise<Expected<void>> started) {
+    std::optional<Studio> studio;
+    try {
+      auto opened = Studio::open(picture);
+      if (!opened) return started.set_value(fail(std::move(opened).error()));
+      studio = std::move(*opened);
+      studio->set_scene(scene, first->particles);
+      first.reset();
+    } catch (const std::exception& fault) {
+      return started.set_value(fail(error_of(fault)));
+    }
     started.set_value({});
+    try {
+      draw(*studio);
+    } catch (const std::exception& fault) {
+      give_up(error_of(fault));
+    }
+  }
 
+  Error error_of(const std::exception& fault) const {
+    const bool no_memory = dynamic_cast<const std::bad_alloc*>(&fault) != nullptr;
+    return {Error::Kind::io, {{file.string(), no_memory ? "there is not enough memory for it" : fault.what()}}};
+  }
+
+  void draw(Studio& studio) {
     // The first frame opens the file, so that a run that fails to start leaves an older film alone.
     std::optional<render::FilmWriter> film;
     double seconds = 0;
@@ -61,9 +81,9 @@ struct FilmThread::Impl {
         film = std::move(*opened);
       }
       const ParticleSet& particles = shot->state->particles;
-      auto image = shot->late > 0 ? studio->picture(render::drawn_back(scene, particles, shot->late), shot->time)
-                                  : studio->picture(particles, shot->time);
-      seconds += studio->figures().total_seconds;
+      auto image = shot->late > 0 ? studio.picture(render::drawn_back(scene, particles, shot->late), shot->time)
+                                  : studio.picture(particles, shot->time);
+      seconds += studio.figures().total_seconds;
       auto added = image ? film->add(*image) : Expected<void>(fail(std::move(image).error()));
       if (!added) return give_up(std::move(added).error());
     }
@@ -115,7 +135,7 @@ Expected<std::unique_ptr<FilmThread>> FilmThread::start(const std::filesystem::p
   std::promise<Expected<void>> started;
   auto outcome = started.get_future();
   impl->thread = std::thread([&impl = *impl, first = simulation.snapshot(), started = std::move(started)]() mutable {
-    impl.draw(std::move(first), std::move(started));
+    impl.run(std::move(first), std::move(started));
   });
   if (auto good = outcome.get(); !good) {
     impl->thread.join();

@@ -18,6 +18,7 @@
 #include <fstream>
 #include <iterator>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -42,6 +43,7 @@ class Stage {
   // Before the film starts:
   std::optional<Error> no_device;         ///< what opening the renderer says
   std::optional<std::size_t> last_frame;  ///< after so many frames, the next gives an error
+  bool no_memory = false;                 ///< or throws
   std::chrono::milliseconds takes{0};     ///< time to draw a frame
 
   /// From now on frames wait until open() is called.
@@ -65,6 +67,7 @@ class Stage {
   Expected<void> draw(std::vector<Vec3d> centres) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return open_; });
+    if (last_frame && drawn_.size() >= *last_frame && no_memory) throw std::bad_alloc();
     if (last_frame && drawn_.size() >= *last_frame) return fail(Error::Kind::bad_input, "renderer", "lost its device");
     drawn_.push_back(std::move(centres));
     lock.unlock();
@@ -289,6 +292,17 @@ TEST_F(FilmThreads, WithoutARendererThereIsNoFilm) {
   ASSERT_FALSE(film);
   EXPECT_EQ(film.error().text(), "OpenGL: is nowhere");
   EXPECT_FALSE(std::filesystem::exists(path("f.mp4")));
+}
+
+TEST_F(FilmThreads, WithoutMemoryTheFilmEndsNotTheRun) {
+  stage_.last_frame = 2;
+  stage_.no_memory = true;
+  const auto film = start(1);
+  ASSERT_TRUE(film);
+  run(*film, 12);
+  const auto summary = film->finish();
+  ASSERT_FALSE(summary);
+  EXPECT_EQ(summary.error().text(), path("f.mp4").string() + ": there is not enough memory for it");
 }
 
 TEST_F(FilmThreads, AFrameThatCanNotBeDrawnEndsTheFilmNotTheRun) {
