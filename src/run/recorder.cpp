@@ -9,9 +9,9 @@
 #include <chrono>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include "hooke/render/film.h"
+#include "hooke/run/kept_files.h"
 #include "hooke/run/numbers.h"
 
 namespace hooke::run {
@@ -32,21 +32,6 @@ bool resumes_in_place(const RecordArguments& arguments) {
   return !checkpoint.empty() && std::filesystem::equivalent(home, arguments.output, ignored);
 }
 
-// Copies the meshes that the scene names into the run folder, beside its scene, so that the folder can be drawn
-// anywhere. Meshes named by an absolute path or with ".." are not copied.
-Expected<void> keep_files(const std::vector<scene::SceneFile>& files, const std::filesystem::path& folder) {
-  for (const scene::SceneFile& file : files) {
-    const std::filesystem::path name(file.name), kept = folder / name;
-    const bool inside = name.is_relative() && std::find(name.begin(), name.end(), "..") == name.end();
-    std::error_code fault;
-    if (!inside || std::filesystem::equivalent(file.path, kept, fault)) continue;
-    std::filesystem::create_directories(kept.parent_path(), fault);
-    std::filesystem::copy_file(file.path, kept, std::filesystem::copy_options::overwrite_existing, fault);
-    if (fault) return fail(Error::Kind::io, kept.string(), "can't be written: " + fault.message());
-  }
-  return {};
-}
-
 Expected<io::RunWriter> open_writer(const RecordArguments& arguments, const OpenedSimulation& opened) {
   const Simulation& simulation = opened.simulation;
   const io::RunInfo info = io::describe_run(simulation);
@@ -54,9 +39,11 @@ Expected<io::RunWriter> open_writer(const RecordArguments& arguments, const Open
     return io::RunWriter::resume(arguments.output, info, opened.resolved, simulation.step_count(),
                                  simulation.scene().output);
   }
+  auto meshes = KeptFiles::copy(opened.files, arguments.output);
+  if (!meshes) return fail(std::move(meshes).error());
   auto writer = io::RunWriter::create(arguments.output, info, opened.resolved, {.overwrite = arguments.overwrite});
   if (!writer) return writer;
-  if (auto kept = keep_files(opened.files, arguments.output); !kept) return fail(std::move(kept).error());
+  if (auto kept = meshes->keep(); !kept) return fail(std::move(kept).error());
   return writer;
 }
 

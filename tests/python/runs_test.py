@@ -65,6 +65,32 @@ class Runs(scenes.FolderTest):
         hooke.run(scenes.box(time={"step": 0.001, "end": 0.1}), self.folder / "out", threads=1, overwrite=True)
         self.assertEqual(len(hooke.Run(self.folder / "out")), 3)
 
+    def test_a_run_that_can_not_start_leaves_the_old_one(self):
+        scene = scenes.box(colliders=[{"name": "rock", "shape": {"mesh": {
+            "file": "meshes/rock.obj", "scale": 0.2, "translate": [1.5, 1.5, 1.5]}}}])
+        mesh = self.folder / "meshes" / "rock.obj"
+        mesh.parent.mkdir()
+        text = (scenes.ROOT / "scenes" / "meshes" / "rock.obj").read_bytes()
+        mesh.write_bytes(text)
+        out = self.folder / "out"
+        hooke.run(scenes.box(), out, threads=1)
+        before = {file.name: file.read_bytes() for file in out.iterdir()}
+        sim = scenes.simulation(scene, folder=self.folder)
+        mesh.unlink()
+        for folder in (out, self.folder / "new" / "out"):
+            with self.assertRaisesRegex(hooke.FileError, "rock.obj"):
+                sim.run(folder, overwrite=True)
+        mesh.write_bytes(text)
+        (out / "meshes").write_text("no folder")
+        with self.assertRaisesRegex(hooke.FileError, "meshes"):
+            sim.run(out, overwrite=True)
+        (out / "meshes").unlink()
+        self.assertEqual({file.name: file.read_bytes() for file in out.iterdir()}, before)
+        self.assertFalse((self.folder / "new").exists())
+        sim.run(out, overwrite=True)
+        self.assertEqual((out / "meshes" / "rock.obj").read_bytes(), text)
+        self.assertEqual([file.name for file in (out / "meshes").iterdir()], ["rock.obj"])
+
     def test_a_run_goes_on_in_its_folder(self):
         whole = hooke.run(scenes.box(), self.folder / "whole", threads=1)
         end = {"time.end": 0.1}
