@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "process_check.h"
 #include "simulation.h"
 
 namespace hooke::python {
@@ -15,6 +16,7 @@ using OptionalPath = std::optional<std::filesystem::path>;
 std::unique_ptr<PythonSimulation> from_scene(const std::filesystem::path& file, const py::dict& set, int threads,
                                              const std::string& device, const OptionalPath& resume,
                                              bool allow_outside) {
+  refuse_fork();
   return std::make_unique<PythonSimulation>(read_scene(file, {set, allow_outside, resume}),
                                             DeviceOptions{threads, device}, resume);
 }
@@ -22,6 +24,7 @@ std::unique_ptr<PythonSimulation> from_scene(const std::filesystem::path& file, 
 std::unique_ptr<PythonSimulation> from_dict(const py::dict& scene, const std::filesystem::path& folder,
                                             const py::dict& set, int threads, const std::string& device,
                                             const OptionalPath& resume, bool allow_outside) {
+  refuse_fork();
   return std::make_unique<PythonSimulation>(read_scene(scene, folder, {set, allow_outside, resume}),
                                             DeviceOptions{threads, device}, resume);
 }
@@ -30,6 +33,7 @@ std::unique_ptr<PythonSimulation> from_arrays(const py::dict& scene, const py::o
                                               const py::object& material, const py::object& id,
                                               const std::filesystem::path& folder, const py::dict& set, int threads,
                                               const std::string& device) {
+  refuse_fork();
   const py::dict rules = py::reinterpret_borrow<py::dict>(scene.attr("copy")());
   rules.attr("setdefault")("particles", py::list());
   scene::LoadedScene loaded = read_scene(rules, folder, {set, false, {}});

@@ -15,11 +15,13 @@
 #include "hooke/run/output_check.h"
 #include "hooke/run/playback.h"
 #include "picture_arguments.h"
+#include "process_check.h"
 
 namespace hooke::python {
 namespace {
 
 io::RunReader open_reader(const std::filesystem::path& folder) {
+  refuse_fork();
   Expected<io::RunReader> reader = [&] {
     const py::gil_scoped_release free;
     return io::RunReader::open(folder);
@@ -69,6 +71,7 @@ std::size_t PythonRun::pick(std::optional<double> time, std::optional<std::int64
 }
 
 SnapshotView PythonRun::snapshot(std::size_t index) const {
+  refuse_fork();
   auto snapshot = [&] {
     const py::gil_scoped_release free;
     return reader_.read(index);
@@ -91,6 +94,7 @@ const Scene& PythonRun::scene() {
 
 py::array PythonRun::render(std::optional<double> time, std::pair<int, int> size, const std::string& color_by,
                             const std::optional<std::array<double, 2>>& range, int samples, bool legend, bool alpha) {
+  refuse_fork();
   const auto arguments = to_picture_arguments(size, color_by, range, samples, legend, alpha);
   pick(time, {}, {});  // refuses a time outside
   const Scene& drawn = scene();

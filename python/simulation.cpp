@@ -4,7 +4,6 @@
 #include "simulation.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -12,26 +11,17 @@
 #include "hooke/io/checkpoint.h"
 #include "hooke/run/numbers.h"
 #include "hooke/run/start_checks.h"
+#include "process_check.h"
 
 namespace hooke::python {
 namespace {
 
 constexpr double kBatchSeconds = 0.05;
 
-// The threads of the engine don't come along when a process forks: a child would wait for them forever.
-void refuse_fork() {
-  static const pid_t first_user = getpid();
-  if (getpid() == first_user) return;
-  raise(ErrorClass::busy, {{"process",
-                            "this process was forked from one that had used hooke, whose threads it lacks; start it "
-                            "anew: multiprocessing.set_start_method(\"spawn\")"}});
-}
-
 }  // namespace
 
 PythonSimulation::PythonSimulation(scene::LoadedScene loaded, const DeviceOptions& device,
                                    const std::optional<std::filesystem::path>& resume) {
-  refuse_fork();
   if (device.device != "cpu" && device.device != "reference") {
     raise_input("device", fmt::format("\"{}\" is not known; known are \"cpu\", \"reference\"", device.device));
   }
@@ -43,8 +33,8 @@ PythonSimulation::PythonSimulation(scene::LoadedScene loaded, const DeviceOption
 
 Simulation& PythonSimulation::use() {
   if (!opened_) raise(ErrorClass::closed, {{"simulation", "is closed"}});
+  refuse_fork();  // another thread of the parent may have been at work
   if (is_busy()) raise(ErrorClass::busy, {{"simulation", "is at work in another thread"}});
-  refuse_fork();
   return opened_->simulation;
 }
 

@@ -65,6 +65,7 @@ struct RunOptions {
 /// others raise BusyError.
 class PythonSimulation {
  public:
+  /// refuse_fork() was called before the scene was read.
   PythonSimulation(scene::LoadedScene loaded, const DeviceOptions& device,
                    const std::optional<std::filesystem::path>& resume);
 

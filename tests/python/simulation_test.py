@@ -206,15 +206,25 @@ class Threads(unittest.TestCase):
         sim = scenes.simulation()
         sim.step()
         sim.render(size=(32, 18))
-        child = os.fork()
-        if child == 0:
-            del sim
-            try:
-                scenes.simulation()
-            except hooke.BusyError as error:
-                os._exit(0 if "spawn" in str(error) else 2)
-            os._exit(1)
-        self.assertEqual(os.waitpid(child, 0)[1], 0)
+        with tempfile.TemporaryDirectory() as folder:
+            run = hooke.run(scenes.box(), folder + "/out", threads=1)
+            run.render(size=(32, 18))
+            calls = (sim.step, sim.measure, lambda: scenes.simulation(), lambda: scenes.simulation({"hooke": 2}),
+                     lambda: hooke.Simulation.from_scene("nowhere.json"),
+                     lambda: hooke.Simulation.from_arrays({}, None), lambda: hooke.Run(folder + "/out"),
+                     lambda: run[0], run.render)
+            child = os.fork()
+            if child == 0:
+                told = 0
+                for call in calls:
+                    try:
+                        call()
+                    except hooke.BusyError as error:
+                        told += "spawn" in str(error)
+                del sim, run, calls, call
+                gc.collect()
+                os._exit(0 if told == 9 else 1)
+            self.assertEqual(os.waitpid(child, 0)[1], 0)
 
 
 class Signals(scenes.FolderTest):
