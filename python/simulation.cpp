@@ -118,7 +118,7 @@ py::array PythonSimulation::column(const py::object& out, bool velocities) {
   } else {
     array = py::reinterpret_borrow<py::array_t<Real>>(out);
     const bool fits = array.ndim() == 2 && array.shape(0) == count && array.shape(1) == 3;
-    constexpr int kPlain = py::array::c_style | py::detail::npy_api::NPY_ARRAY_ALIGNED_;
+    constexpr int kPlain = int{py::array::c_style} | int{py::detail::npy_api::NPY_ARRAY_ALIGNED_};
     if (!fits || (array.flags() & kPlain) != kPlain || !array.writeable()) {
       raise_input("out", fmt::format("expected a writeable, aligned array of shape ({}, 3) in C order", count));
     }

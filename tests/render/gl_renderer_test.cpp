@@ -320,7 +320,8 @@ TEST_F(GlRenderer, LinearLightIsTheSamePictureNotCutOffAtWhite) {
   settings.linear = true;
   const auto linear = make(settings);
   for (const PictureScene& p : picture_scenes()) {
-    const render::Frame frame = frame_of(p);
+    render::Frame frame = frame_of(p);
+    frame.tank.walls = {};  // their edges are blended with what lies behind as the target keeps it, so differently
     const auto drawn = stored->render(frame);
     const auto light = linear->render_linear(frame);
     ASSERT_TRUE(drawn) << drawn.error().text();
