@@ -10,6 +10,7 @@ import re
 import shutil
 import subprocess
 import sys
+import sysconfig
 
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
@@ -25,13 +26,22 @@ class CMakeBuild(build_ext):
         jobs = os.environ.get("HOOKE_PIP_JOBS") or str(os.cpu_count())
         options = ["-DCMAKE_BUILD_TYPE=Release", f"-DPython_EXECUTABLE={sys.executable}", "-DHOOKE_BUILD_PYTHON=ON",
                    "-DHOOKE_BUILD_APPS=OFF", "-DHOOKE_BUILD_TESTS=OFF", "-DHOOKE_BUILD_BENCH=OFF"]
+        for tool in ("cmake", "ninja"):
+            if shutil.which(tool) is None:
+                sys.exit(f"hooke: {tool} is needed to build it (Debian: cmake, ninja-build)")
         subprocess.run(["cmake", "-G", "Ninja", "-S", ROOT, "-B", build, *options], check=True)
+        targets = subprocess.run(["cmake", "--build", build, "--target", "help"], check=True, capture_output=True, text=True)
+        if "hooke_python:" not in targets.stdout:
+            sys.exit(f"hooke: pybind11 2.10 or newer, or the headers of Python, are not found for {sys.executable} "
+                     "(Debian: pybind11-dev, python3-dev)")
         subprocess.run(["cmake", "--build", build, "--target", "hooke_python", "-j", jobs], check=True)
         target = pathlib.Path(self.get_ext_fullpath(extension.name))
         target.parent.mkdir(parents=True, exist_ok=True)
-        (module,) = (build / "python" / "hooke").glob("_hooke*.so")
-        shutil.copy2(module, target)
-        shutil.copy2(build / "hooke-gl.so", target.parent)
+        suffix = sysconfig.get_config_var("EXT_SUFFIX")  # a folder used again may hold modules of other versions
+        shutil.copy2(build / "python" / "hooke" / f"_hooke{suffix}", target)
+        drawing = build / "hooke-gl.so"
+        if drawing.exists():  # else the package has no pictures
+            shutil.copy2(drawing, target.parent)
 
 
 version = re.search(r"project\(hooke VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)

@@ -94,7 +94,8 @@ std::vector<std::size_t> to_materials(const py::object& material, std::size_t co
   }
   if (!is_list && !py::isinstance<py::sequence>(material)) material_index(material, names);  // raises
   std::vector<std::size_t> indices;
-  for (const py::handle value : py::reinterpret_borrow<py::sequence>(material)) {
+  const py::tuple values(material);  // keeps what an array makes of its numbers
+  for (const py::handle value : values) {
     indices.push_back(material_index(value, names));
   }
   if (indices.size() != count) {

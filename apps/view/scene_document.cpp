@@ -166,6 +166,10 @@ Expected<void> SceneDocument::change(Simulation& simulation, const scene::Json& 
     // The clock goes on where it is, as nearly as whole steps allow.
     state.step = std::llround(simulation.time() / changed.time_step);
     changed.structure = simulation.scene().structure;
+    // Of another integrator: velocity Verlet begins as particles that are added do, with no acceleration of a last
+    // step.
+    const std::size_t accelerated = changed.integrator == Integrator::velocity_verlet ? state.particles.size() : 0;
+    state.particles.acceleration.resize(accelerated, {0, 0, 0});
     done = rebuild(simulation, std::move(changed), std::move(state), hand);
   } else if (needs(Effect::at_once)) {
     done = change_at_once(simulation, changed, pointers, hand);

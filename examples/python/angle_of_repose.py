@@ -27,7 +27,7 @@ def scene(friction, wide, high):
         "domain": {"min": [0, 0, 0], "max": [length, spacing * (high + 2), spacing * thick],
                    "walls": ["spring", "spring", "periodic"]},
         "materials": {"grain": {"radius": RADIUS, "mass": 0.1, "stiffness": 20000, "shear": 8, "damping": 4,
-                                "friction": friction, "tension": 0, "color": "#d8b06a"}},
+                                "friction": friction, "tension": False, "color": "#d8b06a"}},
         "particles": [{"material": "grain",
                        "block": {"min": [(length - spacing * wide) / 2, RADIUS, RADIUS],
                                  "max": [(length + spacing * wide) / 2 - RADIUS, spacing * high, spacing * thick - RADIUS],

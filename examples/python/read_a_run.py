@@ -35,8 +35,8 @@ def main(argv=None):
     speed = np.linalg.norm(last.v, axis=1)
     print(f"  speeds at the end: half below {np.median(speed):.3g} m/s, the fastest {speed.max():.3g} m/s,"
           f" particle {last.id[speed.argmax()]}")
-    kinetic = run.series["kinetic_energy"]
-    print(f"  kinetic energy: at most {kinetic.max():.3g} J, at {run.series['time'][kinetic.argmax()]:g} s")
+    kinetic = run.series["kinetic"]
+    print(f"  kinetic energy: at most {kinetic.max():.3g} J, at {run.series['t'][kinetic.argmax()]:g} s")
     return table
 
 

@@ -44,7 +44,7 @@ set(program [[
 int main() {
   const char* text = R"({"hooke": 1, "name": "n", "time": {"step": 0.001, "end": 1},
     "domain": {"min": [0, 0, 0], "max": [1, 1, 1]}, "materials": {"a": {"radius": 0.1, "mass": 1, "stiffness": 100}},
-    "particles": [{"material": "a", "position": [0.5, 0.5, 0.5]}],
+    "particles": [{"material": "a", "block": {"min": [0.2, 0.2, 0.2], "max": [0.8, 0.8, 0.8], "spacing": 0.3}}],
     "colliders": [{"shape": {"mesh": {"file": "rock.obj"}}}]})";
   auto loaded = hooke::scene::parse_scene(text, "n", SCENES, {});
   if (loaded) return 1;

@@ -46,7 +46,7 @@ class Runs(scenes.FolderTest):
         np.testing.assert_array_equal(run.radii, [0.05])
         np.testing.assert_array_equal(run.masses, [0.5])
         np.testing.assert_array_equal(run.series["step"], run.steps)
-        self.assertIn("kinetic_energy", run.series.dtype.names)
+        self.assertIn("kinetic", run.series.dtype.names)
         for wrong in ({"time": 7}, {"time": float("nan")}, {"step": 3}, {"time": 0, "step": 0}):
             with self.assertRaises(hooke.InputError):
                 run.snapshot(**wrong)

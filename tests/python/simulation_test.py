@@ -253,13 +253,11 @@ except KeyboardInterrupt:
         self.assertEqual(child.returncode, 0)
 
     def test_ctrl_c_works_soon_after_fast_steps(self):
-        """Steps of the emptied box are so fast that a million of them may be taken at once, later ones are not."""
+        """Steps of an empty box are so fast that very many are taken at once; those of a full one are not."""
         sim = scenes.simulation()
-        ids = sim.snapshot().id
-        x = sim.snapshot().x
-        sim.remove(ids)
-        sim.step(10**6)
-        sim.add(x)
+        sim.remove(sim.snapshot().id)
+        sim.step(10**5)
+        sim.add(np.stack(np.meshgrid(*[np.arange(0.1, 1.95, 0.12)] * 3), axis=-1).reshape(-1, 3))
 
         def ring(*_):
             raise TimeoutError
@@ -269,7 +267,7 @@ except KeyboardInterrupt:
         signal.setitimer(signal.ITIMER_REAL, 0.2)
         with self.assertRaises(TimeoutError):
             sim.step(10**9)
-        self.assertLess(time.monotonic() - start, 2)
+        self.assertLess(time.monotonic() - start, 3)
 
     def test_a_run_that_is_ended_can_be_resumed(self):
         scene = scenes.box(time={"step": 0.001, "end": 500})
@@ -322,7 +320,7 @@ class Objects(unittest.TestCase):
         self.assertIsNone(gone())
         raw = hooke.Simulation.__new__(hooke.Simulation)
         gc.collect()
-        with self.assertRaises(TypeError):
+        with self.assertRaises(hooke.ClosedError):
             raw.step()
 
     def test_many_simulations(self):

@@ -5,6 +5,8 @@
 
 #include "hooke/render/gl/gl_renderer.h"
 
+extern "C" __attribute__((visibility("default"))) const char* hooke_gl_version() { return HOOKE_VERSION; }
+
 extern "C" __attribute__((visibility("default"))) void hooke_make_gl_renderer(
     const hooke::render::RenderSettings& settings,
     hooke::Expected<std::unique_ptr<hooke::render::Renderer>>& renderer) {
