@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: The Hooke authors
 # SPDX-License-Identifier: MIT
 
-# Each installed header compiles by itself, and so does each example in its comments: lines of code there are indented by
-# four and more spaces; formulas, which are too, have no semicolon.
+# All installed headers compile, and so does each example in their comments: lines of code there are indented by four and more
+# spaces; formulas, which are too, have no semicolon.
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 file(REMOVE_RECURSE ${WORK})
 string(REPLACE "," ";" headers "${PUBLIC_HEADERS}")
@@ -10,8 +10,6 @@ set(includes "")
 set(examples "")
 set(count 0)
 foreach(header IN LISTS headers)
-  string(MAKE_C_IDENTIFIER ${header} name)
-  file(WRITE ${WORK}/source/${name}.cpp "#include <hooke/${header}>\n")
   string(APPEND includes "#include <hooke/${header}>\n")
 
   # The lines of code of a header, all in one function: an example is at most one a header.
@@ -47,8 +45,7 @@ file(WRITE ${WORK}/source/CMakeLists.txt [[
 cmake_minimum_required(VERSION 3.25)
 project(headers LANGUAGES CXX)
 find_package(hooke REQUIRED)
-file(GLOB sources *.cpp)
-add_library(headers OBJECT ${sources})
+add_library(headers OBJECT examples.cpp)
 target_compile_options(headers PRIVATE -fsyntax-only -Wall -Wextra -Werror -Wno-unused-function)
 target_link_libraries(headers PRIVATE hooke::hooke)
 ]])
