@@ -41,7 +41,7 @@ test_packages() {
   echo "== hooke"
   install /packages/hooke_*.deb
   in_it hooke check /usr/share/hooke/scenes/ball-pit.json
-  in_it hooke run ball-pit -o /work/balls --set time.end=0.2 --report /work/report.json
+  in_it hooke run /usr/share/hooke/scenes/ball-pit.json -o /work/balls --set time.end=0.2 --report /work/report.json
   in_it test -s /usr/share/man/man1/hooke.1
   if in_it hooke render /work/balls -o /work/balls.png 2>/tmp/refused; then
     echo "a picture was drawn without OpenGL" >&2
