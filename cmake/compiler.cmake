@@ -19,7 +19,7 @@ target_compile_options(hooke_compiler_flags INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 
 # A fast linker where there is one, for the builds that are linked again and again.
-if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE STREQUAL "Release")
+if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT CMAKE_CROSSCOMPILING)
   find_program(HOOKE_MOLD mold DOC "Fast linker; builds work without it")
   if(HOOKE_MOLD)
     add_link_options(-fuse-ld=mold)
