@@ -5,7 +5,7 @@
 # tools/test.sh            the format, and every test but the long ones, in one build with assertions
 # tools/test.sh sanitize   what reads, lists and stores under the address sanitizer, what runs on several threads under
 #                          the thread sanitizer
-# tools/test.sh soak       the long tests, and everything but those under the sanitizers
+# tools/test.sh soak       the long tests, everything but those under the sanitizers, and the engine on another processor
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=$(nproc)
@@ -31,6 +31,7 @@ case "${1:-}" in
     build_and_test asan-everything
     ctest --preset asan-soak
     build_and_test tsan-everything
+    build_and_test aarch64
     ;;
   *)
     echo "usage: tools/test.sh [sanitize|soak]" >&2
