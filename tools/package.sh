@@ -31,9 +31,9 @@ test_packages() {
     exit 1
   }
   mount -t proc proc "$root/proc"
-  mkdir "$root/packages" "$root/work"
+  mkdir "$root/packages" "$root/trial"
   cp build/packages/*.deb "$root/packages/"
-  cp -r examples/python "$root/work/"
+  cp -r examples/python "$root/trial/"
   block_of() { awk -v start='^```'"$1" '$0 ~ start { on = 1; next } on && /^```$/ { exit } on' docs/embedding.md; }
   in_it() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"; }
   install() { in_it sh -c "apt-get install -y --no-install-recommends $* >/tmp/log 2>&1 || { tail -20 /tmp/log; exit 1; }"; }
@@ -41,20 +41,20 @@ test_packages() {
   echo "== hooke"
   install /packages/hooke_*.deb
   in_it hooke check /usr/share/hooke/scenes/ball-pit.json
-  in_it hooke run /usr/share/hooke/scenes/ball-pit.json -o /work/balls --set time.end=0.2 --report /work/report.json
+  in_it hooke run /usr/share/hooke/scenes/ball-pit.json -o /trial/balls --set time.end=0.2 --report /trial/report.json
   in_it test -s /usr/share/man/man1/hooke.1
-  if in_it hooke render /work/balls -o /work/balls.png 2>/tmp/refused; then
+  if in_it hooke render /trial/balls -o /trial/balls.png 2>build/refused.txt; then
     echo "a picture was drawn without OpenGL" >&2
     exit 1
   fi
-  grep -q OpenGL /tmp/refused
+  grep -q OpenGL build/refused.txt
   install libegl1 libgl1 libgl1-mesa-dri fonts-dejavu-core
-  in_it hooke render /work/balls -o /work/balls.png
+  in_it hooke render /trial/balls -o /trial/balls.png
 
   echo "== libhooke-dev"
   install /packages/libhooke-dev_*.deb g++ cmake make
   in_it sh -ec '
-    cd /work
+    cd /trial
     mkdir core && cd core
     cat >main.cpp <<"CPP"
 #include <hooke/backends/cpu/cpu_backend.h>
@@ -64,16 +64,16 @@ CPP
     printf "cmake_minimum_required(VERSION 3.25)\nproject(core CXX)\nfind_package(hooke REQUIRED COMPONENTS core)\nadd_executable(core main.cpp)\ntarget_link_libraries(core hooke::hooke)\n" >CMakeLists.txt
     cmake -S . -B build >/dev/null && cmake --build build >/dev/null && build/core'
   install libfmt-dev libhdf5-dev zlib1g-dev libcairo2-dev libepoxy-dev libopenexr-dev libpng-dev pkg-config libopenvdb-dev libboost-iostreams-dev
-  mkdir "$root/work/embedding"
-  block_of cpp >"$root/work/embedding/main.cpp"
-  block_of cmake >"$root/work/embedding/CMakeLists.txt"
+  mkdir "$root/trial/embedding"
+  block_of cpp >"$root/trial/embedding/main.cpp"
+  block_of cmake >"$root/trial/embedding/CMakeLists.txt"
   in_it sh -ec '
-    cd /work/embedding
+    cd /trial/embedding
     cmake -S . -B build >/dev/null && cmake --build build >/dev/null && build/example'
 
   echo "== python3-hooke"
   install /packages/python3-hooke_*.deb
-  in_it sh -ec 'cd /work && python3 python/bouncing_balls.py'
+  in_it sh -ec 'cd /trial && python3 python/bouncing_balls.py'
   echo "the packages are good"
 }
 
