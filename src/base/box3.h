@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <limits>
-
 #include "hooke/base/vec3.h"
 
 namespace hooke {
@@ -15,7 +13,7 @@ struct Box3 {
 
   /// The one that contains nothing, which add() starts from: inside out.
   static HOOKE_HD Box3 none() {
-    constexpr R kInfinite = std::numeric_limits<R>::infinity();
+    constexpr R kInfinite = static_cast<R>(__builtin_inff());
     return {{kInfinite, kInfinite, kInfinite}, {-kInfinite, -kInfinite, -kInfinite}};
   }
   HOOKE_HD bool is_none() const { return min.x > max.x; }

@@ -75,7 +75,7 @@ ContactLaw<double> law_of(const PairRow<Real>& row) {
 
 /// Brings the coordinates (m) of a point along periodic axes back into the domain.
 template <class Real>
-void wrap_periodic(const RulesView<Real>& rules, Vec3<Real>& x) {
+HOOKE_HD void wrap_periodic(const RulesView<Real>& rules, Vec3<Real>& x) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!rules.periodic[axis]) continue;
     component(x, axis) = wrap_coordinate(component(x, axis), component(rules.min, axis), component(rules.max, axis));
@@ -84,7 +84,7 @@ void wrap_periodic(const RulesView<Real>& rules, Vec3<Real>& x) {
 
 /// Whether a point (m) has left through an open face.
 template <class Real>
-bool is_outside_open_face(const RulesView<Real>& rules, const Vec3<Real>& x) {
+HOOKE_HD bool is_outside_open_face(const RulesView<Real>& rules, const Vec3<Real>& x) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!rules.open_or_periodic[axis] || rules.periodic[axis]) continue;
     if (component(x, axis) < component(rules.min, axis) || component(x, axis) > component(rules.max, axis)) return true;

@@ -13,7 +13,7 @@ namespace hooke {
 
 /// Whether a brick without samples lies inside the closed mesh of a field: along its row the surface lies between the
 /// inside and the next brick with samples, whose first one tells on which side of it the gap is.
-inline bool is_inside_gap(const DistanceFieldView& field, std::uint64_t key) {
+HOOKE_HD bool is_inside_gap(const DistanceFieldView& field, std::uint64_t key) {
   std::int32_t begin = 0, end = field.count;  // of the bricks among which the first one behind `key` is
   while (begin < end) {
     const std::int32_t middle = begin + (end - begin) / 2;
@@ -32,7 +32,7 @@ inline bool is_inside_gap(const DistanceFieldView& field, std::uint64_t key) {
 
 /// Whether `at` (m, from the field's origin) is inside the closed mesh of a field: where there are samples, the
 /// interpolated distance is negative. No point is inside an open mesh.
-inline bool encloses(const DistanceFieldView& field, const Vec3d& at) {
+HOOKE_HD bool encloses(const DistanceFieldView& field, const Vec3d& at) {
   HOOKE_ASSERT(field.slots != nullptr && field.cell > 0, field.slots, field.cell);
   const Vec3d u = (1 / field.cell) * at;
   std::int32_t brick[3];
@@ -46,13 +46,13 @@ inline bool encloses(const DistanceFieldView& field, const Vec3d& at) {
 }
 
 /// Whether x (m) is inside the solid; for a plane, behind it.
-inline bool encloses(const ShapeGeometry<double>& shape, const Vec3d& x) {
+HOOKE_HD bool encloses(const ShapeGeometry<double>& shape, const Vec3d& x) {
   if (shape.kind == ShapeKind::mesh) return encloses(shape.field, x - shape.center);
   return shape_distance(shape, x).distance < 0;
 }
 
 /// The same for a shape where it is placed; whether it is hollow makes no difference.
-inline bool encloses(const PlacedCollider<double>& body, const Vec3d& x) {
+HOOKE_HD bool encloses(const PlacedCollider<double>& body, const Vec3d& x) {
   const Vec3d off = x - body.pivot;
   return encloses(body.shape, Vec3d{dot(body.turn[0], off), dot(body.turn[1], off), dot(body.turn[2], off)});
 }

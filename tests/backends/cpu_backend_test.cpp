@@ -34,9 +34,10 @@ TEST(CpuBackend, TakesAsManyThreadsAsTheMachineHas) {
   EXPECT_EQ((*backend)->info().isa, available_isas().front().name);
 }
 
-TEST(CpuBackend, AlwaysHasThePortableInstructionSet) {
-  EXPECT_STREQ(available_isas().back().name, "portable");
+TEST(CpuBackend, AlwaysHasThePortableAndTheScalarInstructionSet) {
+  EXPECT_STREQ(available_isas().back().name, "scalar");
   EXPECT_TRUE(choose_isa("portable"));
+  EXPECT_TRUE(choose_isa("scalar"));
 }
 
 TEST(CpuBackend, KeepsItsListWhileNothingMoves) {

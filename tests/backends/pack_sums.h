@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "hooke/backends/cpu/force_pass.h"
+#include "hooke/passes/exact_parts.h"
 
 namespace hooke::test {
 

@@ -10,11 +10,11 @@
 
 #include "hooke/backends/cpu/attraction_tree.h"
 #include "hooke/backends/cpu/exclusions.h"
-#include "hooke/backends/cpu/id_table.h"
 #include "hooke/backends/cpu/particle_slots.h"
 #include "hooke/backends/cpu/pinned_particles.h"
 #include "hooke/base/threads.h"
 #include "hooke/core/backend.h"
+#include "hooke/passes/id_table.h"
 #include "support/assertions.h"
 #include "support/engines.h"
 #include "support/particles.h"

@@ -18,8 +18,10 @@ MAY_USE = {
     "neighbours": {"base"},
     "core": {"base", "physics", "neighbours"},
 }
-for upper in ("backends/reference", "backends/cpu", "scene", "io", "render/gl", "render"):
+for upper in ("passes", "backends/reference", "backends/cpu", "backends/gpu", "scene", "io", "render/gl", "render"):
     MAY_USE[upper] = {"base", "physics", "neighbours", "core"}
+MAY_USE["backends/cpu"] |= {"passes"}
+MAY_USE["backends/gpu"] |= {"passes"}
 MAY_USE["render/gl"] |= {"render"}
 MAY_USE["volumes"] = {"base", "physics", "neighbours", "core"}
 for user in ("scene", "io"):

@@ -14,7 +14,6 @@
 #include "hooke/backends/cpu/external_forces.h"
 #include "hooke/backends/cpu/field_forces.h"
 #include "hooke/backends/cpu/isa.h"
-#include "hooke/backends/cpu/particle_record.h"
 #include "hooke/backends/cpu/particle_state.h"
 #include "hooke/backends/cpu/pinned_particles.h"
 #include "hooke/backends/cpu/spring_lists.h"
@@ -22,6 +21,7 @@
 #include "hooke/base/huge_pages.h"
 #include "hooke/core/scene.h"
 #include "hooke/core/sums.h"
+#include "hooke/passes/particle_record.h"
 
 namespace hooke {
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "hooke/backends/cpu/attraction_sums.h"
-#include "hooke/backends/cpu/id_table.h"
-#include "hooke/backends/cpu/particle_record.h"
 #include "hooke/base/huge_pages.h"
 #include "hooke/core/scene.h"
+#include "hooke/passes/id_table.h"
+#include "hooke/passes/particle_record.h"
 
 namespace hooke {
 

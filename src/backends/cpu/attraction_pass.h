@@ -69,6 +69,7 @@ struct AttractionLoops {
   void potential_of_cells(const AttractionWork<float>& work);      \
   void potential_of_cells(const AttractionWork<double>& work);     \
   }
+HOOKE_DECLARE_ATTRACTION(scalar)
 HOOKE_DECLARE_ATTRACTION(portable)
 HOOKE_DECLARE_ATTRACTION(avx2)
 HOOKE_DECLARE_ATTRACTION(avx512)

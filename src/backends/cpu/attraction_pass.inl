@@ -5,7 +5,7 @@
 // sources one after the other, so that no bit depends on the number of lanes.
 
 #include "hooke/backends/cpu/attraction_pass.h"
-#include "hooke/backends/cpu/pack_attraction.h"
+#include "hooke/backends/cpu/packs.h"
 
 namespace hooke::HOOKE_ISA {
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "hooke/backends/cpu/attraction_tree.h"
-#include "hooke/backends/cpu/id_table.h"
 #include "hooke/base/vec3.h"
 #include "hooke/core/attraction.h"
+#include "hooke/passes/id_table.h"
 
 namespace hooke {
 

@@ -6,11 +6,11 @@
 #include <cstddef>
 #include <mutex>
 
-#include "hooke/backends/cpu/id_table.h"
-#include "hooke/backends/cpu/particle_record.h"
 #include "hooke/base/box3.h"
 #include "hooke/base/parallel.h"
 #include "hooke/core/backend.h"
+#include "hooke/passes/id_table.h"
+#include "hooke/passes/particle_record.h"
 
 namespace hooke {
 

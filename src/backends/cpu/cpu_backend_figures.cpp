@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "hooke/backends/cpu/contact_reports.h"
 #include "hooke/base/format.h"
+#include "hooke/passes/contact_reports.h"
 
 namespace hooke {
 

@@ -11,12 +11,8 @@
 #include <vector>
 
 #include "hooke/backends/cpu/applied_forces.h"
-#include "hooke/backends/cpu/contact_scan.h"
-#include "hooke/backends/cpu/departures.h"
 #include "hooke/backends/cpu/isa.h"
 #include "hooke/backends/cpu/particle_state.h"
-#include "hooke/backends/cpu/pass_rules.h"
-#include "hooke/backends/cpu/placed_sinks.h"
 #include "hooke/backends/cpu/tile_report.h"
 #include "hooke/backends/cpu/verlet_list.h"
 #include "hooke/base/parallel.h"
@@ -25,6 +21,10 @@
 #include "hooke/core/placed_colliders.h"
 #include "hooke/core/sums.h"
 #include "hooke/neighbours/neighbour_list.h"
+#include "hooke/passes/contact_scan.h"
+#include "hooke/passes/departures.h"
+#include "hooke/passes/pass_rules.h"
+#include "hooke/passes/placed_sinks.h"
 
 namespace hooke {
 
@@ -111,12 +111,12 @@ class CpuBackend final : public Backend {
   // The force pass and what it reports -------------------------------------------------------------------------------
 
   void place_at(const Instant& now);
-  ForcePass<Real> make_pass(Vec3<Real>* acceleration);
+  TilePass<Real> make_pass(Vec3<Real>* acceleration);
   ContactScan<Real> contact_scan() const { return {rules_, colliders_.view(), particles_.records.data()}; }
   template <class Look>
-  void run_pass(const ForcePass<Real>& pass, StepReport& sums, const Look& look);
-  void run_tile(const ForcePass<Real>& pass, std::size_t s, TileReport& report) const;
-  void run_slices(const ForcePass<Real>& pass, std::size_t s, std::size_t g, std::size_t end, const std::uint32_t* rows,
+  void run_pass(const TilePass<Real>& pass, StepReport& sums, const Look& look);
+  void run_tile(const TilePass<Real>& pass, std::size_t s, TileReport& report) const;
+  void run_slices(const TilePass<Real>& pass, std::size_t s, std::size_t g, std::size_t end, const std::uint32_t* rows,
                   const std::uint32_t* first_row, TileReport& report) const;
 
   // The rows of a slice in the neighbour list; noninteracting slices have none.

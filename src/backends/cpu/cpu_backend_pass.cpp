@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "hooke/backends/cpu/contact_reports.h"
 #include "hooke/base/stopwatch.h"
+#include "hooke/passes/contact_reports.h"
 
 namespace hooke {
 
@@ -16,7 +16,7 @@ void CpuBackend<Real>::apply_forces(const Instant& now, StepReport& report) {
   const Stopwatch forcing(times_.force);
   place_at(now);
   apply_others(true, report);
-  const ForcePass<Real> pass = make_pass(verlet() ? particles_.acceleration.data() : nullptr);
+  const TilePass<Real> pass = make_pass(verlet() ? particles_.acceleration.data() : nullptr);
   run_pass(pass, report, [&](std::size_t s, const TileReport& tile) {
     std::optional<Departures> left;  // large, and seldom needed
     Condition found;
@@ -52,11 +52,12 @@ void CpuBackend<Real>::place_at(const Instant& now) {
 }
 
 template <class Real>
-ForcePass<Real> CpuBackend<Real>::make_pass(Vec3<Real>* acceleration) {
-  return {rules_.constants(),
-          colliders_.view(),
-          {particles_.records.data(), particles_.next.data(), acceleration, applied_.forces(),
-           applied_.pinned().lanes(), list_.position_at_build(), list_.frames(), list_.next_step()}};
+TilePass<Real> CpuBackend<Real>::make_pass(Vec3<Real>* acceleration) {
+  return {
+      {rules_.constants(),
+       colliders_.view(),
+       {particles_.records.data(), particles_.next.data(), acceleration, applied_.forces(), applied_.pinned().lanes()}},
+      {list_.position_at_build(), list_.frames(), list_.next_step()}};
 }
 
 // Sums the forces that the pass adds. Pairs whose spring broke may touch from the next step on.
@@ -74,7 +75,7 @@ void CpuBackend<Real>::finish_tile(std::size_t s, Vec3<Real>* acceleration, Appl
 }
 
 template <class Real>
-void CpuBackend<Real>::run_tile(const ForcePass<Real>& pass, std::size_t s, TileReport& report) const {
+void CpuBackend<Real>::run_tile(const TilePass<Real>& pass, std::size_t s, TileReport& report) const {
   const std::size_t slices = (particles_.slots.end_of(s) - s * kTile + kLanes - 1) / kLanes;
   report.clear();
   if (particles_.slots.is_noninteracting(s * kTile)) return run_slices(pass, s, 0, slices, nullptr, nullptr, report);
@@ -93,7 +94,7 @@ void CpuBackend<Real>::run_tile(const ForcePass<Real>& pass, std::size_t s, Tile
 }
 
 template <class Real>
-void CpuBackend<Real>::run_slices(const ForcePass<Real>& pass, std::size_t s, std::size_t g, std::size_t end,
+void CpuBackend<Real>::run_slices(const TilePass<Real>& pass, std::size_t s, std::size_t g, std::size_t end,
                                   const std::uint32_t* rows, const std::uint32_t* first_row, TileReport& report) const {
   TileWork<Real> work;
   work.first = s * kTile + g * kLanes;
@@ -134,7 +135,7 @@ void CpuBackend<Real>::apply_boundaries_to_slice(std::size_t s, std::size_t g, D
 // Runs all tiles and adds their sums; calls look(s, report) after each tile s.
 template <class Real>
 template <class Look>
-void CpuBackend<Real>::run_pass(const ForcePass<Real>& pass, StepReport& total, const Look& look) {
+void CpuBackend<Real>::run_pass(const TilePass<Real>& pass, StepReport& total, const Look& look) {
   for_ranges(particles_.slots.tile_count(), 1, [&](std::size_t first, std::size_t last) {
     TileReport report;
     StepSums part;
@@ -144,7 +145,7 @@ void CpuBackend<Real>::run_pass(const ForcePass<Real>& pass, StepReport& total, 
       const std::size_t s = particles_.slots.tile(n);
       run_tile(pass, s, report);
       report.add_to(part);
-      if (applied_part) finish_tile(s, pass.buffers.acceleration, *applied_part);
+      if (applied_part) finish_tile(s, pass.forces.buffers.acceleration, *applied_part);
       look(s, report);
     }
     const std::lock_guard lock(mutex_);

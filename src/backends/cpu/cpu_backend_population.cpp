@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "hooke/backends/cpu/contact_reports.h"
 #include "hooke/base/assert.h"
 #include "hooke/core/sums.h"
+#include "hooke/passes/contact_reports.h"
 #include "hooke/physics/integrate.h"
 
 namespace hooke {

@@ -7,12 +7,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "hooke/backends/cpu/id_table.h"
-#include "hooke/backends/cpu/particle_record.h"
 #include "hooke/base/huge_pages.h"
 #include "hooke/core/placed_fields.h"
 #include "hooke/core/scene.h"
 #include "hooke/neighbours/layout.h"
+#include "hooke/passes/id_table.h"
+#include "hooke/passes/particle_record.h"
 
 namespace hooke {
 

@@ -2,4 +2,4 @@
 // SPDX-License-Identifier: MIT
 #define HOOKE_ISA portable
 #define HOOKE_REAL double
-#include "hooke/backends/cpu/force_pass.inl"
+#include "hooke/backends/cpu/tile_pass.inl"

@@ -2,4 +2,4 @@
 // SPDX-License-Identifier: MIT
 #define HOOKE_ISA avx512
 #define HOOKE_REAL float
-#include "hooke/backends/cpu/force_pass.inl"
+#include "hooke/backends/cpu/tile_pass.inl"

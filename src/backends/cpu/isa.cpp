@@ -7,10 +7,13 @@
 
 namespace hooke {
 
-#define HOOKE_DECLARE_LOOPS(isa)                                                             \
+#define HOOKE_DECLARE_SEARCH(isa)                                                            \
   namespace isa {                                                                            \
   void search_window(const NeighbourRule<float>& rule, const WindowSearch<float>& window);   \
   void search_window(const NeighbourRule<double>& rule, const WindowSearch<double>& window); \
+  }
+#define HOOKE_DECLARE_LOOPS(isa)                                                             \
+  namespace isa {                                                                            \
   void spring_pass(const SpringPass<float>& pass, const SpringWork<float>& work);            \
   void spring_pass(const SpringPass<double>& pass, const SpringWork<double>& work);          \
   void work_pass(const ForceWork<float>& work, ExactParts* sums);                            \
@@ -25,12 +28,21 @@ namespace hooke {
   }                                                                                          \
   constexpr Isa named(const char* name) { return {name, loops<float>(), loops<double>()}; }  \
   }
+HOOKE_DECLARE_SEARCH(portable)
 HOOKE_DECLARE_LOOPS(portable)
+// What a thread of a GPU computes. Its search is another one, and which pairs are listed alters no bit.
+namespace scalar {
+using portable::search_window;
+}
+HOOKE_DECLARE_LOOPS(scalar)
 #if defined(__x86_64__)
+HOOKE_DECLARE_SEARCH(avx2)
+HOOKE_DECLARE_SEARCH(avx512)
 HOOKE_DECLARE_LOOPS(avx2)
 HOOKE_DECLARE_LOOPS(avx512)
 #endif
 #undef HOOKE_DECLARE_LOOPS
+#undef HOOKE_DECLARE_SEARCH
 
 std::vector<Isa> available_isas() {
   std::vector<Isa> isas;
@@ -39,6 +51,7 @@ std::vector<Isa> available_isas() {
   if (__builtin_cpu_supports("avx2")) isas.push_back(avx2::named("avx2"));
 #endif
   isas.push_back(portable::named("portable"));
+  isas.push_back(scalar::named("scalar"));
   return isas;
 }
 

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "hooke/backends/cpu/attraction_pass.h"
-#include "hooke/backends/cpu/force_pass.h"
-#include "hooke/backends/cpu/spring_pass.h"
+#include "hooke/backends/cpu/tile_pass.h"
 #include "hooke/backends/cpu/work_pass.h"
 #include "hooke/base/expected.h"
 #include "hooke/neighbours/window_search.h"
+#include "hooke/passes/spring_pass.h"
 
 namespace hooke {
 
@@ -26,7 +26,7 @@ struct Loops {
 
 /// One build of the inner loops.
 struct Isa {
-  const char* name;  ///< "portable", "avx2", "avx512"
+  const char* name;  ///< "scalar", "portable", "avx2", "avx512"
   Loops<float> single_loops;
   Loops<double> double_loops;
 };

@@ -18,6 +18,9 @@
 
 namespace hooke::HOOKE_ISA {
 
+/// How many rows of neighbours a force pass has under way at once.
+inline constexpr std::size_t kRowsAtOnce = 8;
+
 #if defined(__AVX512F__)
 inline constexpr std::size_t kPackBytes = 64;
 #elif defined(__AVX2__)

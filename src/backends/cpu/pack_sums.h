@@ -4,8 +4,8 @@
 
 // Exact sums of many numbers, lane by lane: rules of inclusion as in pack.h.
 
-#include "hooke/backends/cpu/force_pass.h"
 #include "hooke/backends/cpu/pack.h"
+#include "hooke/passes/exact_parts.h"
 
 namespace hooke::HOOKE_ISA {
 

@@ -7,14 +7,14 @@
 #include <span>
 #include <vector>
 
-#include "hooke/backends/cpu/id_table.h"
-#include "hooke/backends/cpu/particle_record.h"
 #include "hooke/backends/cpu/particle_slots.h"
-#include "hooke/backends/cpu/pass_rules.h"
 #include "hooke/base/exact_sum.h"
 #include "hooke/base/huge_pages.h"
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
+#include "hooke/passes/id_table.h"
+#include "hooke/passes/particle_record.h"
+#include "hooke/passes/pass_rules.h"
 
 namespace hooke {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "hooke/backends/cpu/force_pass.h"
+#include "hooke/passes/force_pass.h"
 
 namespace hooke {
 

@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "hooke/backends/cpu/exclusions.h"
-#include "hooke/backends/cpu/force_pass.h"
-#include "hooke/backends/cpu/id_table.h"
 #include "hooke/backends/cpu/particle_state.h"
-#include "hooke/backends/cpu/spring_pass.h"
 #include "hooke/base/huge_pages.h"
 #include "hooke/core/scene.h"
 #include "hooke/core/sums.h"
+#include "hooke/passes/force_pass.h"
+#include "hooke/passes/id_table.h"
+#include "hooke/passes/spring_pass.h"
 
 namespace hooke {
 

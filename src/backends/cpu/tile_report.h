@@ -5,9 +5,10 @@
 #include <array>
 #include <cstdint>
 
-#include "hooke/backends/cpu/force_pass.h"
 #include "hooke/core/sums.h"
 #include "hooke/neighbours/neighbour_list.h"
+#include "hooke/passes/exact_parts.h"
+#include "hooke/passes/force_pass.h"
 
 namespace hooke {
 

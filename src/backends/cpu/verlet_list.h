@@ -14,7 +14,6 @@
 #include "hooke/backends/cpu/column_store.h"
 #include "hooke/backends/cpu/exclusions.h"
 #include "hooke/backends/cpu/outlier_pairs.h"
-#include "hooke/backends/cpu/pass_rules.h"
 #include "hooke/backends/cpu/patched_rows.h"
 #include "hooke/base/assert.h"
 #include "hooke/base/box3.h"
@@ -22,6 +21,7 @@
 #include "hooke/neighbours/motion_bounds.h"
 #include "hooke/neighbours/neighbour_list.h"
 #include "hooke/neighbours/window_order.h"
+#include "hooke/passes/pass_rules.h"
 #include "hooke/physics/periodic.h"
 
 namespace hooke {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "hooke/backends/cpu/pack_search.h"
+#include "hooke/neighbours/row_network.h"
 #include "hooke/neighbours/window_search.h"
 
 namespace hooke::HOOKE_ISA {
@@ -22,57 +23,18 @@ HOOKE_HD std::uint64_t row_key(std::uint32_t id_index, std::uint32_t slot) {
   return std::uint64_t{kOne + id_index} << 32U | slot;
 }
 
-// Pairs of rows that Batcher's merge exchange compares (Knuth, The Art of Computer Programming, 5.2.2, algorithm M).
-template <class Exchange>
-HOOKE_HD constexpr void merge_exchange(std::size_t rows, const Exchange& exchange) {
-  std::size_t top = 1;
-  while (2 * top < rows) top *= 2;
-  for (std::size_t p = top; p > 0; p /= 2) {
-    std::size_t q = top, r = 0, d = p;
-    for (;;) {
-      for (std::size_t row = 0; row + d < rows; ++row) {
-        if ((row & p) == r) exchange(row, row + d);
-      }
-      if (q == p) break;
-      d = q - p;
-      q /= 2;
-      r = p;
-    }
-  }
-}
-
 HOOKE_HD void exchange_rows(Pack<double>& a, Pack<double>& b) {
   const Pack<double> low = min_of(a, b);
   b = max_of(a, b);
   a = low;
 }
 
-// The same for so few rows that registers hold them.
+// Sorts so few rows that registers hold them.
 template <std::size_t kRows>
-struct Network {
-  struct Pair {
-    unsigned char a, b;
-  };
-  static constexpr std::size_t count() {
-    std::size_t n = 0;
-    merge_exchange(kRows, [&](std::size_t, std::size_t) { ++n; });
-    return n;
-  }
-  struct Pairs {
-    Pair of[count() + 1];
-  };
-  static constexpr Pairs pairs() {
-    Pairs all{};
-    std::size_t n = 0;
-    merge_exchange(kRows, [&](std::size_t a, std::size_t b) {
-      all.of[n++] = {static_cast<unsigned char>(a), static_cast<unsigned char>(b)};
-    });
-    return all;
-  }
-
+struct RowsInRegisters {
   template <std::size_t... kPair, std::size_t... kRow>
   HOOKE_HD static void sort(std::uint64_t* keys, std::index_sequence<kPair...>, std::index_sequence<kRow...>) {
-    [[maybe_unused]] constexpr Pairs kPairs = pairs();
+    [[maybe_unused]] constexpr auto kPairs = RowNetwork<kRows>::pairs();
     for (std::size_t lane = 0; lane < kSliceLanes; lane += Pack<double>::kLanes) {
       Pack<double> row[kRows] = {load_bits(keys + kRow * kSliceLanes + lane)...};
       (exchange_rows(row[kPairs.of[kPair].a], row[kPairs.of[kPair].b]), ...);
@@ -80,14 +42,14 @@ struct Network {
     }
   }
   static void sort_rows(std::uint64_t* keys) {
-    sort(keys, std::make_index_sequence<count()>(), std::make_index_sequence<kRows>());
+    sort(keys, std::make_index_sequence<RowNetwork<kRows>::count()>(), std::make_index_sequence<kRows>());
   }
 };
 
 template <std::size_t... kRows>
 void sort_rows_by_network(std::uint64_t* keys, std::size_t rows, std::index_sequence<kRows...>) {
   using Sort = void (*)(std::uint64_t*);
-  static constexpr Sort kSorts[] = {Network<kRows + 1>::sort_rows...};
+  static constexpr Sort kSorts[] = {RowsInRegisters<kRows + 1>::sort_rows...};
   kSorts[rows - 1](keys);
 }
 

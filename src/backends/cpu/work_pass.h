@@ -4,9 +4,9 @@
 
 #include <cstddef>
 
-#include "hooke/backends/cpu/force_pass.h"
-#include "hooke/backends/cpu/particle_record.h"
 #include "hooke/base/vec3.h"
+#include "hooke/passes/exact_parts.h"
+#include "hooke/passes/particle_record.h"
 
 namespace hooke {
 

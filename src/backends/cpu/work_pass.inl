@@ -5,8 +5,7 @@
 
 #include "hooke/backends/cpu/work_pass.h"
 
-#include "hooke/backends/cpu/pack_records.h"
-#include "hooke/backends/cpu/pack_sums.h"
+#include "hooke/backends/cpu/packs.h"
 #include "hooke/physics/integrate.h"
 
 namespace hooke::HOOKE_ISA {

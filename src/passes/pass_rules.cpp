@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-#include "hooke/backends/cpu/pass_rules.h"
+#include "hooke/passes/pass_rules.h"
 
 #include <algorithm>
 #include <cmath>

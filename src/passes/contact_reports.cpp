@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-#include "hooke/backends/cpu/contact_reports.h"
+#include "hooke/passes/contact_reports.h"
 
 #include <algorithm>
 

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "hooke/backends/cpu/particle_record.h"
 #include "hooke/base/vec3.h"
 #include "hooke/neighbours/layout.h"
+#include "hooke/passes/particle_record.h"
 
 namespace hooke {
 

@@ -4,10 +4,10 @@
 
 #include <span>
 
-#include "hooke/backends/cpu/force_pass.h"
 #include "hooke/core/contact_walk.h"
 #include "hooke/core/rules.h"
-#include "hooke/neighbours/neighbour_list.h"
+#include "hooke/neighbours/layout.h"
+#include "hooke/passes/force_pass.h"
 
 namespace hooke {
 
@@ -36,8 +36,7 @@ class ContactScan {
   /// overlap > 0, or cohesion reaches across the gap. `rows` are the rows of i's slice in the neighbour list.
   template <class Visit>
   void for_each_contact(std::size_t i, std::span<const std::uint32_t> rows, const Visit& visit) const {
-    constexpr std::size_t kLanes = NeighbourList::kLanes;
-    for (std::size_t at = i % kLanes; at < rows.size(); at += kLanes) {
+    for (std::size_t at = i % kSliceLanes; at < rows.size(); at += kSliceLanes) {
       const std::size_t p = rows[at] / record_offset<Real>(1);
       if (is_vacant(records_[p])) continue;
       const PairRow<Real>& row = pair(i, p);

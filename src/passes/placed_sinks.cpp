@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-#include "hooke/backends/cpu/placed_sinks.h"
+#include "hooke/passes/placed_sinks.h"
 
 #include "hooke/physics/enclosure.h"
 

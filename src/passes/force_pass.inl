@@ -1,17 +1,16 @@
 // SPDX-FileCopyrightText: The Hooke authors
 // SPDX-License-Identifier: MIT
 
-// The force pass, written once and compiled once for each instruction set (HOOKE_ISA) and precision (HOOKE_REAL): a
-// pack of particles at a time, their contacts row by row, walls, drag, gravity and the integrator, all in registers.
-// What each lane computes is exactly what ReferenceBackend spells out for one particle.
+// The force pass, written once and compiled once for each instruction set (HOOKE_ISA): a pack of particles at a time,
+// their contacts row by row, walls, drag, gravity and the integrator, all in registers. What each lane computes is
+// exactly what ReferenceBackend spells out for one particle. Whoever includes it includes packs before: those of a
+// processor (backends/cpu/packs.h), or the pack of one lane (pack_lane.h), which is what a thread of a GPU computes.
 
 #include <type_traits>
 
-#include "hooke/backends/cpu/force_pass.h"
-#include "hooke/backends/cpu/pack_records.h"
-#include "hooke/backends/cpu/pack_sums.h"
-// After the packs.
-#include "hooke/backends/cpu/pack_field.h"
+#include "hooke/neighbours/window_search.h"
+#include "hooke/passes/force_pass.h"
+#include "hooke/passes/pack_field.h"
 #include "hooke/physics/contact.h"
 #include "hooke/physics/drag.h"
 #include "hooke/physics/integrate.h"
@@ -19,7 +18,6 @@
 #include "hooke/physics/wall.h"
 
 namespace hooke::HOOKE_ISA {
-namespace {
 
 // Some particles, one a lane.
 template <class Real>
@@ -61,7 +59,7 @@ HOOKE_HD Quad<Real> load_rows(const Row* table, const Pack<Real>& index, int par
   });
 }
 
-#include "hooke/backends/cpu/pair_laws.inl"
+#include "hooke/passes/pair_laws.inl"
 
 // What other particles do to the lanes' particles.
 template <class Real, Materials kMaterials>
@@ -92,10 +90,6 @@ struct ContactLoop {
   const ForcePass<Real>& pass;
   const Lanes<Real>& own;
 
-  // The roots and quotients of several rows start before the first row's are needed. Row by row, the operations that
-  // wait for them would keep the processor from looking further ahead.
-  static constexpr std::size_t kRowsAtOnce = 8;
-
   HOOKE_HD ContactSums<Real, kMaterials> run(const std::uint32_t* row, const std::uint32_t* end) const {
     ContactSums<Real, kMaterials> sums;
     const Table table(pass, own.material);
@@ -104,6 +98,8 @@ struct ContactLoop {
         add_images(table, load_row(row), sums);
         row += kSliceLanes;
       } else {
+        // The roots and quotients of several rows start before the first row's are needed. Row by row, the operations
+        // that wait for them would keep the processor from looking further ahead.
         Met met[kRowsAtOnce];
         std::size_t count = 0;
         do {
@@ -241,7 +237,7 @@ struct WallLoop {
   }
 };
 
-#include "hooke/backends/cpu/collider_loop.inl"
+#include "hooke/passes/collider_loop.inl"
 
 // Mask of lanes that left the domain across an open or periodic face; NaN counts as having left.
 template <class Real>
@@ -256,28 +252,6 @@ HOOKE_HD Mask<Real> left_domain(const ForcePass<Real>& pass, const Vec3<Pack<Rea
   return out;
 }
 
-// Mask of lanes further from their expected position than their reference frame allows; NaN counts as far.
-template <class Real, PeriodicKind kPeriodic>
-HOOKE_HD Mask<Real> is_far(const ForcePass<Real>& pass, const Vec3<Pack<Real>>& x, std::size_t first) {
-  using P = Pack<Real>;
-  const ReferenceFrame<Real>& frame = pass.buffers.frames[first / kWindow];
-  const Vec3<Real> moved = frame.at(pass.buffers.next_step);
-  const Vec3<P> expected{load(pass.buffers.position_at_build.x + first) + P(moved.x),
-                         load(pass.buffers.position_at_build.y + first) + P(moved.y),
-                         load(pass.buffers.position_at_build.z + first) + P(moved.z)};
-  Vec3<P> off = x - expected;
-  if constexpr (kPeriodic != PeriodicKind::none) {
-    const auto displacement = [&](const P& now, const P& then, bool periodic, Real length) {
-      if (!periodic) return now - then;
-      return image_displacement(now, then, nearest_image(now, then, P(length)), P(length));
-    };
-    off = {displacement(x.x, expected.x, pass.rules.periodic[0], pass.rules.length.x),
-           displacement(x.y, expected.y, pass.rules.periodic[1], pass.rules.length.y),
-           displacement(x.z, expected.z, pass.rules.periodic[2], pass.rules.length.z)};
-  }
-  return !(dot(off, off) <= P(frame.limit2(pass.buffers.next_step)));
-}
-
 // Whether any lane may touch other particles, or touches a wall or a collider.
 struct TouchFlags {
   bool others = true, wall = false, collider = false;
@@ -286,37 +260,6 @@ struct TouchFlags {
 // The index of a cause's power among the sums of a pass.
 HOOKE_HD constexpr int power_of(Cause cause) { return static_cast<int>(cause); }
 
-// What is summed over a tile's particles, one column each. A pack that touches nothing of a kind is left out of the
-// kind's columns.
-template <class Real>
-struct SumBuffers {
-  std::size_t count = 0, contact_count = 0, wall_count = 0, collider_count = 0;
-  alignas(64) Real of[PassSum::kCount][ExactParts::kMost];
-
-  HOOKE_HD std::size_t count_of(int sum) const {
-    const int power = sum < 2 * PassSum::kPowers ? sum % PassSum::kPowers : PassSum::kPowers;
-    if (power <= power_of(Cause::contact_friction)) return contact_count;
-    if (power == power_of(Cause::wall) || (sum >= PassSum::kWallForce && sum < PassSum::kWallForce + 3))
-      return wall_count;
-    if (power == power_of(Cause::collider) || (sum >= PassSum::kColliderForce && sum < PassSum::kColliderForce + 3)) {
-      return collider_count;
-    }
-    return count;
-  }
-  HOOKE_HD void put(int sum, const Pack<Real>& a) { store(of[sum] + count_of(sum), a); }
-  HOOKE_HD void put(int sum, const Vec3<Pack<Real>>& a) {
-    put(sum, a.x);
-    put(sum + 1, a.y);
-    put(sum + 2, a.z);
-  }
-  HOOKE_HD void end_pack(const TouchFlags& touches) {
-    count += Pack<Real>::kLanes;
-    if (touches.others) contact_count += Pack<Real>::kLanes;
-    if (touches.wall) wall_count += Pack<Real>::kLanes;
-    if (touches.collider) collider_count += Pack<Real>::kLanes;
-  }
-};
-
 // The forces on the lanes' particles, N.
 template <class Real, class ByContacts>
 struct Forces {
@@ -324,9 +267,10 @@ struct Forces {
   ByContacts contacts;
   Vec3<P> walls, colliders, drag, weight;
 
-  // Writes the powers at twice a mean velocity to the columns from `first` on.
+  // Puts the powers at twice a mean velocity into the sums from `first` on.
+  template <class Report>
   HOOKE_HD void put_powers(int first, const Vec3<P>& twice_mean, bool has_drag, const TouchFlags& touches,
-                           SumBuffers<Real>& to) const {
+                           Report& to) const {
     if (touches.others) put_contacts(first, contacts, twice_mean, to);
     to.put(first + power_of(Cause::gravity), dot(weight, twice_mean));
     if (has_drag) to.put(first + power_of(Cause::drag), dot(drag, twice_mean));
@@ -335,38 +279,46 @@ struct Forces {
   }
 
  private:
-  HOOKE_HD static void put_contacts(int first, const ContactForces<P>& by, const Vec3<P>& twice_mean,
-                                    SumBuffers<Real>& to) {
+  template <class Report>
+  HOOKE_HD static void put_contacts(int first, const ContactForces<P>& by, const Vec3<P>& twice_mean, Report& to) {
     to.put(first + power_of(Cause::contact_spring), dot(by.spring, twice_mean));
     to.put(first + power_of(Cause::contact_shear), dot(by.shear, twice_mean));
     to.put(first + power_of(Cause::contact_damping), dot(by.damping, twice_mean));
   }
-  HOOKE_HD static void put_contacts(int first, const SurfaceForces<P>& by, const Vec3<P>& twice_mean,
-                                    SumBuffers<Real>& to) {
+  template <class Report>
+  HOOKE_HD static void put_contacts(int first, const SurfaceForces<P>& by, const Vec3<P>& twice_mean, Report& to) {
     put_contacts(first, by.linear, twice_mean, to);
     to.put(first + power_of(Cause::contact_friction), dot(by.friction, twice_mean));
   }
 };
 
-template <class Real, Materials kMaterials, PeriodicKind kPeriodic>
-HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, std::size_t slot,
-                       SumBuffers<Real>& columns, unsigned char& notes, unsigned& far) {
+// Neighbours of a pack's particles: from `row` to `end`, a row every kSliceLanes entries. Null: they touch no other
+// particles.
+struct PackRows {
+  const std::uint32_t* row = nullptr;
+  const std::uint32_t* end = nullptr;
+};
+
+// The step of a pack: the particles in the slots from `first` on. `report` is told what is summed and what was noticed:
+//   put(sum, pack or vector of packs)   a term a lane of PassSum `sum`, or of it and the next two
+//   end_pack(touches)                   all terms of the pack are put
+//   note(SliceNote)                     something to look at closely
+//   moved<kPeriodic>(pass, present, x, first)   symplectic Euler: listed particles `present` are at x now
+template <class Real, Materials kMaterials, PeriodicKind kPeriodic, bool kColliders, class Report>
+HOOKE_HD void run_pack(const ForcePass<Real>& pass, std::size_t first, const PackRows& rows, Report& report) {
   using P = Pack<Real>;
-  const std::size_t first = work.first + slot;
-  const std::size_t slice = slot / kSliceLanes, lane_offset = slot % kSliceLanes;
+  const std::size_t lane_offset = first % kSliceLanes;
+  const bool alone = rows.row == nullptr;
 
   const Real* own_record = reinterpret_cast<const Real*>(pass.buffers.in + first);
   const Lanes<Real> own = load_lanes<Real>([=](int lane) { return own_record + 8 * lane; });
   const Mask<Real> present = own.x.x < P(static_cast<Real>(kVacantPosition));
 
   ContactSums<Real, kMaterials> sums;
-  if (!work.alone) {
-    const std::uint32_t* rows = work.rows + lane_offset;
-    const std::uint32_t* row = rows + std::size_t{work.first_row[slice]} * kSliceLanes;
-    const std::uint32_t* end = rows + std::size_t{work.first_row[slice + 1]} * kSliceLanes;
-    sums = ContactLoop<Real, kMaterials, kPeriodic, false>{pass, own}.run(row, end);
+  if (!alone) {
+    sums = ContactLoop<Real, kMaterials, kPeriodic, false>{pass, own}.run(rows.row, rows.end);
     if (any(!sums.slow)) {
-      sums = ContactLoop<Real, kMaterials, kPeriodic, true>{pass, own}.run(row, end);
+      sums = ContactLoop<Real, kMaterials, kPeriodic, true>{pass, own}.run(rows.row, rows.end);
     }
   }
   Mask<Real> too_fast = !sums.slow;
@@ -374,9 +326,13 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
   const auto by_contacts = sums.contacts.forces(pass);
   Forces<Real, std::remove_const_t<decltype(by_contacts)>> forces{by_contacts, {}, {}, {}, {}};
   TouchFlags touches;
-  touches.others = !work.alone;
+  touches.others = !alone;
   forces.walls = WallLoop<Real, kMaterials>{pass, own, present}.run(too_fast, touches.wall);
-  forces.colliders = ColliderLoop<Real, kMaterials>{pass, own, present}.run(too_fast, touches.collider);
+  const Vec3<P> zero{P(Real(0)), P(Real(0)), P(Real(0))};
+  forces.colliders = zero;
+  if constexpr (kColliders) {
+    forces.colliders = ColliderLoop<Real, kMaterials>{pass, own, present}.run(too_fast, touches.collider);
+  }
   const Quad<Real> body = body_of<Real, kMaterials>(pass, own);
   Vec3<P> force = (forces.contacts.total() + forces.walls) + forces.colliders;
   if (pass.rules.has_drag) {
@@ -401,16 +357,15 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
   } else {  // symplectic Euler
     v = kick(own.v, a, dt);
     x = drift(own.x, v, dt);
-    if (any(present & left_domain(pass, x))) notes |= kLeftDomain;
-    if (!work.alone) {
+    if (any(present & left_domain(pass, x))) report.note(kLeftDomain);
+    if (!alone) {
       // Held particles are put back after the pass.
       const Vec3<P> to = pinned != 0 ? select_vector(lanes_of<Real>(pinned), own.x, x) : x;
-      far |= bits(present & is_far<Real, kPeriodic>(pass, to, first)) << lane_offset;
+      report.template moved<kPeriodic>(pass, present, to, first);
     }
   }
-  if (any(too_fast)) notes |= kTooFast;
+  if (any(too_fast)) report.note(kTooFast);
 
-  const Vec3<P> zero{P(Real(0)), P(Real(0)), P(Real(0))};
   x = select_vector(present, x, own.x);
   v = select_vector(present, v, zero);
 
@@ -421,14 +376,14 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
     after = select_vector(lanes_of<Real>(pinned), own.v, v);
     next = select_vector(lanes_of<Real>(pinned), own.v, next);
   }
-  forces.put_powers(0, own.v + after, pass.rules.has_drag, touches, columns);
+  forces.put_powers(0, own.v + after, pass.rules.has_drag, touches, report);
   if (pass.buffers.acceleration != nullptr) {
-    forces.put_powers(PassSum::kNext, after + next, pass.rules.has_drag, touches, columns);
+    forces.put_powers(PassSum::kNext, after + next, pass.rules.has_drag, touches, report);
   }
-  if (touches.wall) columns.put(PassSum::kWallForce, forces.walls);
-  if (touches.collider) columns.put(PassSum::kColliderForce, forces.colliders);
-  if (pass.rules.has_drag) columns.put(PassSum::kDragForce, select_vector(present, forces.drag, zero));
-  columns.end_pack(touches);
+  if (touches.wall) report.put(PassSum::kWallForce, forces.walls);
+  if (touches.collider) report.put(PassSum::kColliderForce, forces.colliders);
+  if (pass.rules.has_drag) report.put(PassSum::kDragForce, select_vector(present, forces.drag, zero));
+  report.end_pack(touches);
   Real* out_record = reinterpret_cast<Real*>(pass.buffers.out + first);
   const TwoQuads<Real> record{{x.x, x.y, x.z, own.material}, {v.x, v.y, v.z, own.id_index}};
   store_two_quads(record, [=](int lane) { return out_record + 8 * lane; });
@@ -436,7 +391,7 @@ HOOKE_HD void run_pack(const ForcePass<Real>& pass, const TileWork<Real>& work, 
 
 // Whether the scene has anything for column `sum`.
 template <class Real>
-bool is_summed(const ForcePass<Real>& pass, int sum) {
+HOOKE_HD bool is_summed(const ForcePass<Real>& pass, int sum) {
   if (sum >= PassSum::kDragForce) return pass.rules.has_drag;
   if (sum >= PassSum::kWallForce) return true;
   if (sum % PassSum::kPowers == power_of(Cause::drag) && !pass.rules.has_drag) return false;
@@ -444,47 +399,27 @@ bool is_summed(const ForcePass<Real>& pass, int sum) {
   return sum < PassSum::kNext || pass.buffers.acceleration != nullptr;
 }
 
-template <class Real, Materials kMaterials, PeriodicKind kPeriodic>
-void run_tile(const ForcePass<Real>& pass, const TileWork<Real>& work) {
-  SumBuffers<Real> columns;
-  for (std::size_t g = 0; g < work.slice_count; ++g) {
-    unsigned char notes = 0;
-    unsigned far = 0;
-    for (std::size_t lane_offset = 0; lane_offset < kSliceLanes; lane_offset += Pack<Real>::kLanes) {
-      run_pack<Real, kMaterials, kPeriodic>(pass, work, g * kSliceLanes + lane_offset, columns, notes, far);
+// Calls run(materials, periodic) with the kind of loop that a scene needs, two integral constants. It follows from the
+// scene alone, and bits depend on it: with one material, sums are taken before its coefficients are applied.
+template <class Real, class Run>
+void choose_loop(const ForceConstants<Real>& rules, const Run& run) {
+  const auto choose_periodic = [&](auto materials) {
+    const auto with = [&](auto kind) { run(materials, kind); };
+    switch (rules.periodic_kind) {
+      case PeriodicKind::none:
+        return with(std::integral_constant<PeriodicKind, PeriodicKind::none>{});
+      case PeriodicKind::nearest:
+        return with(std::integral_constant<PeriodicKind, PeriodicKind::nearest>{});
+      case PeriodicKind::images:
+        return with(std::integral_constant<PeriodicKind, PeriodicKind::images>{});
     }
-    work.notes[g] = notes;
-    work.far[g] = static_cast<std::uint16_t>(far);
-  }
-  for (int sum = 0; sum < PassSum::kCount; ++sum) {
-    if (is_summed(pass, sum)) add_parts(columns.of[sum], columns.count_of(sum), work.sums[sum]);
-  }
+  };
+  if (!rules.linear && rules.few != nullptr)
+    return choose_periodic(std::integral_constant<Materials, Materials::few_surfaces>{});
+  if (!rules.linear) return choose_periodic(std::integral_constant<Materials, Materials::many_surfaces>{});
+  if (rules.material_count == 1) return choose_periodic(std::integral_constant<Materials, Materials::one>{});
+  if (rules.few != nullptr) return choose_periodic(std::integral_constant<Materials, Materials::few>{});
+  return choose_periodic(std::integral_constant<Materials, Materials::many>{});
 }
-
-template <class Real, Materials kMaterials>
-void choose_periodic(const ForcePass<Real>& pass, const TileWork<Real>& work) {
-  switch (pass.rules.periodic_kind) {
-    case PeriodicKind::none:
-      return run_tile<Real, kMaterials, PeriodicKind::none>(pass, work);
-    case PeriodicKind::nearest:
-      return run_tile<Real, kMaterials, PeriodicKind::nearest>(pass, work);
-    case PeriodicKind::images:
-      return run_tile<Real, kMaterials, PeriodicKind::images>(pass, work);
-  }
-}
-
-template <class Real>
-void choose_materials(const ForcePass<Real>& pass, const TileWork<Real>& work) {
-  if (!pass.rules.linear && pass.rules.few != nullptr)
-    return choose_periodic<Real, Materials::few_surfaces>(pass, work);
-  if (!pass.rules.linear) return choose_periodic<Real, Materials::many_surfaces>(pass, work);
-  if (pass.rules.material_count == 1) return choose_periodic<Real, Materials::one>(pass, work);
-  if (pass.rules.few != nullptr) return choose_periodic<Real, Materials::few>(pass, work);
-  return choose_periodic<Real, Materials::many>(pass, work);
-}
-
-}  // namespace
-
-void force_pass(const ForcePass<HOOKE_REAL>& pass, const TileWork<HOOKE_REAL>& work) { choose_materials(pass, work); }
 
 }  // namespace hooke::HOOKE_ISA

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "hooke/backends/cpu/force_pass.h"
 #include "hooke/core/rules.h"
+#include "hooke/passes/force_pass.h"
 
 namespace hooke {
 

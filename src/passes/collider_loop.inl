@@ -37,7 +37,7 @@ struct ColliderLoop {
 
  private:
   // Whether any lane touches any collider.
-  __attribute__((noinline)) bool meet(Mask<Real>& too_fast, Vec3<P>& force) const {
+  HOOKE_HD_APART bool meet(Mask<Real>& too_fast, Vec3<P>& force) const {
     bool touched = false;
     for (std::size_t c = 0; c < pass.colliders.count; ++c) {
       const PlacedCollider<Real>& collider = pass.colliders.placed[c];

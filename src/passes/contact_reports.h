@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <span>
 
-#include "hooke/backends/cpu/contact_scan.h"
-#include "hooke/backends/cpu/id_table.h"
 #include "hooke/core/backend.h"
 #include "hooke/core/sums.h"
+#include "hooke/passes/contact_scan.h"
+#include "hooke/passes/id_table.h"
 
 namespace hooke {
 

@@ -7,8 +7,10 @@
 // How many materials there are, and whether their surfaces act: then contacts follow the law with surfaces. The
 // coefficients of few materials are kept in registers; those of one without surfaces are constants.
 enum class Materials { one, few, many, few_surfaces, many_surfaces };
-constexpr bool have_surfaces(Materials m) { return m == Materials::few_surfaces || m == Materials::many_surfaces; }
-constexpr bool are_few(Materials m) { return m == Materials::few || m == Materials::few_surfaces; }
+HOOKE_HD constexpr bool have_surfaces(Materials m) {
+  return m == Materials::few_surfaces || m == Materials::many_surfaces;
+}
+HOOKE_HD constexpr bool are_few(Materials m) { return m == Materials::few || m == Materials::few_surfaces; }
 
 // The law of each lane's pair.
 template <class Real>
