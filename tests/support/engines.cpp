@@ -10,6 +10,7 @@
 
 #include "hooke/backends/cpu/cpu_backend.h"
 #include "hooke/backends/reference/reference_backend.h"
+#include "support/gpu_on_host.h"
 
 namespace hooke::test {
 namespace {
@@ -31,6 +32,7 @@ std::string Engine::name() const {
 
 std::unique_ptr<Backend> make_backend(const Engine& engine) {
   if (engine.device == "reference") return make_reference_backend();
+  if (engine.device == "gpu") return make_gpu_on_host(engine.precision, engine.threads, engine.item_order);
   auto backend = make_cpu_backend({engine.precision, engine.threads, engine.isa, engine.check_list});
   if (!backend) {
     ADD_FAILURE() << backend.error().text();

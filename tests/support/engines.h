@@ -6,6 +6,7 @@
 #include <ostream>
 #include <string>
 
+#include "hooke/backends/gpu/host_device.h"
 #include "hooke/core/simulation.h"
 
 namespace hooke {
@@ -24,11 +25,12 @@ namespace hooke::test {
 
 /// A back end to test with.
 struct Engine {
-  std::string device = "cpu";  ///< "cpu" or "reference"
+  std::string device = "cpu";  ///< "cpu", "reference", or "gpu", a loop in place of one
   Precision precision = Precision::double_precision;
   int threads = 1;
   std::string isa;  ///< empty: the widest
   bool check_list = false;  ///< count the contacts that the neighbour list misses
+  gpu::ItemOrder item_order = gpu::ItemOrder::shuffled;  ///< of "gpu"
 
   std::string name() const;  ///< "cpu_double", for messages and names of tests
 };
@@ -36,6 +38,8 @@ struct Engine {
 inline const Engine kReference{"reference", Precision::double_precision, 1, "", false};
 inline const Engine kCpuDouble{"cpu", Precision::double_precision, 1, "", false};
 inline const Engine kCpuSingle{"cpu", Precision::single_precision, 1, "", false};
+inline const Engine kGpuDouble{"gpu", Precision::double_precision, 1, "", false};
+inline const Engine kGpuSingle{"gpu", Precision::single_precision, 1, "", false};
 
 inline void PrintTo(const Engine& engine, std::ostream* os) { *os << engine.name(); }
 

@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hooke/backends/gpu/brick_grid.h"
+#include "hooke/backends/gpu/device.h"
+#include "hooke/backends/gpu/device_report.h"
+#include "hooke/backends/gpu/device_scene.h"
+#include "hooke/backends/gpu/fixed_sum.h"
+#include "hooke/backends/gpu/list_kernels.h"
+#include "hooke/backends/gpu/population_kernels.h"
+#include "hooke/backends/gpu/step_kernels.h"
+#include "hooke/base/threads.h"
+#include "hooke/core/backend.h"
+#include "hooke/core/placed_colliders.h"
+#include "hooke/passes/contact_scan.h"
+#include "hooke/passes/id_table.h"
+#include "hooke/passes/pass_rules.h"
+
+namespace hooke::gpu {
+
+/// The back end of a GPU in one precision. All that happens to particles in a step happens on the device, by the same
+/// laws and loops as on a processor, so that all bits are the same. The host lays out buffers, places colliders, and
+/// looks closely at the few particles that a step has noticed.
+///
+/// Slots: those of particles that touch others as of the last sort, those of particles that touch none, and newborns;
+/// vacant records between them until the next sort and in all slots after them. The last slot is the filler of rows.
+template <class Device, class Real>
+class GpuBackend final : public Backend {
+  using Record = ParticleRecord<Real>;
+
+ public:
+  /// `threads`: of the host, for measurements and downloads.
+  GpuBackend(Device device, int threads) : device_(std::move(device)), threads_(threads) {}
+
+  BackendInfo info() const override {
+    const auto precision = sizeof(Real) == 4 ? Precision::single_precision : Precision::double_precision;
+    return {std::string("cuda: ") + device_.name(), "gpu", precision, 1};
+  }
+
+  void configure(const Scene& scene) override;
+  void break_springs(const std::vector<std::uint64_t>& broken) override;
+  std::vector<std::uint64_t> broken_springs() const override;
+
+  void assign(const ParticleSet& particles) override { take(particles); }
+  void download(const ParticleColumns<double>& out) const override { download_all(out); }
+  void download(const ParticleColumns<float>& out) const override { download_all(out); }
+  std::uint64_t particle_count() const override { return count_; }
+  std::optional<ParticleAt> find(std::uint64_t id) const override;
+  void edit(std::span<const ParticleAt> edited) override;
+  RemovalSums insert(const ParticleSet& newborn) override;
+  std::optional<std::uint64_t> set_external_forces(std::span<const std::uint64_t> ids,
+                                                   std::span<const Vec3d> forces) override;
+  Removal remove(std::span<const std::uint64_t> ids) override;
+  RemovalSums remove_sunk() override;
+
+  void half_kick_and_drift() override;
+  void finish_motion(RemovalSums& left) override;
+  bool neighbours_stale() override { return listed_count() > 0 && stale_; }
+  Condition build_neighbours() override;
+  void apply_forces(const Instant& now, StepReport& report) override;
+  void evaluate_accelerations(const Instant& now, StepReport& report) override;
+
+  void find_inside(const Box3d& box, std::vector<Occupant>& out) const override;
+  std::uint64_t particles_hash() const override;
+  Expected<MeasurementSums> measure(const Instant& now) override;
+  NeighbourStatistics neighbour_statistics() const override;
+  StageTimes stage_times() const override { return times_; }
+
+ private:
+  template <class T>
+  using DeviceBuffer = Buffer<Device, T>;
+  using Found = FoundParticle<Real>;
+
+  // What a step writes for the host to read, in one piece: the sums' first copies follow the report.
+  struct StepBlock {
+    DeviceReport report;
+    FixedSum<Real> sums[std::size_t{StepOutput<Real>::kCopies} * PassSum::kCount];
+  };
+  static constexpr std::size_t kReadBytes =
+      offsetof(StepBlock, sums) + std::size_t{PassSum::kCount} * sizeof(FixedSum<Real>);
+
+  bool verlet() const { return scene_.integrator == Integrator::velocity_verlet; }
+  std::uint32_t listed_count() const { return count_ - noninteracting_; }
+  static std::uint32_t whole_warps(std::uint32_t n) { return (n + kWarp - 1) / kWarp * kWarp; }
+  static std::uint32_t slices(std::uint32_t n) {
+    return static_cast<std::uint32_t>((n + kSliceLanes - 1) / kSliceLanes);
+  }
+
+  // Particles ---------------------------------------------------------------------------------------------------------
+
+  void take(const ParticleSet& particles, std::size_t births = 0);
+  void make_room(std::uint32_t slots);
+  void recount();
+  Record record_of(const ParticleSet& particles, std::size_t k, std::size_t id_index) const;
+  template <class Out>
+  void download_all(const ParticleColumns<Out>& out) const;
+  std::vector<Found> look_up(const std::vector<std::uint32_t>& id_indices) const;
+  std::optional<std::uint32_t> id_index_of_id(std::uint64_t id) const;
+
+  // Neighbours --------------------------------------------------------------------------------------------------------
+
+  Condition sort_by_cell();
+  void list_neighbours();
+  void judge_motion(std::uint32_t end);
+  void read_report(std::size_t bytes = sizeof(DeviceReport)) const;
+  void clear_report(std::size_t bytes = sizeof(DeviceReport)) const;
+  ListView<Real> list_view() const { return {first_row_.data(), entries_.data(), position_at_build_.data(), listed_}; }
+
+  // The pass ----------------------------------------------------------------------------------------------------------
+
+  void place_at(const Instant& now);
+  void run_pass(Vec3<Real>* acceleration, StepReport& report);
+  void book_sums(StepReport& report);
+  Condition check_suspects(bool moved);
+  StepOutput<Real> step_output() {
+    return {&block_.data()->report, moves_.data(), block_.data()->sums, suspects_.data(), departed_.data()};
+  }
+
+  // Births and removals -----------------------------------------------------------------------------------------------
+
+  std::vector<std::uint32_t> read_departed();
+  RemovalSums let_go(const std::vector<std::uint32_t>& id_indices, bool at_end_of_step);
+  void add_elastic(const std::vector<std::uint32_t>& id_indices, ExactSum& sum);
+
+  // Some particles and their neighbours, copied to the host: the first are the particles.
+  struct Surroundings {
+    std::vector<Record> records;
+    std::vector<std::vector<std::uint32_t>> rows;  // of each particle, as ContactScan reads them
+  };
+  Surroundings surroundings_of(const std::vector<Found>& particles, const Record* records) const;
+
+  mutable Device device_;  // first: the buffers need it to the end
+  mutable Threads threads_;
+
+  Scene scene_;
+  PassRules<Real> rules_;
+  DeviceScene<Device, Real> scene_on_device_{device_};
+  PlacedColliders<Real> colliders_;  // at the last instant
+  double skin_ = 0, skin_limit_ = 0;  // m; and what of it is left after rounding
+
+  IdTable ids_;
+  std::vector<std::uint32_t> count_of_;  // particles by material
+  std::uint32_t count_ = 0, noninteracting_ = 0;
+  ExactSum mass_;  // of all, kg
+  std::uint32_t end_ = 0;  // one past the last slot in use
+  std::uint32_t room_ = 0;  // slots; the last is the filler
+
+  DeviceBuffer<Record> records_{device_}, next_{device_};  // the state, and where a pass writes the next
+  DeviceBuffer<Vec3<Real>> acceleration_{device_}, next_acceleration_{device_};
+  DeviceBuffer<std::uint64_t> ids_on_device_{device_};
+  DeviceBuffer<std::uint32_t> slot_of_id_index_{device_};
+
+  BrickGrid grid_;
+  DeviceBuffer<std::uint32_t> key_{device_}, place_{device_}, start_{device_}, first_row_{device_}, entries_{device_};
+  DeviceBuffer<Vec3<Real>> position_at_build_{device_};
+  std::uint32_t listed_ = 0;  // particles in the list
+  std::uint64_t rows_ = 0, builds_ = 0;
+  bool stale_ = true;
+
+  mutable DeviceBuffer<StepBlock> block_{device_};
+  mutable StepBlock seen_{};  // the part of it that the host has read
+  DeviceBuffer<WarpMoves> moves_{device_};
+  DeviceBuffer<std::uint32_t> suspects_{device_}, departed_{device_};
+  SumWindows windows_;
+  std::uint32_t leaving_ = 0;  // particles in departed_, until finish_motion()
+
+  // Working memory of rare calls.
+  mutable DeviceBuffer<std::uint32_t> asked_{device_}, asked_first_{device_};
+  mutable DeviceBuffer<Found> found_{device_};
+  mutable DeviceBuffer<RowEntry<Real>> found_rows_{device_};
+  mutable DeviceBuffer<Occupant> occupants_{device_};
+
+  StageTimes times_;
+};
+
+}  // namespace hooke::gpu
+
+#include "hooke/backends/gpu/gpu_backend.inl"

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <numeric>
+#include <thread>
+#include <vector>
+
+#include "hooke/backends/gpu/device.h"
+
+namespace hooke::gpu {
+
+/// In which order items run: what depends on it is wrong on a GPU.
+enum class ItemOrder {
+  up,
+  down,
+  shuffled,  ///< from the middle up, then from the middle down
+  threads,   ///< item i on thread i mod 3: the thread sanitizer sees what items of a GPU do to each other's data
+};
+
+/// A loop in place of a GPU, to test kernels where there is none: debuggers and sanitizers see what each item does.
+/// New memory is full of NaN, or of numbers that lead outside of every array.
+class HostDevice {
+ public:
+  explicit HostDevice(ItemOrder order = ItemOrder::shuffled, std::size_t memory = ~std::size_t{0})
+      : order_(order),
+        memory_(memory) {}
+
+  template <class Kernel>
+  void each(std::uint32_t count, const Kernel& kernel) const {
+    switch (order_) {
+      case ItemOrder::up:
+        for (std::uint32_t i = 0; i < count; ++i) kernel(i);
+        return;
+      case ItemOrder::down:
+        for (std::uint32_t i = count; i-- > 0;) kernel(i);
+        return;
+      case ItemOrder::shuffled:
+        for (std::uint32_t i = count / 2; i < count; ++i) kernel(i);
+        for (std::uint32_t i = count / 2; i-- > 0;) kernel(i);
+        return;
+      case ItemOrder::threads: {
+        constexpr std::uint32_t kThreads = 3;
+        std::vector<std::thread> threads;
+        for (std::uint32_t t = 0; t < kThreads; ++t) {
+          threads.emplace_back([&, t] {
+            for (std::uint32_t i = t; i < count; i += kThreads) kernel(i);
+          });
+        }
+        for (std::thread& thread : threads) thread.join();
+        return;
+      }
+    }
+  }
+
+  void scan(std::uint32_t* values, std::size_t count) const {
+    std::exclusive_scan(values, values + count, values, std::uint32_t{0});
+  }
+
+  void* allocate(std::size_t bytes) {
+    const std::size_t whole = (bytes + kAlignment - 1) / kAlignment * kAlignment;
+    if (whole > memory_) throw OutOfMemory("the host's stand-in for a GPU has no more memory");
+    void* const memory = std::aligned_alloc(kAlignment, whole);
+    if (memory == nullptr) throw OutOfMemory("the host has no more memory");
+    std::memset(memory, 0xff, whole);
+    return memory;
+  }
+  void free(void* memory) const { std::free(memory); }
+
+  void fill(void* to, int byte, std::size_t bytes) const { std::memset(to, byte, bytes); }
+  void upload(void* to, const void* from, std::size_t bytes) const { std::memcpy(to, from, bytes); }
+  void download(void* to, const void* from, std::size_t bytes) const { std::memcpy(to, from, bytes); }
+  void copy(void* to, const void* from, std::size_t bytes) const { std::memcpy(to, from, bytes); }
+
+  const char* name() const { return "host"; }
+
+ private:
+  static constexpr std::size_t kAlignment = 256;
+
+  ItemOrder order_;
+  std::size_t memory_;
+};
+
+}  // namespace hooke::gpu
