@@ -66,13 +66,13 @@ using Class = py::class_<PythonSimulation>;
 void bind_creation(Class& c) {
   const py::arg_v set("set", py::dict(), "{}"), threads("threads", 0), device("device", "cpu"),
       resume("resume", py::none());
-  c.def_static(
-      "from_scene", &from_scene, py::arg("file"), py::kw_only(), set, threads, device, resume,
-      py::arg("allow_outside") = false,
-      "Reads a scene file. `set` replaces values by their paths, as --set does: {\"time.end\": 2}.\n"
-      "`threads`: 0 uses all. `device`: \"cpu\", or \"reference\" (all pairs, double). `resume`: a checkpoint\n"
-      "or a run folder, from which it goes on with the same bits. `allow_outside` lets paths in the scene\n"
-      "lead out of its folder. SceneError with every finding.");
+  c.def_static("from_scene", &from_scene, py::arg("file"), py::kw_only(), set, threads, device, resume,
+               py::arg("allow_outside") = false,
+               "Reads a scene file. `set` replaces values by their paths, as --set does: {\"time.end\": 2}.\n"
+               "`threads`: 0 uses all. `device`: \"cpu\", \"cuda\", \"auto\" (cuda where it can be\n"
+               "used), or \"reference\" (all pairs, double). `resume`: a checkpoint\n"
+               "or a run folder, from which it goes on with the same bits. `allow_outside` lets paths in the scene\n"
+               "lead out of its folder. SceneError with every finding.");
   c.def_static("from_dict", &from_dict, py::arg("scene"), py::kw_only(), py::arg("folder") = ".", set, threads, device,
                resume, py::arg("allow_outside") = false,
                "The same from a dict like a scene's JSON (docs/scene.md; hooke.schema()); numpy's numbers and arrays\n"
@@ -149,7 +149,8 @@ void bind_reading(Class& c) {
                           "Mass of a particle of each material, kg: float64.");
   c.def_property_readonly("colliders", &collider_names, "Names of the colliders.");
   c.def_property_readonly(
-      "device", [](PythonSimulation& s) { return s.get().backend_info().device; }, "\"cpu\" or \"reference\".");
+      "device", [](PythonSimulation& s) { return s.get().backend_info().device; },
+      "\"cpu\", \"cuda: \" and the name of a GPU, or \"reference\".");
   c.def_property_readonly(
       "isa", [](PythonSimulation& s) { return s.get().backend_info().isa; },
       "The instruction set in use, e.g. \"avx2\".");

@@ -4,9 +4,12 @@
 #include "simulation.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
+#include <string_view>
 
 #include "hooke/io/checkpoint.h"
 #include "hooke/run/numbers.h"
@@ -22,8 +25,10 @@ constexpr double kBatchSeconds = 0.05;
 
 PythonSimulation::PythonSimulation(scene::LoadedScene loaded, const DeviceOptions& device,
                                    const std::optional<std::filesystem::path>& resume) {
-  if (device.device != "cpu" && device.device != "reference") {
-    raise_input("device", fmt::format("\"{}\" is not known; known are \"cpu\", \"reference\"", device.device));
+  constexpr std::string_view kDevices[] = {"cpu", "cuda", "auto", "reference"};
+  if (std::find(std::begin(kDevices), std::end(kDevices), device.device) == std::end(kDevices)) {
+    raise_input("device",
+                fmt::format("\"{}\" is not known; known are \"{}\"", device.device, fmt::join(kDevices, "\", \"")));
   }
   if (resume) resume_ = *resume;
   auto opened =

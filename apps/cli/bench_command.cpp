@@ -108,7 +108,8 @@ std::optional<double> share_of_walls(Simulation& simulation, const DeviceArgumen
   if (simulation.particle_count() > kMostParticles) return {};
   Scene open = without_walls(simulation.scene());
   if (open.domain.boundary == simulation.scene().domain.boundary) return 0;
-  auto backend = run::make_backend(device, open.precision);
+  std::vector<Finding> ignored;
+  auto backend = run::make_backend(device, open, simulation.particle_count(), ignored);
   if (!backend) return {};
   SimulationState state = simulation.state();
   if (!simulation.restore(state)) return {};  // a new list, like the other simulation's

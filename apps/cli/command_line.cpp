@@ -156,7 +156,10 @@ void add_export(CLI::App& app, CommandLine& line) {
 
 void add_others(CLI::App& app, CommandLine& line) {
   CLI::App& info = *app.add_subcommand("info", "say what a run folder, snapshot file or checkpoint holds");
-  info.add_option("FILE", line.info, "run folder or file of one")->required();
+  auto* const info_file = info.add_option("FILE", line.info.file, "run folder or file of one");
+  auto* const info_devices =
+      info.add_flag("--devices", line.info.devices, "list what --device can take on this machine, instead");
+  info_file->excludes(info_devices);
   app.add_subcommand("scenes", "list the scenes that come with Hooke");
   app.add_subcommand("schema", "print the JSON Schema of scene files");
   CLI::App& help = *app.add_subcommand("help", "print the help of the program or of a command");

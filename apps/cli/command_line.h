@@ -22,7 +22,7 @@ struct CommandLine {
   BenchArguments bench;
   RenderArguments render;
   ExportArguments exports;
-  std::filesystem::path info;
+  InfoArguments info;
   std::string help_topic;  ///< of `hooke help`; empty: the program
   std::optional<std::int64_t> steps;
   std::optional<double> end;

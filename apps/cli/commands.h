@@ -58,13 +58,18 @@ struct ExportArguments {
   volumes::SurfaceOptions surface;
 };
 
+struct InfoArguments {
+  std::filesystem::path file;
+  bool devices = false;
+};
+
 // One function per command; each prints and returns the exit status.
 ExitStatus run_command(const RunArguments& arguments);
 ExitStatus check_command(const CheckArguments& arguments);
 ExitStatus bench_command(const BenchArguments& arguments);
 ExitStatus render_command(const RenderArguments& arguments);
 ExitStatus export_command(const ExportArguments& arguments);
-ExitStatus info_command(const std::filesystem::path& file);
+ExitStatus info_command(const InfoArguments& arguments);
 ExitStatus scenes_command();
 ExitStatus schema_command();
 /// Becomes the program hooke-view, which lies beside this one, with these arguments; returns only where it can't.

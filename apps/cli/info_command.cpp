@@ -3,16 +3,54 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
+#include <thread>
+
 #include "commands.h"
+#include "hooke/backends/cpu/cpu_backend.h"
 #include "hooke/base/printable.h"
 #include "hooke/io/describe_file.h"
+#include "hooke/run/cuda_loader.h"
 #include "hooke/run/numbers.h"
 #include "log.h"
 #include "run_argument.h"
 
 namespace hooke::cli {
 
-ExitStatus info_command(const std::filesystem::path& file) {
+namespace {
+
+ExitStatus list_devices() {
+  std::string sets;
+  for (const std::string& name : cpu_instruction_sets()) sets += (sets.empty() ? "" : ", ") + name;
+  fmt::print("cpu        {} threads; {}\n", std::max(1U, std::thread::hardware_concurrency()), sets);
+  const auto count = run::count_cuda_devices();
+  if (!count) fmt::print("cuda       none: {}\n", count.error().findings.front().message);
+  for (int index = 0; count && index < *count; ++index) {
+    const auto gpu = run::find_cuda_device(index);
+    if (!gpu) {
+      fmt::print("cuda       {}\n", gpu.error().findings.front().message);
+      continue;
+    }
+    constexpr double kGiB = 1024.0 * 1024 * 1024;
+    const std::uint64_t bytes = cuda_bytes_per_particle(Precision::single_precision, Integrator::symplectic_euler);
+    fmt::print(
+        "cuda       {}, compute capability {}.{}, {:.1f} GiB, {:.1f} of them free: some {} particles in single "
+        "precision\n",
+        gpu->name, gpu->major, gpu->minor, static_cast<double>(gpu->memory) / kGiB,
+        static_cast<double>(gpu->free_memory) / kGiB, run::with_commas(gpu->free_memory / bytes));
+  }
+  fmt::print("reference  all pairs, double precision: for checks\n");
+  return kDone;
+}
+
+}  // namespace
+
+ExitStatus info_command(const InfoArguments& arguments) {
+  if (arguments.devices) return list_devices();
+  const std::filesystem::path& file = arguments.file;
+  if (file.empty())
+    return report_error(Error{Error::Kind::bad_input, {{"info", "name a run folder or a file of one, or --devices"}}});
   if (auto right = check_run_argument(file, "info"); !right) return report_error(right.error());
   const auto found = io::describe_file(file);
   if (!found) return report_error(found.error());

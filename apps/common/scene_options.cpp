@@ -27,9 +27,13 @@ void add_device_options(CLI::App& command, DeviceArguments& device) {
   command.add_option("--threads", device.threads, "threads to use (default: all)")
       ->option_text("N")
       ->check(CLI::Range(1, kMostThreads));
-  command.add_option("--device", device.device, "cpu (default) or reference (all pairs, double)")
+  command
+      .add_option(
+          "--device", device.device,
+          "cpu (default), cuda (a GPU of NVIDIA's), auto (cuda where it can be used, else cpu), or reference (all "
+          "pairs, double)")
       ->option_text("DEVICE")
-      ->check(CLI::IsMember({"cpu", "reference"}), kChoices);
+      ->check(CLI::IsMember({"cpu", "cuda", "auto", "reference"}), kChoices);
 }
 
 }  // namespace hooke::cli

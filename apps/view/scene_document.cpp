@@ -107,7 +107,10 @@ Effect effect_of(std::string_view pointer) {
 
 SceneSource scene_source(const run::SceneArguments& scene, const run::DeviceArguments& device) {
   return {scene.file.string(), scene.file.parent_path(), scene.allow_outside,
-          [device](Precision precision) { return run::make_backend(device, precision); }};
+          [device](const Scene& of, std::size_t particles) {
+            std::vector<Finding> told_before;
+            return run::make_backend(device, of, particles, told_before);
+          }};
 }
 
 Expected<scene::LoadedScene> SceneDocument::load(const scene::Json& scene, bool with_particles) const {
@@ -133,7 +136,7 @@ Expected<scene::LoadedScene> SceneDocument::load_rules(const scene::Json& scene,
 
 Expected<void> SceneDocument::rebuild(Simulation& simulation, Scene scene, SimulationState state,
                                       const Hand& hand) const {
-  auto backend = source_.make_backend(scene.precision);
+  auto backend = source_.make_backend(scene, state.particles.size());
   if (!backend) return fail(std::move(backend).error());
   auto rebuilt = Simulation::resume(std::move(scene), std::move(state), std::move(*backend));
   if (!rebuilt) return fail(std::move(rebuilt).error());
@@ -181,7 +184,7 @@ Expected<void> SceneDocument::change(Simulation& simulation, const scene::Json& 
 Expected<void> SceneDocument::reset(Simulation& simulation) const {
   auto loaded = load(*scene_, true);
   if (!loaded) return fail(std::move(loaded).error());
-  auto backend = source_.make_backend(loaded->scene.precision);
+  auto backend = source_.make_backend(loaded->scene, loaded->particles.size());
   if (!backend) return fail(std::move(backend).error());
   auto started = Simulation::create(std::move(loaded->scene), std::move(loaded->particles), std::move(*backend),
                                     {.allow_unstable_step = true});  // the panel says so

@@ -33,7 +33,7 @@ struct SceneSource {
   std::string name;              ///< of the scene in messages
   std::filesystem::path folder;  ///< to which its paths are relative
   bool allow_outside = false;
-  std::function<Expected<std::unique_ptr<Backend>>(Precision)> make_backend;
+  std::function<Expected<std::unique_ptr<Backend>>(const Scene&, std::size_t particles)> make_backend;
 };
 
 SceneSource scene_source(const run::SceneArguments& scene, const run::DeviceArguments& device);

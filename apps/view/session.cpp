@@ -39,7 +39,10 @@ Expected<std::unique_ptr<Session>> Session::open(const SessionOptions& options) 
   s.origin_ = 0.5 * (domain.min + domain.max);
 
   Timeline::Settings settings;
-  settings.source = scene_source(options.scene, options.device);
+  run::DeviceArguments device = options.device;  // what "auto" has taken is kept
+  if (device.device == "auto")
+    device.device = opened->simulation.backend_info().device.starts_with("cuda") ? "cuda" : "cpu";
+  settings.source = scene_source(options.scene, device);
   settings.scene = scene::Json::parse(opened->resolved);
   settings.replay = options.replay;
   if (!options.record.empty()) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hooke/base/assert.h"
+#include "hooke/base/real.h"
 
 namespace hooke {
 
@@ -15,7 +16,7 @@ struct SineCosine {
 /// Sine and cosine of an angle in turns (1 is 360 degrees), with the same bits on every machine; mathematical libraries
 /// differ between machines, and so would their results. Plain arithmetic; off by at most 2e-16 for any angle that a
 /// double can tell apart (up to 2^52 turns), and exact at quarters of a turn. The angle must be finite.
-inline SineCosine sine_cosine_of_turns(double turns) {
+HOOKE_HD SineCosine sine_cosine_of_turns(double turns) {
   HOOKE_ASSERT(std::isfinite(turns), turns);
   // Quarter turns are subtracted without rounding, which leaves at most an eighth of a turn either way.
   const double quarters = std::floor(4 * turns + 0.5);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -81,6 +82,12 @@ struct ParticleAt {
 struct Removal {
   RemovalSums sums;
   std::vector<std::uint8_t> was_there;  ///< 0 or 1, one per id
+};
+
+/// A back end throws it where its device has failed: what it holds is lost. Simulation::step() returns it as an error.
+class DeviceFailure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 /// Holds and steps particles: reference (all pairs, the specification), cpu, and others to come. A back end is three

@@ -127,7 +127,8 @@ struct Simulation::Impl {
     return host = now;
   }
 
-  // Runs what changes or asks the back end. If memory runs out, the back end's state is unknown: the simulation fails.
+  // Runs what changes or asks the back end. If memory runs out or a device fails, the back end's state is unknown: the
+  // simulation fails.
   template <class Body>
   auto guarded(const Body& body) -> decltype(body()) {
     if (failed) return fail(failure);
@@ -137,7 +138,15 @@ struct Simulation::Impl {
       failed = true;
       failure = out_of_memory(run.step);
       return fail(failure);
+    } catch (const DeviceFailure& of_device) {
+      return device_failed(of_device);
     }
+  }
+
+  Unexpected device_failed(const DeviceFailure& of_device) {
+    failed = true;
+    failure = Error{Error::Kind::run_failed, {{backend->info().device, of_device.what()}}};
+    return fail(failure);
   }
 
   Expected<ParticleAt> find(std::uint64_t id) const {
@@ -227,11 +236,15 @@ struct Simulation::Impl {
       backend->assign(particles);
       if (particles.empty() || !are_new) return {};
       return check(start_particles(scene, *backend, ranks, run));
-    } catch (const std::bad_alloc&) {
+    } catch (const std::bad_alloc& memory) {
+      const std::string why = memory.what();  // a GPU says how much it lacks
       failed = true;
       failure = Error{Error::Kind::bad_input,
-                      {{"particles", formatted("{} particles do not fit into memory", particles.size())}}};
+                      {{"particles", formatted("{} particles do not fit into memory{}", particles.size(),
+                                               why == std::bad_alloc().what() ? "" : " (" + why + ")")}}};
       return fail(failure);
+    } catch (const DeviceFailure& of_device) {
+      return device_failed(of_device);
     }
   }
 

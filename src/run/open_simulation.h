@@ -24,7 +24,7 @@ struct SceneArguments {
 
 /// The back end.
 struct DeviceArguments {
-  std::string device = "cpu";  ///< or "reference"
+  std::string device = "cpu";  ///< or "cuda", "auto": a GPU where it can be used, else the CPU; "reference"
   int threads = 0;  ///< 0: as many as the machine has
 };
 
@@ -39,8 +39,11 @@ struct OpenedSimulation {
   std::int64_t kept_step = 0;
 };
 
-/// The back end that is asked for; HOOKE_ISA in the environment picks the instruction set.
-Expected<std::unique_ptr<Backend>> make_backend(const DeviceArguments& arguments, Precision precision);
+/// The back end that is asked for, for so many particles of a scene; HOOKE_ISA in the environment picks the CPU's
+/// instruction set. bad_input where the device can't be used, does not have what the scene needs, or has no room for
+/// the particles. Where "auto" takes the CPU, why is added to `findings`.
+Expected<std::unique_ptr<Backend>> make_backend(const DeviceArguments& arguments, const Scene& scene,
+                                                std::size_t particles, std::vector<Finding>& findings);
 
 /// Loads the scene and puts its particles, or those of the checkpoint `resume`, into a back end.
 Expected<OpenedSimulation> open_simulation(const SceneArguments& scene, const DeviceArguments& device,

@@ -64,6 +64,7 @@ class Births : public testing::TestWithParam<BusyKind> {
   }
 
   Engine engine(int threads) const { return {"cpu", GetParam().precision, threads, "", true}; }
+  Engine gpu() const { return {"gpu", GetParam().precision, 1, ""}; }
 
   Scene scene_;
   ParticleSet particles_;
@@ -96,11 +97,12 @@ TEST_P(Births, AreThoseOfTheReference) {
   }
 }
 
-TEST_P(Births, AreTheSameForAnyThreadsAndInstructions) {
+TEST_P(Births, AreTheSameForAnyThreadsInstructionsAndDevices) {
   Simulation one = simulate(scene_, particles_, engine(1));
   ASSERT_TRUE(advance(one, 100));
-  for (const Isa& isa : available_isas()) {
-    Simulation other = simulate(scene_, particles_, {"cpu", GetParam().precision, 3, isa.name});
+  for (const Engine& engine : engines_with_the_same_bits(GetParam().precision)) {
+    SCOPED_TRACE(engine.name());
+    Simulation other = simulate(scene_, particles_, engine);
     ASSERT_TRUE(advance(other, 100));
     expect_same_bits(one, other);
   }
@@ -112,7 +114,7 @@ TEST_P(Births, GoOnAfterARestart) {
   for (const std::int64_t steps : {1, 17, 45}) {
     Simulation first = simulate(scene_, particles_, engine(2));
     ASSERT_TRUE(advance(first, steps));
-    Simulation second = resume(scene_, first.state(), engine(1));
+    Simulation second = resume(scene_, first.state(), steps == 17 ? gpu() : engine(1));
     EXPECT_EQ(second.state().emission, first.state().emission);
     ASSERT_TRUE(advance(second, 90 - steps));
     expect_same_bits(whole, second);
@@ -179,7 +181,7 @@ TEST(BirthLedger, KineticEnergyBalances) {
     e.life = Range{0.005, 0.02};
     e.stop = 0.05;
     scene.emitters = {e};
-    for (const Engine& engine : {kReference, kCpuDouble}) {
+    for (const Engine& engine : {kReference, kCpuDouble, kGpuDouble}) {
       Simulation sim = simulate(scene, {}, engine);
       ASSERT_TRUE(advance(sim, 100));
       EXPECT_EQ(sim.particle_count(), 0U);
@@ -220,7 +222,7 @@ TEST(Emitters, CarryTheRemainder) {
 // In a space that is soon full, births wait. No particle is ever born into an overlap with a wall, a collider or a
 // particle, across periodic faces too.
 TEST(Emitters, NeverBearIntoAnOverlap) {
-  for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
+  for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle, kGpuDouble, kGpuSingle}) {
     Scene scene = open_scene();
     scene.domain = {{0, 0, 0}, {6, 4, 5}, {Boundary::periodic, Boundary::spring, Boundary::spring}};
     mix_materials(scene, 0.3);
@@ -271,7 +273,7 @@ TEST(Emitters, BearAgainUnderNewIds) {
   e.life = Range{0.004, 0.009};
   e.respawn = true;
   scene.emitters = {e};
-  for (const Engine& engine : {kReference, kCpuDouble}) {
+  for (const Engine& engine : {kReference, kCpuDouble, kGpuDouble}) {
     Simulation sim = simulate(scene, {}, engine);
     std::set<std::uint64_t> ever, before;
     for (int step = 1; step <= 60; ++step) {
@@ -323,7 +325,7 @@ TEST(Sinks, TakeWhoIsInsideAndNobodyElse) {
   add(p, {-0.1, 0.2, 1.9}, {1, 0, 0});  // after 100
   add(p, {12.9, 0, 0}, {0, 0, 0});  // in the capsule's cap
   add(p, {12.9, 1.1, 0}, {0, 0, 0});  // beside it
-  for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
+  for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle, kGpuDouble, kGpuSingle}) {
     Simulation sim = simulate(scene, p, engine);
     EXPECT_EQ(sim.particle_count(), 4U);
     ASSERT_TRUE(advance(sim, 20));
@@ -376,7 +378,7 @@ TEST(Sparks, FeelSpringsAndAttraction) {
 
 // A spark falls through a pile, and bounces off the floor as a particle without neighbours does.
 TEST(Sparks, TouchWallsAndCollidersOnly) {
-  for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
+  for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle, kGpuDouble, kGpuSingle}) {
     Scene scene = open_scene();
     scene.gravity = {0, -9.8, 0};
     Material spark = scene.materials[0], ball = spark;

@@ -35,14 +35,17 @@ TEST_P(BusyScenes, HaveTheSameBitsForAnyNumberOfThreads) {
   }
 }
 
-TEST_P(BusyScenes, HaveTheSameBitsOnEveryInstructionSet) {
+TEST_P(BusyScenes, HaveTheSameBitsOnEveryInstructionSetAndDevice) {
   Simulation widest = simulate(scene_, particles_, engine(2));
   ASSERT_TRUE(advance(widest, kSteps));
-  for (const Isa& isa : available_isas()) {
-    Simulation other = simulate(scene_, particles_, {"cpu", GetParam().precision, 2, isa.name});
+  for (const Engine& engine : engines_with_the_same_bits(GetParam().precision)) {
+    SCOPED_TRACE(engine.name());
+    Simulation other = simulate(scene_, particles_, engine);
     ASSERT_TRUE(advance(other, kSteps));
-    EXPECT_EQ(other.backend_info().isa, isa.name);
-    EXPECT_EQ(other.state_hash(), widest.state_hash()) << isa.name;
+    if (engine.device == "cpu") {
+      EXPECT_EQ(other.backend_info().isa, engine.isa);
+    }
+    expect_same_bits(widest, other);
   }
 }
 
@@ -94,7 +97,7 @@ TEST(FlushToZero, LeavesDenormalsAlone) {
   ParticleSet particles;
   add(particles, {0, 0, 0}, {1e-300, 0, 0});
   add(particles, {2, 0, 0}, {1e-36, 0, 0});
-  for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
+  for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle, kGpuDouble, kGpuSingle}) {
     const auto run = [&](unsigned mode) {
       const ControlRegister set(mode);
       Simulation simulation = simulate(scene, particles, engine);

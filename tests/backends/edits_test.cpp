@@ -96,8 +96,9 @@ TEST_P(EditedScenes, PushedByTheCallerHaveTheSameBits) {
   const bool single = GetParam().precision == Precision::single_precision;
   Simulation ours = simulate(scene_, particles_, engine(2));
   Simulation other = simulate(scene_, particles_, single ? engine(1) : kReference);
+  Simulation gpu = simulate(scene_, particles_, {"gpu", GetParam().precision, 1, ""});
   for (std::uint64_t burst = 0; burst < 3; ++burst) {
-    for (Simulation* s : {&ours, &other}) {
+    for (Simulation* s : {&ours, &other, &gpu}) {
       if (burst > 0) {
         ASSERT_NO_FATAL_FAILURE(edit(*s, burst));
       }
@@ -116,6 +117,7 @@ TEST_P(EditedScenes, PushedByTheCallerHaveTheSameBits) {
     EXPECT_NEAR(ours.ledger().work[Cause::external], other.ledger().work[Cause::external], 1e-9);
   }
   EXPECT_GT(ours.ledger().impulse[Cause::external].y, 0);
+  expect_same_bits(ours, gpu);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, EditedScenes, all_busy_kinds(),
@@ -135,7 +137,7 @@ TEST(Edits, FreeThePlacesOfFixedParticles) {
   ParticleSet particles;
   add(particles, {0, 0, 0}, {0, 0, 0});
   add(particles, {5, 0, 0}, {0, 0, 0});
-  for (const Engine& engine : {kReference, kCpuDouble}) {
+  for (const Engine& engine : {kReference, kCpuDouble, kGpuDouble}) {
     Simulation s = simulate(scene, particles, engine);
     ASSERT_TRUE(advance(s, 2));
     const std::uint64_t gone[] = {1};

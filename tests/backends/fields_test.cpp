@@ -81,7 +81,7 @@ TEST_P(BusyFields, HaveTheReferencesBitsAfterEditsByHand) {
   EXPECT_EQ(all_pairs.state_hash(), fast.state_hash());
 }
 
-TEST_P(BusyFields, HaveTheSameBitsForAnyNumberOfThreadsAndInstructionSet) {
+TEST_P(BusyFields, HaveTheSameBitsForAnyNumberOfThreadsInstructionSetAndDevice) {
   Simulation one = simulate(scene_, particles_, engine(1));
   ASSERT_TRUE(advance(one, kSteps));
   for (const int threads : {2, 3, 8}) {
@@ -89,9 +89,9 @@ TEST_P(BusyFields, HaveTheSameBitsForAnyNumberOfThreadsAndInstructionSet) {
     ASSERT_TRUE(advance(many, kSteps));
     expect_same_bits(one, many);
   }
-  for (const Isa& isa : available_isas()) {
-    SCOPED_TRACE(isa.name);
-    Simulation other = simulate(scene_, particles_, {"cpu", GetParam().precision, 2, isa.name});
+  for (const Engine& engine : engines_with_the_same_bits(GetParam().precision)) {
+    SCOPED_TRACE(engine.name());
+    Simulation other = simulate(scene_, particles_, engine);
     ASSERT_TRUE(advance(other, kSteps));
     expect_same_bits(one, other);
   }

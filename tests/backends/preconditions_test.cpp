@@ -69,7 +69,8 @@ TEST_P(BackendPreconditions, WhatIsEditedIsThere) {
   EXPECT_ASSERTS(backend_->edit({&none, 1}), "to.id = 77");
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, BackendPreconditions, testing::Values(kReference, kCpuDouble, kCpuSingle),
+INSTANTIATE_TEST_SUITE_P(Engines, BackendPreconditions,
+                         testing::Values(kReference, kCpuDouble, kCpuSingle, kGpuDouble, kGpuSingle),
                          [](const auto& engine) { return engine.param.name(); });
 
 TEST(CpuPreconditions, TablesOfIdsAscend) {

@@ -103,7 +103,26 @@ TEST_F(Usage, WrongUsageIsStatus2) {
     EXPECT_NE(outcome.err, "") << testing::PrintToString(arguments);
   }
   EXPECT_FALSE(exists("s"));
-  EXPECT_THAT(hooke({"run", "s.json", "--device", "cuda"}).err, HasSubstr("--device: cuda not in {cpu,reference}"));
+  EXPECT_THAT(hooke({"run", "s.json", "--device", "tpu"}).err,
+              HasSubstr("--device: tpu not in {cpu,cuda,auto,reference}"));
+}
+
+// On any machine: one with a GPU is asked to hide it.
+TEST_F(Usage, AGpuThatIsNotThereIsRefused) {
+  setenv("CUDA_VISIBLE_DEVICES", "-1", 1);
+  write("s.json", small_scene());
+  const auto says_what_was_looked_for = testing::AnyOf(HasSubstr("NVIDIA driver"), HasSubstr("not in this build"));
+  const Outcome cuda = hooke({"run", "s.json", "--device", "cuda"});
+  EXPECT_EQ(cuda.status, 2);
+  EXPECT_THAT(cuda.err, says_what_was_looked_for);
+  EXPECT_FALSE(exists("s"));
+  const Outcome automatic = hooke({"run", "s.json", "--device", "auto", "--steps", "3"});
+  EXPECT_EQ(automatic.status, 0) << automatic.err;
+  EXPECT_THAT(automatic.err + automatic.out, testing::AllOf(HasSubstr("takes the CPU"), says_what_was_looked_for));
+  const Outcome devices = hooke({"info", "--devices"});
+  EXPECT_EQ(devices.status, 0);
+  EXPECT_THAT(devices.out, testing::AllOf(HasSubstr("scalar"), HasSubstr("cuda       none"), says_what_was_looked_for));
+  unsetenv("CUDA_VISIBLE_DEVICES");
 }
 
 TEST_F(Usage, AnUnknownInstructionSetIsRefused) {

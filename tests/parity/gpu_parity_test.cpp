@@ -6,6 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
 #include "scenarios.h"
 #include "support/engines.h"
 
@@ -49,6 +53,48 @@ TEST_P(Gpu, HasTheBitsOfTheCpuInAnyOrderOfItems) {
 
 INSTANTIATE_TEST_SUITE_P(Scenarios, Gpu, testing::ValuesIn(scenarios()),
                          [](const auto& instance) { return instance.param.name; });
+
+// Items of a kernel at the same time on several threads: what the thread sanitizer says of them is what a GPU would do.
+class GpuOnThreads : public testing::TestWithParam<std::string> {};
+
+TEST_P(GpuOnThreads, HasTheBitsOfTheCpu) {
+  const auto scenario = std::find_if(scenarios().begin(), scenarios().end(),
+                                     [](const Scenario& candidate) { return candidate.name == GetParam(); });
+  ASSERT_NE(scenario, scenarios().end());
+  for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
+    Scene scene = scenario->scene;
+    scene.integrator = integrator;
+    Simulation cpu = simulate(scene, scenario->particles, kCpuSingle);
+    Simulation gpu =
+        simulate(scene, scenario->particles, {"gpu", Precision::single_precision, 1, "", false, ItemOrder::threads});
+    ASSERT_TRUE(advance(cpu, 12));
+    ASSERT_TRUE(advance(gpu, 12));
+    EXPECT_EQ(gpu.state_hash(), cpu.state_hash());
+    EXPECT_EQ(gpu.ledger(), cpu.ledger());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios, GpuOnThreads,
+                         testing::Values("colliders_open", "surfaces_periodic", "one_to_twelve_spring"),
+                         [](const auto& instance) { return instance.param; });
+
+#if defined(__SANITIZE_THREAD__)
+// Adds to one number without an atomic operation.
+struct PlantedRace {
+  std::uint32_t* sum;
+  void operator()(std::uint32_t i) const { *sum += i; }
+};
+
+TEST(GpuOnThreadsDeathTest, APlantedRaceIsFound) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto race = [] {
+    std::uint32_t sum = 0;
+    gpu::HostDevice(ItemOrder::threads).each(30000, PlantedRace{&sum});
+    std::exit(0);
+  };
+  EXPECT_EXIT(race(), [](int status) { return status != 0; }, "data race");
+}
+#endif
 
 }  // namespace
 }  // namespace hooke::test

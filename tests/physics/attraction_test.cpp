@@ -89,7 +89,7 @@ TEST_P(Orbits, OfThreeBodiesAreAFigureEight) {
   EXPECT_NEAR(accounted_energy(s) / s.initial_energy(), 1, 1e-7);
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, Orbits, testing::Values(kReference, kCpuDouble),
+INSTANTIATE_TEST_SUITE_P(Engines, Orbits, testing::Values(kReference, kCpuDouble, kGpuDouble),
                          [](const auto& test) { return test.param.name(); });
 
 // A cluster at rest collapses: the work of attraction equals the kinetic energy, up to rounding, under either

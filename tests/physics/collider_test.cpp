@@ -56,7 +56,7 @@ TEST(BouncingBall, GoesTheSameWayOverEveryShape) {
     }
     for (const Shape& shape : shapes) {
       for (const bool hollow : {false, true}) {
-        for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
+        for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle, kGpuDouble, kGpuSingle}) {
           Scene scene = scene_with(make_collider(shape, {}, hollow));
           scene.integrator = integrator;
           Simulation simulation = simulate(scene, ball, engine);
@@ -78,7 +78,7 @@ TEST(BouncingBall, GoesTheSameWayOverEveryShape) {
 
 // The plane moves along x; shear and damping speed up a ball that lies on it as v (1 - e^(-c t / m)), c = c_s + c_d.
 TEST(MovingPlane, CarriesARestingBall) {
-  for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
+  for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle, kGpuDouble, kGpuSingle}) {
     Scene scene = scene_with(make_collider(PlaneShape{{0, 0, 0}, {0, 1, 0}}, SteadyMotion{{2, 0, 0}, {}, {}}));
     ParticleSet ball;
     add(ball, {0, 0.5 - 9.8 / 1000, 0}, {0, 0, 0});  // pressed in by its weight
@@ -108,7 +108,7 @@ TEST(TurningDisc, TakesAlongByTheSpeedOfItsSurface) {
 }
 
 TEST(Heap, WeighsOnAColliderWhatItsParticlesWeigh) {
-  for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
+  for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle, kGpuDouble, kGpuSingle}) {
     Scene scene = scene_with(make_collider(BoxShape{{-10, -20, 5}, {-7, 0, 8}}, {}, true));
     for (Material& m : scene.materials) m.contact.damping = m.contact.shear = 20;
     scene.time_step = 0.002;
@@ -157,7 +157,7 @@ TEST(ColliderMaterial, MixesWithTheParticles) {
 }
 
 TEST(FastApproach, ToAColliderStopsTheRun) {
-  for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
+  for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle, kGpuDouble, kGpuSingle}) {
     Scene scene = scene_with(make_collider(PlaneShape{}, SteadyMotion{{0, 400, 0}, {}, {}}));
     ParticleSet ball;
     add(ball, {0, 0.45, 0}, {0, -200, 0});
@@ -217,7 +217,7 @@ TEST(PeriodicColliders, AreFeltAcrossTheFaces) {
     if (x.z < -10) x.z += 20;
     add(grains, x, {0, 0, 0});
   }
-  for (const Engine& engine : {kReference, kCpuDouble}) {
+  for (const Engine& engine : {kReference, kCpuDouble, kGpuDouble}) {
     Simulation across = simulate(scene, grains, engine), within = simulate(middle, shifted, engine);
     for (int i = 0; i < 10; ++i) {
       ASSERT_TRUE(advance(across, 100));

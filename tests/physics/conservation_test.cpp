@@ -36,7 +36,7 @@ TEST(Momentum, IsKeptToRoundingWithoutWallsAndGravity) {
       scene.domain.boundary = {boundary, boundary, boundary};
       for (Material& m : scene.materials) m.drag = 0;
       const ParticleSet particles = lattice(scene, {5, 5, 5}, {0.25, 0.25, 0.25}, 0.5, 0.1, 1);
-      for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
+      for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle, kGpuDouble, kGpuSingle}) {
         Simulation simulation = simulate(scene, particles, engine);
         const Vec3d before = measured(simulation).momentum;
         ASSERT_TRUE(advance(simulation, 300));
@@ -61,7 +61,7 @@ TEST(Momentum, IsAccountedForWithEverythingThatActs) {
     scene.domain.max = {4, 4, 4};
     scene.domain.boundary = {Boundary::open, Boundary::spring, Boundary::periodic};
     const ParticleSet particles = lattice(scene, {6, 6, 6}, {0.7, 0.3, 0.7}, 0.5, 0.1, 2);
-    for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
+    for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle, kGpuDouble, kGpuSingle}) {
       Simulation simulation = simulate(scene, particles, engine);
       ASSERT_TRUE(advance(simulation, 600));
       const Measurements after = measured(simulation);
@@ -122,7 +122,7 @@ TEST(Energy, OfADepartureIsBooked) {
   ParticleSet particles;
   add(particles, {99.995, 0, 0}, {10, 0, 0});
   add(particles, {0, 0, 0}, {1, 0, 0});
-  for (const Engine& engine : {kReference, kCpuDouble}) {
+  for (const Engine& engine : {kReference, kCpuDouble, kGpuDouble}) {
     Simulation simulation = simulate(scene, particles, engine);
     ASSERT_TRUE(advance(simulation, 1));
     EXPECT_EQ(simulation.particle_count(), 1U);
@@ -164,7 +164,7 @@ TEST(Energy, OfContactsAndSpringsThatVanishIsBooked) {
       } else {
         block.scene.domain.max.x = 1.9 + 5e-7;
       }
-      for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
+      for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle, kGpuDouble, kGpuSingle}) {
         SCOPED_TRACE(engine.name());
         Simulation simulation = simulate(block.scene, block.particles, engine);
         const Measurements before = measured(simulation);

@@ -148,7 +148,7 @@ TEST_P(Fields, WindPressesOnSheets) {
   expect_near(t.ledger().impulse[Cause::field], {0, 0, 0}, kStep * rounding());
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, Fields, testing::Values(kReference, kCpuDouble, kCpuSingle),
+INSTANTIATE_TEST_SUITE_P(Engines, Fields, testing::Values(kReference, kCpuDouble, kCpuSingle, kGpuDouble, kGpuSingle),
                          [](const auto& test) { return test.param.name(); });
 
 TEST(FieldChecks, NameWhatIsWrong) {

@@ -14,7 +14,7 @@ namespace {
 
 // The settled heap presses on the floor with its weight, and equally on opposite walls.
 TEST(Heap, WeighsOnTheFloorWhatItsParticlesWeigh) {
-  for (const Engine& engine : {kCpuDouble, kCpuSingle}) {
+  for (const Engine& engine : {kCpuDouble, kCpuSingle, kGpuDouble, kGpuSingle}) {
     for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
       Scene scene = open_scene();
       mix_materials(scene, 0.25);

@@ -67,7 +67,7 @@ TEST_P(SpringModes, FollowTheAnalyticSolution) {
     if (mode == SpringMode::both || t <= crossing) return acting(t);
     return rate(crossing) * (t - crossing);
   };
-  for (const Engine& engine : {kReference, kCpuDouble}) {
+  for (const Engine& engine : {kReference, kCpuDouble, kGpuDouble}) {
     const Pair pair(start, damping, mode, dt);
     Simulation s = simulate(pair.scene, pair.particles, engine);
     // One period; a one-sided spring does not act for three quarters of it.
@@ -146,7 +146,7 @@ TEST(Springs, HangInADiscreteCatenary) {
 // Work is the kinetic energy that kicks add; here springs do all of it.
 TEST(Springs, AccountForTheKineticEnergy) {
   for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
-    for (const Engine& engine : {kReference, kCpuDouble}) {
+    for (const Engine& engine : {kReference, kCpuDouble, kGpuDouble}) {
       double error[2];
       for (int fine = 0; fine < 2; ++fine) {
         Pair pair(0.5, 2, SpringMode::both, fine == 0 ? 2e-3 : 1e-3);
@@ -167,7 +167,7 @@ TEST(Springs, AccountForTheKineticEnergy) {
 
 // Pulled apart at a steady speed: the spring breaks at the end of the step that sees it too long, not before.
 TEST(Springs, BreakForEverWhenStretchedTooFar) {
-  for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
+  for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle, kGpuDouble, kGpuSingle}) {
     Scene scene = open_scene();
     scene.time_step = 1.0 / 64;  // exact in binary, as all numbers below
     ParticleSet particles;
@@ -195,7 +195,7 @@ TEST(Springs, BreakForEverWhenStretchedTooFar) {
 // Two overlapping particles with a spring as long as their distance: without contact they stay, with contact they are
 // pushed apart.
 TEST(Springs, KeepTheirEndsFromTouchingWhereAskedTo) {
-  for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
+  for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle, kGpuDouble, kGpuSingle}) {
     for (const bool contact : {false, true}) {
       Scene scene = open_scene();
       ParticleSet particles = pair_on_x(scene, 0.25, {0, 0, 0}, {0, 0, 0});
@@ -219,7 +219,7 @@ TEST(Springs, KeepTheirEndsFromTouchingWhereAskedTo) {
 }
 
 TEST(Springs, ReachAcrossPeriodicFaces) {
-  for (const Engine& engine : {kReference, kCpuDouble}) {
+  for (const Engine& engine : {kReference, kCpuDouble, kGpuDouble}) {
     Scene scene = open_scene();
     scene.domain.min = {0, 0, 0};
     scene.domain.max = {10, 10, 10};

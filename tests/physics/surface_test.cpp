@@ -141,7 +141,8 @@ TEST_P(Surfaces, FollowTheIntegrationOfTwoBodies) {
   add(particles, bodies.x_1, bodies.v_1, 0);
   add(particles, bodies.x_2, bodies.v_2, 1);
   std::vector<Simulation> runs;
-  for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) runs.push_back(simulate(scene, particles, engine));
+  for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle, kGpuDouble, kGpuSingle})
+    runs.push_back(simulate(scene, particles, engine));
 
   constexpr int kSteps = 3000;  // past the end of the contact
   bool touched = false;
@@ -176,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Surfaces,
 // On a floor where only friction brakes, a block slides v^2 / (2 mu g) and stops; the ledger accounts for its energy.
 TEST(Friction, StopsASlidingParticleWhereTheBooksSay) {
   constexpr double kMu = 0.25, kSpeed = 2, kG = 8, kDt = 1e-4;
-  for (const Engine& engine : {kReference, kCpuDouble}) {
+  for (const Engine& engine : {kReference, kCpuDouble, kGpuDouble}) {
     Scene scene = open_scene();
     scene.time_step = kDt;
     scene.gravity = {0, -kG, 0};
@@ -222,7 +223,7 @@ TEST(Friction, HoldsOnASlopeUpToItsAngle) {
 // Cohesion is conservative: without dashpots energy comes back, up to the integrator's error, and two particles at rest
 // within its range come together and stay.
 TEST(Cohesion, KeepsTheEnergyAndBinds) {
-  for (const Engine& engine : {kReference, kCpuDouble}) {
+  for (const Engine& engine : {kReference, kCpuDouble, kGpuDouble}) {
     Scene scene = open_scene();
     scene.integrator = Integrator::velocity_verlet;
     scene.time_step = 1e-4;
@@ -258,7 +259,7 @@ TEST(Cohesion, ReachesAcrossPeriodicFacesAndToWalls) {
   add(particles, {0.5, 4, 4}, {0, 0, 0});
   add(particles, {7.375, 4, 4}, {0, 0, 0});  // 1.125 apart across the face: half the range
   add(particles, {4, 0.625, 4}, {0, 0, 0});  // half the range from the wall
-  for (const Engine& engine : {kReference, kCpuDouble}) {
+  for (const Engine& engine : {kReference, kCpuDouble, kGpuDouble}) {
     Simulation s = simulate(scene, particles, engine);
     EXPECT_NEAR(measured(s).wall_force.y, -2, 1e-12);
     EXPECT_EQ(measured(s).contacts, 0U) << "nothing touches";
@@ -285,7 +286,7 @@ TEST(Fixed, ParticlesDoNotMoveAndTurnOthersBack) {
     walled.domain.min.y = 0;
     ParticleSet alone;
     add(alone, {0, 2.5, 0}, {0, 0, 0}, 0);
-    for (const Engine& engine : {kReference, kCpuDouble}) {
+    for (const Engine& engine : {kReference, kCpuDouble, kGpuDouble}) {
       Simulation s = simulate(scene, particles, engine), expected = simulate(walled, alone, engine);
       ASSERT_TRUE(advance(s, 800) && advance(expected, 800));
       EXPECT_GT(s.velocities()[0].y, 0) << "on its way up";
@@ -300,7 +301,7 @@ TEST(Fixed, ParticlesDoNotMoveAndTurnOthersBack) {
 
 // The ledger's kinetic balance holds with sliding contacts, and friction is a separate cause in it.
 TEST(Friction, IsInTheLedger) {
-  for (const Engine& engine : {kReference, kCpuDouble}) {
+  for (const Engine& engine : {kReference, kCpuDouble, kGpuDouble}) {
     Scene scene = open_scene();
     scene.materials[0].surface.friction = 0.2;
     ParticleSet particles = cloud(scene, 60, {0, 0, 0}, {4, 3, 3}, 1, 5);

@@ -196,7 +196,7 @@ TEST(OneParticle, FallsAsItsIntegratorSays) {
   const int n = 1000;
   for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
     scene.integrator = integrator;
-    for (const Engine& engine : {kReference, kCpuDouble}) {
+    for (const Engine& engine : {kReference, kCpuDouble, kGpuDouble}) {
       Simulation simulation = simulate(scene, particles, engine);
       ASSERT_TRUE(advance(simulation, n));
       // Symplectic Euler: x_n = g dt^2 n (n + 1) / 2; velocity Verlet is exact.
@@ -215,7 +215,7 @@ TEST(OneParticle, SlowsDownByDrag) {
   scene.materials[0].mass = 4;
   ParticleSet particles;
   add(particles, {0, 0, 0}, {3, -1, 0});
-  for (const Engine& engine : {kReference, kCpuDouble}) {
+  for (const Engine& engine : {kReference, kCpuDouble, kGpuDouble}) {
     Simulation simulation = simulate(scene, particles, engine);
     ASSERT_TRUE(advance(simulation, 1000));
     const double left = std::pow(1 - scene.time_step * 2 / 4, 1000);

@@ -19,6 +19,7 @@ namespace {
 constexpr const char* kEulerFile = "expected_semi_implicit_euler.csv";
 constexpr const char* kSeriesFile = "expected_series.csv";
 constexpr std::size_t kMostForReference = 100;  // particles: all pairs, thousands of steps
+constexpr std::size_t kMostForGpu = 1000;       // a loop in its place takes its time
 
 using CaseOnEngine = std::tuple<LammpsCase, Engine>;
 
@@ -37,6 +38,10 @@ std::vector<CaseOnEngine> cases_with(const std::string& file, bool on_reference)
     if (!file.empty() && !c.has(file)) continue;
     all.emplace_back(c, kCpuDouble);
     all.emplace_back(c, kCpuSingle);
+    if (c.particle_count() <= kMostForGpu) {
+      all.emplace_back(c, kGpuDouble);
+      all.emplace_back(c, kGpuSingle);
+    }
     if (on_reference && c.particle_count() <= kMostForReference) all.emplace_back(c, kReference);
   }
   return all;

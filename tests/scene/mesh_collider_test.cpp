@@ -66,7 +66,7 @@ TEST(BouncingBall, GoesTheSameWayOverAMeshOfAShape) {
   add(ball, {0.01, 1.5, 0.02}, {0, 0, 0});
   for (const auto& [shape, mesh] : pairs) {
     const MeshShape mesh_shape = shape_of(mesh, cell, 0.5);
-    for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle}) {
+    for (const Engine& engine : {kReference, kCpuDouble, kCpuSingle, kGpuDouble, kGpuSingle}) {
       Scene scene = open_scene();
       scene.gravity = {0, -9.8, 0};
       scene.colliders.resize(1);

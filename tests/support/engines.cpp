@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "hooke/backends/cpu/cpu_backend.h"
+#include "hooke/backends/cpu/isa.h"
 #include "hooke/backends/reference/reference_backend.h"
 #include "support/gpu_on_host.h"
 
@@ -27,7 +28,15 @@ Simulation must(Expected<Simulation> simulation) {
 
 std::string Engine::name() const {
   if (device == "reference") return device;
-  return device + (precision == Precision::single_precision ? "_single" : "_double");
+  return device + (precision == Precision::single_precision ? "_single" : "_double") + (isa.empty() ? "" : "_" + isa);
+}
+
+std::vector<Engine> engines_with_the_same_bits(Precision precision) {
+  std::vector<Engine> engines;
+  for (const Isa& isa : available_isas()) engines.push_back({"cpu", precision, 3, isa.name});
+  for (const gpu::ItemOrder order : {gpu::ItemOrder::shuffled, gpu::ItemOrder::down})
+    engines.push_back({"gpu", precision, 1, "", false, order});
+  return engines;
 }
 
 std::unique_ptr<Backend> make_backend(const Engine& engine) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "hooke/backends/gpu/host_device.h"
 #include "hooke/core/simulation.h"
@@ -32,7 +33,7 @@ struct Engine {
   bool check_list = false;  ///< count the contacts that the neighbour list misses
   gpu::ItemOrder item_order = gpu::ItemOrder::shuffled;  ///< of "gpu"
 
-  std::string name() const;  ///< "cpu_double", for messages and names of tests
+  std::string name() const;  ///< "cpu_double", "cpu_double_avx2", for messages and names of tests
 };
 
 inline const Engine kReference{"reference", Precision::double_precision, 1, "", false};
@@ -42,6 +43,10 @@ inline const Engine kGpuDouble{"gpu", Precision::double_precision, 1, "", false}
 inline const Engine kGpuSingle{"gpu", Precision::single_precision, 1, "", false};
 
 inline void PrintTo(const Engine& engine, std::ostream* os) { *os << engine.name(); }
+
+/// All that must have the same bits in a precision: each instruction set that this processor has, and a GPU with its
+/// items in two orders.
+std::vector<Engine> engines_with_the_same_bits(Precision precision);
 
 std::unique_ptr<Backend> make_backend(const Engine& engine);
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "hooke/base/parallel.h"
-#include "hooke/physics/periodic.h"
+#include "hooke/passes/cloth_force.h"
 
 namespace hooke {
 
@@ -75,7 +75,6 @@ void FieldForces<Real>::apply(const LargeVector<Record>& records, std::size_t co
 template <class Real>
 void FieldForces<Real>::apply_to_triangles(const PlacedField<Real>& field, const LargeVector<Record>& records,
                                            const std::vector<std::uint32_t>& slot_of) {
-  constexpr Real kThird = Real(1.0 / 3);
   parallel_ranges(triangles_.size(), kTile, [&](std::size_t first, std::size_t last) {
     for (std::size_t t = first; t < last; ++t) {
       on_triangle_[t] = {Real(0), Real(0), Real(0)};
@@ -87,12 +86,7 @@ void FieldForces<Real>::apply_to_triangles(const PlacedField<Real>& field, const
         corner[k] = &records[whole ? at : 0];
       }
       if (!whole) continue;
-      const Vec3<Real> edge_1 = nearest_displacement(corner[1]->x, corner[0]->x, period_);
-      const Vec3<Real> edge_2 = nearest_displacement(corner[2]->x, corner[0]->x, period_);
-      const Vec3<Real> middle = corner[0]->x + kThird * (edge_1 + edge_2);
-      if (!field.acts_on(static_cast<std::size_t>(corner[0]->material), middle)) continue;
-      const Vec3<Real> v = kThird * ((corner[0]->v + corner[1]->v) + corner[2]->v);
-      on_triangle_[t] = field.force_on_corner(middle, edge_1, edge_2, v);
+      on_triangle_[t] = force_on_corner(field, period_, *corner[0], *corner[1], *corner[2]);
     }
   });
 }

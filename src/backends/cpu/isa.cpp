@@ -3,6 +3,7 @@
 
 #include "hooke/backends/cpu/isa.h"
 
+#include "hooke/backends/cpu/cpu_backend.h"
 #include "hooke/base/format.h"
 
 namespace hooke {
@@ -53,6 +54,12 @@ std::vector<Isa> available_isas() {
   isas.push_back(portable::named("portable"));
   isas.push_back(scalar::named("scalar"));
   return isas;
+}
+
+std::vector<std::string> cpu_instruction_sets() {
+  std::vector<std::string> names;
+  for (const Isa& isa : available_isas()) names.push_back(isa.name);
+  return names;
 }
 
 Expected<Isa> choose_isa(const std::string& name) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "hooke/base/hash.h"
 #include "hooke/base/vec3.h"

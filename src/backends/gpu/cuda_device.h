@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "hooke/backends/gpu/device.h"
+#include "hooke/core/backend.h"
 
 #if defined(__CUDA_FTZ) || defined(__USE_FAST_MATH__)
 #error "All bits of a step are those of a processor: no -use_fast_math, no -ftz=true"
@@ -20,11 +21,12 @@
 namespace hooke::gpu {
 
 inline void check(cudaError_t result, const char* what) {
-  if (result != cudaSuccess) throw DeviceError(std::string(what) + ": " + cudaGetErrorString(result));
+  if (result != cudaSuccess) throw DeviceFailure(std::string(what) + ": " + cudaGetErrorString(result));
 }
 
+// In constant memory: a function that takes the kernel's address would else copy it to every thread's stack.
 template <int kThreads, class Kernel>
-__global__ void __launch_bounds__(kThreads) run_items(const Kernel kernel, std::uint32_t count) {
+__global__ void __launch_bounds__(kThreads) run_items(const __grid_constant__ Kernel kernel, std::uint32_t count) {
   const std::uint32_t i = blockIdx.x * kThreads + threadIdx.x;
   if (i < count) kernel(i);
 }
@@ -38,11 +40,13 @@ class CudaDevice {
     cudaDeviceProp properties{};
     check(cudaGetDeviceProperties(&properties, index), "the GPU does not answer");
     name_ = properties.name;
+    reads_the_hosts_pages_ = properties.pageableMemoryAccessUsesHostPageTables != 0;
     check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "the GPU takes no work");
   }
   CudaDevice(CudaDevice&& other) noexcept
       : index_(other.index_),
         name_(std::move(other.name_)),
+        reads_the_hosts_pages_(other.reads_the_hosts_pages_),
         stream_(std::exchange(other.stream_, nullptr)),
         scratch_(std::exchange(other.scratch_, nullptr)),
         scratch_bytes_(std::exchange(other.scratch_bytes_, 0)) {}
@@ -56,11 +60,13 @@ class CudaDevice {
   void each(std::uint32_t count, const Kernel& kernel) const {
     constexpr int kThreads = 256;
     if (count == 0) return;
+    use();
     run_items<kThreads><<<(count + kThreads - 1) / kThreads, kThreads, 0, stream_>>>(kernel, count);
     check(cudaGetLastError(), "the GPU can't run a kernel");
   }
 
   void scan(std::uint32_t* values, std::size_t count) {
+    use();
     std::size_t bytes = 0;
     const auto items = static_cast<std::int64_t>(count);
     check(cub::DeviceScan::ExclusiveSum(nullptr, bytes, values, values, items, stream_), "a scan failed");
@@ -74,6 +80,7 @@ class CudaDevice {
   }
 
   void* allocate(std::size_t bytes) const {
+    use();
     void* memory = nullptr;
     const cudaError_t result = cudaMalloc(&memory, bytes);
     if (result == cudaErrorMemoryAllocation) {
@@ -90,24 +97,34 @@ class CudaDevice {
   void free(void* memory) const { cudaFree(memory); }  // waits for the work that may use it
 
   void fill(void* to, int byte, std::size_t bytes) const {
+    use();
     check(cudaMemsetAsync(to, byte, bytes, stream_), "the GPU can't set memory");
   }
   void upload(void* to, const void* from, std::size_t bytes) const {
+    use();
     check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, stream_), "the GPU takes no data");
+    // Else the data has been copied to where the GPU gets it from.
+    if (reads_the_hosts_pages_) check(cudaStreamSynchronize(stream_), "the GPU failed");
   }
   void download(void* to, const void* from, std::size_t bytes) const {
+    use();
     check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, stream_), "the GPU gives no data");
     check(cudaStreamSynchronize(stream_), "the GPU failed");
   }
   void copy(void* to, const void* from, std::size_t bytes) const {
+    use();
     check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToDevice, stream_), "the GPU can't copy");
   }
 
   const char* name() const { return name_.c_str(); }
 
  private:
+  // Each thread of the host has a GPU of its own that it talks to.
+  void use() const { check(cudaSetDevice(index_), "the GPU can't be used"); }
+
   int index_;
   std::string name_;
+  bool reads_the_hosts_pages_ = false;
   cudaStream_t stream_ = nullptr;
   void* scratch_ = nullptr;
   std::size_t scratch_bytes_ = 0;

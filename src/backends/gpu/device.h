@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <new>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -25,6 +24,8 @@ namespace hooke::gpu {
 //   copy(to, from, bytes)         within its memory
 //   name()                        "NVIDIA H200"
 //
+// and throws DeviceFailure (core/backend.h) where it fails.
+//
 // HostDevice (host_device.h) runs items in a loop, CudaDevice (cuda_device.h) on a GPU; both compile the same kernels.
 
 /// The device's memory does not suffice.
@@ -35,12 +36,6 @@ class OutOfMemory : public std::bad_alloc {
 
  private:
   std::string what_;
-};
-
-/// The device failed.
-class DeviceError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
 };
 
 /// Adds to a counter that many items change, and returns what it was before.

@@ -35,8 +35,47 @@ struct FixedSum {
   std::uint32_t not_finite;  // 1: a term was infinite or NaN
 };
 
+/// Sums that many threads add to, each in copies so that threads rarely meet: those of copy k follow those of copy k
+/// - 1.
+template <class Real>
+struct SumCopies {
+  static constexpr std::uint32_t kCopies = 32;
+
+  FixedSum<Real>* first = nullptr;
+  std::uint32_t count = 0;  // sums
+
+  /// Those that item i adds to.
+  HOOKE_HD FixedSum<Real>* of_item(std::uint32_t i) const { return first + i / 256 % kCopies * count; }
+};
+
+/// Adds all copies to the first ones. Items are the sums' words.
+template <class Real>
+struct AddCopies {
+  static constexpr std::uint32_t kWords = 2 + Digits<Real>::kCount + 1;  // of a sum; the last are two short ones
+
+  SumCopies<Real> sums;
+
+  std::uint32_t items() const { return kWords * sums.count; }
+
+  HOOKE_HD void operator()(std::uint32_t item) const {
+    const std::uint32_t sum = item / kWords, word = item % kWords;
+    FixedSum<Real>& total = sums.first[sum];
+    for (std::uint32_t copy = 1; copy < SumCopies<Real>::kCopies; ++copy) {
+      const FixedSum<Real>& part = sums.first[copy * sums.count + sum];
+      if (word < 2) {
+        total.window[word] += part.window[word];
+      } else if (word + 1 < kWords) {
+        total.digits[word - 2] += part.digits[word - 2];
+      } else {
+        total.largest = part.largest > total.largest ? part.largest : total.largest;
+        total.not_finite |= part.not_finite;
+      }
+    }
+  }
+};
+
 /// Which floats are whole numbers of 54 bits in units of 2^low: those of sizes from `least` on and below `most`. A warp
-/// adds up 32 of them in 64 bits, and 2^31 warps the two halves of these.
+/// adds up 32 of them in 64 bits; 2^31 warps add up the lower and the upper 32 bits of these in 64 each.
 struct SumWindow {
   static constexpr int kBits = 54;
   float scale = 1, least = 0x1p23F, most = 0x1p54F;

@@ -11,6 +11,7 @@
 
 #include "hooke/backends/gpu/brick_grid.h"
 #include "hooke/backends/gpu/device.h"
+#include "hooke/backends/gpu/device_forces.h"
 #include "hooke/backends/gpu/device_report.h"
 #include "hooke/backends/gpu/device_scene.h"
 #include "hooke/backends/gpu/fixed_sum.h"
@@ -30,8 +31,9 @@ namespace hooke::gpu {
 /// laws and loops as on a processor, so that all bits are the same. The host lays out buffers, places colliders, and
 /// looks closely at the few particles that a step has noticed.
 ///
-/// Slots: those of particles that touch others as of the last sort, those of particles that touch none, and newborns;
-/// vacant records between them until the next sort and in all slots after them. The last slot is the filler of rows.
+/// Slots, after a sort: first the particles that touch others, in the order of their cells; then those that touch none.
+/// Newborns follow; a particle that is removed leaves a vacant record. All later slots are vacant, and the last one is
+/// the filler of rows.
 template <class Device, class Real>
 class GpuBackend final : public Backend {
   using Record = ParticleRecord<Real>;
@@ -46,8 +48,8 @@ class GpuBackend final : public Backend {
   }
 
   void configure(const Scene& scene) override;
-  void break_springs(const std::vector<std::uint64_t>& broken) override;
-  std::vector<std::uint64_t> broken_springs() const override;
+  void break_springs(const std::vector<std::uint64_t>& broken) override { applied_.break_springs(broken); }
+  std::vector<std::uint64_t> broken_springs() const override { return applied_.broken_springs(); }
 
   void assign(const ParticleSet& particles) override { take(particles); }
   void download(const ParticleColumns<double>& out) const override { download_all(out); }
@@ -63,7 +65,7 @@ class GpuBackend final : public Backend {
 
   void half_kick_and_drift() override;
   void finish_motion(RemovalSums& left) override;
-  bool neighbours_stale() override { return listed_count() > 0 && stale_; }
+  bool neighbours_stale() override { return (listed_count() > 0 && stale_) || applied_.needs_layout(); }
   Condition build_neighbours() override;
   void apply_forces(const Instant& now, StepReport& report) override;
   void evaluate_accelerations(const Instant& now, StepReport& report) override;
@@ -79,10 +81,19 @@ class GpuBackend final : public Backend {
   using DeviceBuffer = Buffer<Device, T>;
   using Found = FoundParticle<Real>;
 
+  ParticlesView<Real> particles_view() const {
+    return {records_.data(),
+            slot_of_id_index_.data(),
+            ids_on_device_.data(),
+            static_cast<std::uint32_t>(ids_.size()),
+            end_,
+            room_};
+  }
+
   // What a step writes for the host to read, in one piece: the sums' first copies follow the report.
   struct StepBlock {
     DeviceReport report;
-    FixedSum<Real> sums[std::size_t{StepOutput<Real>::kCopies} * PassSum::kCount];
+    FixedSum<Real> sums[std::size_t{SumCopies<Real>::kCopies} * PassSum::kCount];
   };
   static constexpr std::size_t kReadBytes =
       offsetof(StepBlock, sums) + std::size_t{PassSum::kCount} * sizeof(FixedSum<Real>);
@@ -102,7 +113,9 @@ class GpuBackend final : public Backend {
   Record record_of(const ParticleSet& particles, std::size_t k, std::size_t id_index) const;
   template <class Out>
   void download_all(const ParticleColumns<Out>& out) const;
+  void measure_springs(const std::vector<Record>& records, MeasurementSums& total) const;
   std::vector<Found> look_up(const std::vector<std::uint32_t>& id_indices) const;
+  std::vector<std::uint32_t> slots_by_id_index(const std::vector<Record>& records) const;
   std::optional<std::uint32_t> id_index_of_id(std::uint64_t id) const;
 
   // Neighbours --------------------------------------------------------------------------------------------------------
@@ -117,11 +130,13 @@ class GpuBackend final : public Backend {
   // The pass ----------------------------------------------------------------------------------------------------------
 
   void place_at(const Instant& now);
-  void run_pass(Vec3<Real>* acceleration, StepReport& report);
+  void run_pass(const Instant& now, Vec3<Real>* acceleration, bool may_tear, StepReport& report);
+  void book_torn(AppliedSums& sums);
   void book_sums(StepReport& report);
   Condition check_suspects(bool moved);
+  SumCopies<Real> step_sums() { return {block_.data()->sums, static_cast<std::uint32_t>(PassSum::kCount)}; }
   StepOutput<Real> step_output() {
-    return {&block_.data()->report, moves_.data(), block_.data()->sums, suspects_.data(), departed_.data()};
+    return {&block_.data()->report, moves_.data(), step_sums(), suspects_.data(), departed_.data()};
   }
 
   // Births and removals -----------------------------------------------------------------------------------------------
@@ -129,6 +144,8 @@ class GpuBackend final : public Backend {
   std::vector<std::uint32_t> read_departed();
   RemovalSums let_go(const std::vector<std::uint32_t>& id_indices, bool at_end_of_step);
   void add_elastic(const std::vector<std::uint32_t>& id_indices, ExactSum& sum);
+  void add_spring_energy(const std::vector<std::uint32_t>& id_indices, const std::vector<Found>& found,
+                         ExactSum& sum) const;
 
   // Some particles and their neighbours, copied to the host: the first are the particles.
   struct Surroundings {
@@ -158,6 +175,8 @@ class GpuBackend final : public Backend {
   DeviceBuffer<std::uint64_t> ids_on_device_{device_};
   DeviceBuffer<std::uint32_t> slot_of_id_index_{device_};
 
+  DeviceForces<Device, Real> applied_{device_};
+
   BrickGrid grid_;
   DeviceBuffer<std::uint32_t> key_{device_}, place_{device_}, start_{device_}, first_row_{device_}, entries_{device_};
   DeviceBuffer<Vec3<Real>> position_at_build_{device_};
@@ -177,6 +196,9 @@ class GpuBackend final : public Backend {
   mutable DeviceBuffer<Found> found_{device_};
   mutable DeviceBuffer<RowEntry<Real>> found_rows_{device_};
   mutable DeviceBuffer<Occupant> occupants_{device_};
+  mutable DeviceBuffer<std::byte> column_{device_};
+  mutable DeviceBuffer<unsigned long long> hash_parts_{device_};
+  DeviceBuffer<Record> put_{device_};
 
   StageTimes times_;
 };

@@ -27,22 +27,16 @@ void GpuBackend<Device, Real>::configure(const Scene& scene) {
   rules_ = PassRules<Real>(scene);
   colliders_ = {};
   skin_ = kSkin * 2 * rules_.smallest_touching();
-  skin_limit_ = (1 - kRounding) * skin_ - 2 * rules_.rounding();
+  skin_limit_ = std::max(0.0, (1 - kRounding) * skin_ - 2 * rules_.rounding());
   scene_on_device_.configure(scene_, rules_, skin_ + kRounding * rules_.smallest_touching());
+  applied_.configure(scene_);
   windows_ = {};
-}
-
-template <class Device, class Real>
-void GpuBackend<Device, Real>::break_springs(const std::vector<std::uint64_t>&) {}
-
-template <class Device, class Real>
-std::vector<std::uint64_t> GpuBackend<Device, Real>::broken_springs() const {
-  return {};
 }
 
 // Replaces all particles by these, with room for at least so many births.
 template <class Device, class Real>
 void GpuBackend<Device, Real>::take(const ParticleSet& particles, std::size_t births) {
+  HOOKE_ASSERT(are_particles_of(particles, scene_), particles.size(), scene_.materials.size());
   const bool gaps = !scene_.emitters.empty();
   ids_ = IdTable(particles.id, gaps);
   count_of_.assign(scene_.materials.size(), 0);
@@ -73,6 +67,8 @@ void GpuBackend<Device, Real>::take(const ParticleSet& particles, std::size_t bi
   listed_ = 0;
   leaving_ = 0;
   stale_ = true;
+  applied_.bind(ids_);
+  applied_.mark_held(particles_view());  // velocity Verlet moves particles before the next list
 }
 
 // Makes room for so many slots; what is in the slots that are in use stays.
@@ -100,6 +96,7 @@ void GpuBackend<Device, Real>::make_room(std::uint32_t slots) {
   next_.upload(&filler, 1, room_ - 1);
   listed_ = 0;  // the list's filler is no more
   stale_ = true;
+  applied_.invalidate();
 }
 
 template <class Device, class Real>
@@ -125,27 +122,45 @@ auto GpuBackend<Device, Real>::record_of(const ParticleSet& particles, std::size
 template <class Device, class Real>
 template <class Out>
 void GpuBackend<Device, Real>::download_all(const ParticleColumns<Out>& out) const {
-  std::vector<Record> records(end_);
-  records_.download(records.data(), end_);
-  const bool accelerations = verlet() && out.acceleration != nullptr;
-  std::vector<Vec3<Real>> acceleration(accelerations ? end_ : 0);
-  if (accelerations) acceleration_.download(acceleration.data(), end_);
+  const auto id_count = static_cast<std::uint32_t>(ids_.size());
+  asked_.reserve(id_count + 1);
+  asked_.fill(0, id_count + 1);
+  device_.each(id_count, MarkPresent<Real>{records_.data(), slot_of_id_index_.data(), asked_.data()});
+  device_.scan(asked_.data(), id_count + 1);
+  // A column at a time, so that one more column is all the memory that it takes.
+  const CopyColumns<Real, Out> none{records_.data(),
+                                    verlet() ? acceleration_.data() : nullptr,
+                                    slot_of_id_index_.data(),
+                                    asked_.data(),
+                                    ids_on_device_.data(),
+                                    nullptr,
+                                    nullptr,
+                                    nullptr,
+                                    nullptr,
+                                    nullptr};
+  const auto copy = [&](auto CopyColumns<Real, Out>::* column, auto* to) {
+    if (to == nullptr) return;
+    column_.reserve(count_ * sizeof *to);
+    CopyColumns<Real, Out> one = none;
+    one.*column = reinterpret_cast<decltype(to)>(column_.data());
+    device_.each(id_count, one);
+    column_.download(reinterpret_cast<std::byte*>(to), count_ * sizeof *to);
+  };
+  copy(&CopyColumns<Real, Out>::id, out.id);
+  copy(&CopyColumns<Real, Out>::material, out.material);
+  copy(&CopyColumns<Real, Out>::position, out.position);
+  copy(&CopyColumns<Real, Out>::velocity, out.velocity);
+  if (verlet()) copy(&CopyColumns<Real, Out>::acceleration, out.acceleration);
+}
+
+// Where records that have been downloaded lie; kNoSlot where an id index has no particle.
+template <class Device, class Real>
+std::vector<std::uint32_t> GpuBackend<Device, Real>::slots_by_id_index(const std::vector<Record>& records) const {
   std::vector<std::uint32_t> slot_of(ids_.size(), kNoSlot);
   for (std::uint32_t i = 0; i < end_; ++i) {
     if (!is_vacant(records[i])) slot_of[id_index_of(records[i].id_index)] = i;
   }
-  std::size_t k = 0;
-  for (std::size_t id_index = 0; id_index < slot_of.size(); ++id_index) {
-    if (slot_of[id_index] == kNoSlot) continue;
-    const Record& p = records[slot_of[id_index]];
-    if (out.id != nullptr) out.id[k] = ids_[id_index];
-    if (out.material != nullptr) out.material[k] = static_cast<std::uint16_t>(p.material);
-    if (out.position != nullptr) out.position[k] = vec_cast<Out>(p.x);
-    if (out.velocity != nullptr) out.velocity[k] = vec_cast<Out>(p.v);
-    if (accelerations) out.acceleration[k] = vec_cast<Out>(acceleration[slot_of[id_index]]);
-    ++k;
-  }
-  HOOKE_ASSERT(k == count_, k, count_);
+  return slot_of;
 }
 
 template <class Device, class Real>
@@ -182,14 +197,19 @@ std::optional<ParticleAt> GpuBackend<Device, Real>::find(std::uint64_t id) const
 template <class Device, class Real>
 void GpuBackend<Device, Real>::edit(std::span<const ParticleAt> edited) {
   std::vector<std::uint32_t> id_indices;
-  for (const ParticleAt& to : edited) id_indices.push_back(static_cast<std::uint32_t>(ids_.find(to.id)));
+  for (const ParticleAt& to : edited) {
+    const std::size_t id_index = ids_.find(to.id);
+    HOOKE_ASSERT(id_index < ids_.size(), to.id);
+    id_indices.push_back(static_cast<std::uint32_t>(id_index));
+  }
   const std::vector<Found> found = look_up(id_indices);
   for (std::size_t k = 0; k < edited.size(); ++k) {
-    HOOKE_ASSERT(found[k].slot != kNoSlot, edited[k].id);
+    const ParticleAt& to = edited[k];
+    HOOKE_ASSERT(found[k].slot != kNoSlot, to.id);
     Record p = found[k].record;
     const Vec3<Real> before = p.x;
-    p.x = vec_cast<Real>(edited[k].position);
-    p.v = vec_cast<Real>(edited[k].velocity);
+    p.x = vec_cast<Real>(to.position);
+    p.v = vec_cast<Real>(to.velocity);
     wrap_periodic(rules_.view(), p.x);
     if (p.x != before) stale_ = true;
     records_.upload(&p, 1, found[k].slot);
@@ -197,8 +217,20 @@ void GpuBackend<Device, Real>::edit(std::span<const ParticleAt> edited) {
 }
 
 template <class Device, class Real>
-std::optional<std::uint64_t> GpuBackend<Device, Real>::set_external_forces(std::span<const std::uint64_t>,
-                                                                           std::span<const Vec3d>) {
+std::optional<std::uint64_t> GpuBackend<Device, Real>::set_external_forces(std::span<const std::uint64_t> ids,
+                                                                           std::span<const Vec3d> forces) {
+  HOOKE_ASSERT(ids.size() == forces.size(), ids.size(), forces.size());
+  std::vector<std::uint32_t> id_indices;
+  for (const std::uint64_t id : ids) {
+    const std::optional<std::uint32_t> id_index = id_index_of_id(id);
+    if (!id_index) return id;
+    id_indices.push_back(*id_index);
+  }
+  const std::vector<Found> found = look_up(id_indices);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (found[k].slot == kNoSlot) return ids[k];
+  }
+  applied_.set_external(ids_, ids, forces);
   return std::nullopt;
 }
 
@@ -220,8 +252,8 @@ void GpuBackend<Device, Real>::half_kick_and_drift() {
   const std::uint32_t end = whole_warps(end_);
   clear_report();
   moves_.fill(0, end / kWarp);
-  device_.each(end, KickAndDrift<Real>{rules_.view(), records_.data(), acceleration_.data(), nullptr, list_view(),
-                                       step_output()});
+  device_.each(end, KickAndDrift<Real>{rules_.view(), records_.data(), acceleration_.data(), applied_.held(),
+                                       list_view(), step_output()});
   judge_motion(end);
   read_report();
 }
@@ -248,6 +280,12 @@ void GpuBackend<Device, Real>::finish_motion(RemovalSums& left) {
     // Particles of bricks that are not adjacent are four cells apart or more.
     const double limit = grid_.hashed ? skin_limit_ : 3 * grid_.cell;
     stale_ = stale_ || report.stale != 0 || !(farthest < limit);
+    // Displacements are kept as floats. Before their rounding is as large as the list's allowance for it, 1e-3 of the
+    // skin, a new list begins from 0.
+    double largest = 0;
+    for (const std::uint32_t moved : report.moved)
+      largest = std::max(largest, static_cast<double>(from_ordered(moved)));
+    stale_ = stale_ || !(largest * 0x1p-22 < 1e-3 * skin_);
   }
   if (leaving_ > 0) left.add(let_go(read_departed(), false));
 }
@@ -255,6 +293,7 @@ void GpuBackend<Device, Real>::finish_motion(RemovalSums& left) {
 template <class Device, class Real>
 Condition GpuBackend<Device, Real>::build_neighbours() {
   if (const Condition found = sort_by_cell(); !found.good()) return found;
+  if (applied_.needs_layout()) applied_.lay_out(particles_view());
   list_neighbours();
   return {};
 }
@@ -264,6 +303,9 @@ template <class Device, class Real>
 Condition GpuBackend<Device, Real>::sort_by_cell() {
   const Stopwatch sorting(times_.sort);
   const RulesView<Real>& rules = rules_.view();
+  listed_ = 0;
+  stale_ = true;
+  applied_.invalidate();
   grid_ = BrickGrid::over(vec_cast<double>(rules.min), vec_cast<double>(rules.max), rules.periodic,
                           2 * rules_.largest_interaction_radius() + scene_on_device_.skin(), count_);
   const std::size_t cells = std::size_t{grid_.key_end()} + 2;
@@ -293,8 +335,6 @@ Condition GpuBackend<Device, Real>::sort_by_cell() {
   const std::uint32_t used = std::max(end_, count_);
   device_.each(used - count_, Vacate<Real>{records_.data(), next_.data(), count_});
   end_ = count_;
-  listed_ = 0;
-  stale_ = true;
   return {};
 }
 
@@ -304,13 +344,9 @@ void GpuBackend<Device, Real>::list_neighbours() {
   listed_ = listed_count();
   const std::uint32_t slices = GpuBackend::slices(listed_), filler = record_offset<Real>(room_ - 1);
   const RulesView<Real>& rules = rules_.view();
-  const Search<Real> search{records_.data(),
-                            grid_,
-                            start_.data(),
-                            scene_on_device_.reach(),
-                            rules.period,
-                            rules.periodic_kind == PeriodicKind::images,
-                            {}};
+  const Search<Real> search{records_.data(),          grid_,        start_.data(),
+                            scene_on_device_.reach(), rules.period, rules.periodic_kind == PeriodicKind::images,
+                            applied_.excluded()};
   first_row_.reserve(slices + 1);
   first_row_.fill(0, slices + 1);
   device_.each(listed_, CountRows<Real>{search, first_row_.data()});
@@ -340,7 +376,7 @@ template <class Device, class Real>
 void GpuBackend<Device, Real>::apply_forces(const Instant& now, StepReport& report) {
   const Stopwatch forcing(times_.force);
   place_at(now);
-  run_pass(verlet() ? acceleration_.data() : nullptr, report);
+  run_pass(now, verlet() ? acceleration_.data() : nullptr, true, report);
   if (seen_.report.suspects > 0) report.condition = check_suspects(now.moved);
   std::swap(records_, next_);
 }
@@ -348,17 +384,23 @@ void GpuBackend<Device, Real>::apply_forces(const Instant& now, StepReport& repo
 template <class Device, class Real>
 void GpuBackend<Device, Real>::evaluate_accelerations(const Instant& now, StepReport& report) {
   place_at(now);
-  run_pass(acceleration_.data(), report);
+  run_pass(now, acceleration_.data(), false, report);
 }
 
 template <class Device, class Real>
-void GpuBackend<Device, Real>::run_pass(Vec3<Real>* acceleration, StepReport& report) {
+void GpuBackend<Device, Real>::run_pass(const Instant& now, Vec3<Real>* acceleration, bool may_tear,
+                                        StepReport& report) {
   const std::uint32_t end = whole_warps(end_);
   clear_report(sizeof(StepBlock));
+  const Vec3<Real>* applied = nullptr;
+  if (!applied_.none()) {
+    report.applied.emplace();
+    applied = applied_.apply(particles_view(), now.time, may_tear, &block_.data()->report);
+  }
   if (acceleration == nullptr) moves_.fill(0, end / kWarp);
   const ForcePass<Real> pass{scene_on_device_.constants(),
                              scene_on_device_.colliders(),
-                             {records_.data(), next_.data(), acceleration, nullptr, nullptr}};
+                             {records_.data(), next_.data(), acceleration, applied, applied_.held()}};
   choose_loop(scene_on_device_.constants(), [&](auto materials, auto periodic) {
     constexpr Materials kMaterials = decltype(materials)::value;
     constexpr PeriodicKind kPeriodic = decltype(periodic)::value;
@@ -368,10 +410,31 @@ void GpuBackend<Device, Real>::run_pass(Vec3<Real>* acceleration, StepReport& re
       device_.each(end, StepParticle<Real, kMaterials, kPeriodic, true>{pass, list_view(), step_output(), windows_});
     }
   });
-  device_.each(AddCopies<Real>::kItems, AddCopies<Real>{block_.data()->sums});
+  if (report.applied) applied_.finish(particles_view(), next_.data(), acceleration);
+  const AddCopies<Real> add_copies{step_sums()};
+  device_.each(add_copies.items(), add_copies);
   if (acceleration == nullptr) judge_motion(end);
   read_report(kReadBytes);
   book_sums(report);
+  if (!report.applied) return;
+  applied_.book(*report.applied);
+  if (seen_.report.torn > 0) book_torn(*report.applied);
+}
+
+// Books the springs that tore, with the energy that they had before the step.
+template <class Device, class Real>
+void GpuBackend<Device, Real>::book_torn(AppliedSums& sums) {
+  const std::vector<TornSpring> torn = applied_.take_torn(seen_.report.torn, stale_);
+  std::vector<std::uint32_t> ends;
+  for (const TornSpring& spring : torn) {
+    ends.push_back(spring.a);
+    ends.push_back(spring.b);
+  }
+  const std::vector<Found> found = look_up(ends);
+  for (std::size_t k = 0; k < torn.size(); ++k) {
+    sums.springs.broken_energy.add(applied_.energy_of(torn[k].spring, found[2 * k].record, found[2 * k + 1].record));
+    ++sums.springs.broken;
+  }
 }
 
 // Adds the device's sums to the report, and places the windows of the next ones.
@@ -397,14 +460,8 @@ void GpuBackend<Device, Real>::book_sums(StepReport& report) {
 // The first contact that was too fast in the pass from records_ to next_, if there is one.
 template <class Device, class Real>
 Condition GpuBackend<Device, Real>::check_suspects(bool moved) {
-  std::vector<std::uint32_t> slots(seen_.report.suspects);
-  suspects_.download(slots.data(), slots.size());
-  std::vector<std::uint32_t> id_indices;
-  for (const std::uint32_t slot : slots) {
-    Record p;
-    records_.download(&p, 1, slot);
-    id_indices.push_back(id_index_of(p.id_index));
-  }
+  std::vector<std::uint32_t> id_indices(seen_.report.suspects);
+  suspects_.download(id_indices.data(), id_indices.size());
   const std::vector<Found> found = look_up(id_indices);
   const Surroundings near = surroundings_of(found, records_.data());
   const ContactScan<Real> scan(rules_, colliders_.view(), near.records.data());
@@ -461,7 +518,8 @@ RemovalSums GpuBackend<Device, Real>::insert(const ParticleSet& newborn) {
   if (newborn.empty()) return born;
   const auto births = static_cast<std::uint32_t>(newborn.size());
   // Ids of removed particles stay in the table until it is mostly theirs.
-  if (ids_.size() + births > 4 * std::size_t{count_} + 65536) {
+  constexpr std::size_t kMostIdIndices = std::size_t{1} << 30U;  // sort_key()
+  if (ids_.size() + births > std::min(4 * std::size_t{count_} + 65536, kMostIdIndices)) {
     ParticleSet all;
     hooke::download(*this, scene_.integrator, all);
     take(all, births);
@@ -495,6 +553,8 @@ RemovalSums GpuBackend<Device, Real>::insert(const ParticleSet& newborn) {
   device_.each(births, IndexSlots<Real>{records_.data(), end_, slot_of_id_index_.data()});
   if (verlet()) device_.fill(acceleration_.data() + end_, 0, births * sizeof(Vec3<Real>));
   end_ += births;
+  applied_.grow(ids_.size());
+  applied_.mark_held(particles_view());
   recount();
   if (touching.empty()) return born;
   stale_ = true;
@@ -566,22 +626,20 @@ RemovalSums GpuBackend<Device, Real>::let_go(const std::vector<std::uint32_t>& i
     slots.push_back(p.slot);
     vacant.push_back(vacant_record<Real>(p.record.id_index));
   }
-  Buffer<Device, Record> records(device_);
-  records.reserve(vacant.size());
-  records.upload(vacant.data(), vacant.size());
+  put_.reserve(vacant.size());
+  put_.upload(vacant.data(), vacant.size());
   asked_.upload(slots.data(), slots.size());
-  device_.each(static_cast<std::uint32_t>(slots.size()),
-               PutRecords<Real>{records_.data(), asked_.data(), records.data()});
+  device_.each(static_cast<std::uint32_t>(slots.size()), PutRecords<Real>{records_.data(), asked_.data(), put_.data()});
   recount();
   return sums;
 }
 
-// Adds the energy of the contacts that end at one of these particles.
+// Adds the energy of the contacts and springs that end at one of these particles.
 template <class Device, class Real>
 void GpuBackend<Device, Real>::add_elastic(const std::vector<std::uint32_t>& id_indices, ExactSum& sum) {
   std::vector<Found> found = look_up(id_indices);
   const auto touches = [&](const Found& p) { return rules_.interacts(static_cast<std::size_t>(p.record.material)); };
-  if (std::none_of(found.begin(), found.end(), touches)) return;
+  if (!applied_.has_springs() && std::none_of(found.begin(), found.end(), touches)) return;
   if (neighbours_stale()) {
     if (!build_neighbours().good()) return;
     found = look_up(id_indices);
@@ -593,6 +651,34 @@ void GpuBackend<Device, Real>::add_elastic(const std::vector<std::uint32_t>& id_
   for (std::size_t k = 0; k < found.size(); ++k)
     add_contact_energy(scan, k, std::span<const std::uint32_t>(near.rows[k]), std::span<const std::uint32_t>(among),
                        sum);
+  add_spring_energy(id_indices, found, sum);
+}
+
+// A spring between two of these particles counts half at each.
+template <class Device, class Real>
+void GpuBackend<Device, Real>::add_spring_energy(const std::vector<std::uint32_t>& id_indices,
+                                                 const std::vector<Found>& found, ExactSum& sum) const {
+  struct Side {
+    std::size_t own;
+    std::uint32_t spring;
+  };
+  std::vector<Side> sides;
+  std::vector<std::uint32_t> partners;
+  for (std::size_t k = 0; k < id_indices.size(); ++k) {
+    applied_.for_each_side(id_indices[k], [&](std::uint32_t spring, std::uint32_t partner) {
+      sides.push_back({k, spring});
+      partners.push_back(partner);
+    });
+  }
+  if (sides.empty()) return;
+  std::vector<std::uint32_t> among = id_indices;
+  std::sort(among.begin(), among.end());
+  const std::vector<Found> there = look_up(partners);
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    if (there[k].slot == kNoSlot) continue;
+    const bool both = std::binary_search(among.begin(), among.end(), partners[k]);
+    sum.add((both ? 0.5 : 1.0) * applied_.energy_of(sides[k].spring, found[sides[k].own].record, there[k].record));
+  }
 }
 
 // What is asked of the state ------------------------------------------------------------------------------------------
@@ -620,12 +706,11 @@ void GpuBackend<Device, Real>::find_inside(const Box3d& box, std::vector<Occupan
 template <class Device, class Real>
 std::uint64_t GpuBackend<Device, Real>::particles_hash() const {
   constexpr std::uint32_t kParts = HashParticles<Real>::kParts;
-  Buffer<Device, unsigned long long> parts(device_);
-  parts.reserve(kParts);
-  parts.fill(0, kParts);
-  device_.each(end_, HashParticles<Real>{records_.data(), ids_on_device_.data(), parts.data()});
+  hash_parts_.reserve(kParts);
+  hash_parts_.fill(0, kParts);
+  device_.each(end_, HashParticles<Real>{records_.data(), ids_on_device_.data(), hash_parts_.data()});
   std::vector<unsigned long long> all(kParts);
-  parts.download(all.data(), kParts);
+  hash_parts_.download(all.data(), kParts);
   std::uint64_t hash = 0;
   for (const unsigned long long part : all) hash += part;
   return hash;
@@ -667,7 +752,26 @@ Expected<MeasurementSums> GpuBackend<Device, Real>::measure(const Instant& now) 
       total.add(part);
     });
   });
+  if (applied_.has_springs()) measure_springs(records, total);
+  if (const std::optional<double> energy = applied_.attraction_energy(particles_view(), records))
+    total.add_attraction(*energy);
   return total;
+}
+
+template <class Device, class Real>
+void GpuBackend<Device, Real>::measure_springs(const std::vector<Record>& records, MeasurementSums& total) const {
+  const std::vector<std::uint32_t> slot_of = slots_by_id_index(records);
+  ExactSum energy;
+  std::uint64_t holding = 0;
+  for (std::uint32_t id_index = 0; id_index < slot_of.size(); ++id_index) {
+    if (slot_of[id_index] == kNoSlot) continue;
+    applied_.for_each_side(id_index, [&](std::uint32_t spring, std::uint32_t partner) {
+      if (partner < id_index || slot_of[partner] == kNoSlot) return;
+      ++holding;
+      energy.add(applied_.energy_of(spring, records[slot_of[id_index]], records[slot_of[partner]]));
+    });
+  }
+  total.add_springs(holding, energy);
 }
 
 template <class Device, class Real>

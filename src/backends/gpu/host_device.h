@@ -6,11 +6,14 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <numeric>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "hooke/backends/gpu/device.h"
+#include "hooke/core/backend.h"
 
 namespace hooke::gpu {
 
@@ -26,12 +29,21 @@ enum class ItemOrder {
 /// New memory is full of NaN, or of numbers that lead outside of every array.
 class HostDevice {
  public:
-  explicit HostDevice(ItemOrder order = ItemOrder::shuffled, std::size_t memory = ~std::size_t{0})
+  /// What has been asked of a device and its copies.
+  struct Use {
+    std::size_t bytes = 0;        ///< allocated now
+    std::size_t most_bytes = ~std::size_t{0};  ///< that it has
+    std::size_t allocations = 0;  ///< so far
+    std::size_t launches_left = ~std::size_t{0};  ///< until it fails
+  };
+
+  explicit HostDevice(ItemOrder order = ItemOrder::shuffled, std::shared_ptr<Use> use = std::make_shared<Use>())
       : order_(order),
-        memory_(memory) {}
+        use_(std::move(use)) {}
 
   template <class Kernel>
   void each(std::uint32_t count, const Kernel& kernel) const {
+    if (use_->launches_left-- == 0) throw DeviceFailure("the host's stand-in for a GPU has failed");
     switch (order_) {
       case ItemOrder::up:
         for (std::uint32_t i = 0; i < count; ++i) kernel(i);
@@ -63,13 +75,23 @@ class HostDevice {
 
   void* allocate(std::size_t bytes) {
     const std::size_t whole = (bytes + kAlignment - 1) / kAlignment * kAlignment;
-    if (whole > memory_) throw OutOfMemory("the host's stand-in for a GPU has no more memory");
-    void* const memory = std::aligned_alloc(kAlignment, whole);
+    if (use_->bytes + whole > use_->most_bytes) throw OutOfMemory("the host's stand-in for a GPU has no more memory");
+    // Its size lies before it.
+    auto* const memory = static_cast<std::byte*>(std::aligned_alloc(kAlignment, whole + kAlignment));
     if (memory == nullptr) throw OutOfMemory("the host has no more memory");
-    std::memset(memory, 0xff, whole);
-    return memory;
+    std::memcpy(memory, &whole, sizeof whole);
+    std::memset(memory + kAlignment, 0xff, whole);
+    use_->bytes += whole;
+    ++use_->allocations;
+    return memory + kAlignment;
   }
-  void free(void* memory) const { std::free(memory); }
+  void free(void* memory) const {
+    auto* const start = static_cast<std::byte*>(memory) - kAlignment;
+    std::size_t whole = 0;
+    std::memcpy(&whole, start, sizeof whole);
+    use_->bytes -= whole;
+    std::free(start);
+  }
 
   void fill(void* to, int byte, std::size_t bytes) const { std::memset(to, byte, bytes); }
   void upload(void* to, const void* from, std::size_t bytes) const { std::memcpy(to, from, bytes); }
@@ -82,7 +104,7 @@ class HostDevice {
   static constexpr std::size_t kAlignment = 256;
 
   ItemOrder order_;
-  std::size_t memory_;
+  std::shared_ptr<Use> use_;
 };
 
 }  // namespace hooke::gpu

@@ -22,6 +22,15 @@ namespace hooke::gpu {
 
 inline constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};
 
+/// The slot of an id index's particle; kNoSlot where it has none. What is noted may be of a particle that is gone.
+template <class Real>
+HOOKE_HD std::uint32_t slot_of(const ParticleRecord<Real>* records, const std::uint32_t* slot_of_id_index,
+                               std::uint32_t id_index) {
+  const std::uint32_t slot = slot_of_id_index[id_index];
+  const bool there = slot != kNoSlot && !is_vacant(records[slot]) && id_index_of(records[slot].id_index) == id_index;
+  return there ? slot : kNoSlot;
+}
+
 /// Numbers the cell of each particle, and counts its particles. Those that touch none are in one more cell, at the end.
 template <class Real>
 struct NumberCells {

@@ -37,8 +37,8 @@ struct FindParticles {
 
   HOOKE_HD void operator()(std::uint32_t k) const {
     FoundParticle<Real> particle{vacant_record<Real>(Real(0)), {Real(0), Real(0), Real(0)}, kNoSlot, 0};
-    const std::uint32_t slot = slot_of_id_index[id_index[k]];
-    if (slot != kNoSlot && !is_vacant(records[slot]) && id_index_of(records[slot].id_index) == id_index[k]) {
+    const std::uint32_t slot = slot_of(records, slot_of_id_index, id_index[k]);
+    if (slot != kNoSlot) {
       particle.slot = slot;
       particle.record = records[slot];
       if (acceleration != nullptr) particle.acceleration = acceleration[slot];
@@ -96,6 +96,45 @@ struct PutRecords {
   const ParticleRecord<Real>* from;
 
   HOOKE_HD void operator()(std::uint32_t k) const { records[slot[k]] = from[k]; }
+};
+
+/// Marks the id indices that have a particle.
+template <class Real>
+struct MarkPresent {
+  const ParticleRecord<Real>* records;
+  const std::uint32_t* slot_of_id_index;
+  std::uint32_t* present;
+
+  HOOKE_HD void operator()(std::uint32_t id_index) const {
+    present[id_index] = slot_of(records, slot_of_id_index, id_index) != kNoSlot ? 1 : 0;
+  }
+};
+
+/// The columns of particles in ascending order of id that a host asks for; null where one is not wanted.
+template <class Real, class Out>
+struct CopyColumns {
+  const ParticleRecord<Real>* records;
+  const Vec3<Real>* acceleration_from;
+  const std::uint32_t* slot_of_id_index;
+  const std::uint32_t* rank;  // of each id index among those that have a particle, and one more
+  const std::uint64_t* ids;   // by id index
+  std::uint64_t* id;
+  std::uint16_t* material;
+  Vec3<Out>* position;
+  Vec3<Out>* velocity;
+  Vec3<Out>* acceleration;
+
+  HOOKE_HD void operator()(std::uint32_t id_index) const {
+    const std::uint32_t k = rank[id_index];
+    if (rank[id_index + 1] == k) return;
+    const std::uint32_t slot = slot_of_id_index[id_index];
+    const ParticleRecord<Real> p = records[slot];
+    if (id != nullptr) id[k] = ids[id_index];
+    if (material != nullptr) material[k] = static_cast<std::uint16_t>(p.material);
+    if (position != nullptr) position[k] = vec_cast<Out>(p.x);
+    if (velocity != nullptr) velocity[k] = vec_cast<Out>(p.v);
+    if (acceleration != nullptr) acceleration[k] = vec_cast<Out>(acceleration_from[slot]);
+  }
 };
 
 /// The state hash, in parts that add up to it.

@@ -42,12 +42,10 @@ struct ListView {
 /// Where the kernels of a step report to.
 template <class Real>
 struct StepOutput {
-  static constexpr int kCopies = 32;  // of the sums, so that threads rarely meet
-
   DeviceReport* report = nullptr;
   WarpMoves* moves = nullptr;
-  FixedSum<Real>* sums = nullptr;       // kCopies times PassSum::kCount
-  std::uint32_t* suspects = nullptr;    // slots of particles with a contact that may be too fast
+  SumCopies<Real> sums;                  // PassSum::kCount
+  std::uint32_t* suspects = nullptr;    // id indices of particles with a contact that may be too fast
   std::uint32_t* departed = nullptr;    // id indices of particles outside of open faces
 };
 
@@ -111,7 +109,7 @@ struct StepParticle {
     HOOKE_UNROLL
     for (int sum = 0; sum < PassSum::kCount; ++sum) report.of[sum] = Real(0);
     run_pack<Real, kMaterials, kPeriodic, kColliders>(pass, i, rows, report);
-    if (report.suspect) out.suspects[add_to(&out.report->suspects, 1)] = i;
+    if (report.suspect) out.suspects[add_to(&out.report->suspects, 1)] = id_index_of(pass.buffers.in[i].id_index);
     if (pass.buffers.acceleration == nullptr) {  // symplectic Euler: the particles have moved
       if (list.listed > 0) {
         const Vec3<Real> moved = report.has_moved ? moved_since_build(pass.rules, list, i, report.at)
@@ -129,7 +127,7 @@ struct StepParticle {
 
  private:
   HOOKE_HD void add_sums(const Report& report, std::uint32_t i) const {
-    FixedSum<Real>* const own = out.sums + i / 256 % StepOutput<Real>::kCopies * PassSum::kCount;
+    FixedSum<Real>* const own = out.sums.of_item(i);
     const bool walls = any_in_warp(report.touches.wall), colliders = any_in_warp(report.touches.collider);
     HOOKE_UNROLL
     for (int sum = 0; sum < PassSum::kCount; ++sum) {
@@ -141,31 +139,6 @@ struct StepParticle {
           power == power_of(Cause::collider) || (sum >= PassSum::kColliderForce && sum < PassSum::kColliderForce + 3);
       if ((of_walls && !walls) || (of_colliders && !colliders)) continue;
       add_term(own[sum], windows.of[sum], report.of[sum]);
-    }
-  }
-};
-
-/// Adds the copies of a number to the first: items are the sums times their words.
-template <class Real>
-struct AddCopies {
-  FixedSum<Real>* sums;
-
-  static constexpr std::uint32_t kWords = 2 + Digits<Real>::kCount + 1;
-  static constexpr std::uint32_t kItems = kWords * static_cast<std::uint32_t>(PassSum::kCount);
-
-  HOOKE_HD void operator()(std::uint32_t item) const {
-    const std::uint32_t sum = item / kWords, word = item % kWords;
-    FixedSum<Real>& total = sums[sum];
-    for (int copy = 1; copy < StepOutput<Real>::kCopies; ++copy) {
-      const FixedSum<Real>& part = sums[copy * PassSum::kCount + sum];
-      if (word < 2) {
-        total.window[word] += part.window[word];
-      } else if (word + 1 < kWords) {
-        total.digits[word - 2] += part.digits[word - 2];
-      } else {
-        total.largest = part.largest > total.largest ? part.largest : total.largest;
-        total.not_finite |= part.not_finite;
-      }
     }
   }
 };
