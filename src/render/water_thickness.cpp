@@ -3,6 +3,7 @@
 #include "hooke/render/water_thickness.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
@@ -18,6 +19,27 @@ namespace {
 constexpr float kPacking = 1.25f;  // 0.64 * 1.25^3: water's spheres in a Frame have 1.25 times the particles' radius
 // Sums of whole numbers do not depend on their order, so thickness is summed in whole units.
 constexpr float kUnits = 1 << 14;  // in a typical radius
+constexpr float kSpread = 1.0f;    // of a sphere's radius: how far it spreads, at least a cell
+
+// The cells along an axis over which a sphere spreads, and their weights, whose sum is 1.
+struct Spread {
+  static constexpr float kMost = 8;  // cells on each side
+  int first = 0, count = 0;
+  std::array<float, 2 * static_cast<std::size_t>(kMost) + 2> weight;
+
+  // A tent around `middle`; what would fall beside the picture, of `cells` cells, counts inside.
+  Spread(float middle, float reach, int cells) {
+    first = std::max(0, static_cast<int>(std::ceil(middle - 0.5f - reach)));
+    const int last = std::min(cells - 1, static_cast<int>(std::floor(middle - 0.5f + reach)));
+    float sum = 0;
+    for (int k = first; k <= last; ++k) {
+      const float w = std::max(0.0f, 1 - std::abs(static_cast<float>(k) + 0.5f - middle) / reach);
+      weight[static_cast<std::size_t>(count++)] = w;
+      sum += w;
+    }
+    for (int k = 0; k < count; ++k) weight[static_cast<std::size_t>(k)] /= sum;
+  }
+};
 
 // Each cell becomes combine(the one before, itself, the one after), along the rows and then along the columns.
 template <class Combine>
@@ -69,9 +91,17 @@ WaterThickness water_thickness(std::span<const Sphere> spheres, const Projection
       const float side = WaterThickness::kCell / scale;  // of a cell at this depth, m
       const float volume = 4 * std::numbers::pi_v<float> / 3 * sphere.radius * sphere.radius * sphere.radius;
       const float meters = std::min(volume / kPacking / (side * side), 100 * sphere.radius);
-      const std::size_t cell =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(thickness.columns) + static_cast<std::size_t>(x);
-      std::atomic_ref(sums[cell]).fetch_add(static_cast<std::uint64_t>(meters / unit), std::memory_order_relaxed);
+      const float reach = std::clamp(kSpread * sphere.radius / side, 1.0f, Spread::kMost);
+      const Spread across(x, reach, thickness.columns), along(y, reach, thickness.rows);
+      for (int row = 0; row < along.count; ++row) {
+        for (int column = 0; column < across.count; ++column) {
+          const float share =
+              along.weight[static_cast<std::size_t>(row)] * across.weight[static_cast<std::size_t>(column)];
+          const auto cell = static_cast<std::size_t>((along.first + row) * thickness.columns + across.first + column);
+          std::atomic_ref(sums[cell])
+              .fetch_add(static_cast<std::uint64_t>(share * meters / unit), std::memory_order_relaxed);
+        }
+      }
     }
   });
   for (std::size_t c = 0; c < cells; ++c) thickness.meters[c] = unit * static_cast<float>(sums[c]);
