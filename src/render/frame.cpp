@@ -10,6 +10,8 @@
 #include "hooke/render/action.h"
 #include "hooke/render/cloth_meshes.h"
 #include "hooke/render/collider_mesh.h"
+#include "hooke/render/skin_bodies.h"
+#include "hooke/render/spray.h"
 #include "hooke/render/spring_meshes.h"
 #include "hooke/render/water_mixing.h"
 
@@ -32,11 +34,29 @@ float water_radius(float filled) {
   return 0.85f + 0.4f * smoothstep(0.02f, 0.15f, filled) + 0.3f * sheet;
 }
 
+// How much larger the spheres of a smooth skin are, to fill the steps of its lattice; its outline is as much smaller.
+constexpr float kSkinFilling = 1.25f;
+
 // How much smaller foam is drawn than the water it comes from: froth is fine.
 constexpr float kFroth = 0.35f;
 
 // How far a particle of water is a drop of its own, from 0 to 1.
 float looseness(float filled) { return 1 - smoothstep(0.06f, 0.25f, filled); }
+
+// How far a loose particle is one of the many of spray, from 0 to 1: alone in its space it fills 0.017 of it.
+float denseness(float filled) { return smoothstep(0.017f, 0.07f, filled); }
+
+// Between the walls.
+void keep_inside(const Domain& domain, const Tank& tank, Sphere& drop) {
+  float* const place[] = {&drop.x, &drop.y, &drop.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (domain.boundary[static_cast<std::size_t>(axis)] != Boundary::spring) continue;
+    const auto low = static_cast<float>(component(tank.min, axis)) + drop.radius;
+    const auto high = static_cast<float>(component(tank.max, axis)) - drop.radius;
+    float& x = *place[axis];
+    x = std::min(std::max(x, low), std::max(low, high));
+  }
+}
 
 // Water turns white where it churns, which mixes it with air: clear up to 0.07 of the speed of a fall from the top,
 // white from 0.3 of it. Water that falls together and drops that fly alone stay clear.
@@ -87,6 +107,7 @@ void shrink_joints(const Scene& scene, const ParticleSet& particles, Frame& fram
       const std::size_t i = particles.find(id);
       if (i == particles.size()) continue;
       frame.spheres[i].skin = false;
+      frame.spheres[i].body = 0;
       frame.spheres[i].radius = kJoint * static_cast<float>(scene.materials[particles.material[i]].radius);
     }
   }
@@ -119,11 +140,21 @@ float drawn_radius(const Material& material) {
 }
 
 float typical_radius(const Frame& frame, SphereKind kind) {
-  const auto is_one = [kind](const Sphere& sphere) { return kind_of(sphere) == kind; };
-  const auto middle = frame.spheres.begin() + static_cast<std::ptrdiff_t>(frame.spheres.size() / 2);
-  auto found = std::find_if(middle, frame.spheres.end(), is_one);
-  if (found == frame.spheres.end()) found = std::find_if(frame.spheres.begin(), middle, is_one);
-  return found == frame.spheres.end() || !is_one(*found) ? 1.0f : found->radius;
+  HOOKE_ASSERT(frame.fine_drops <= frame.spheres.size(), frame.fine_drops, frame.spheres.size());
+  constexpr std::size_t kLooks = 256;
+  std::vector<float> radii;
+  const std::size_t count = frame.spheres.size() - frame.fine_drops;
+  for (const std::size_t step : {std::max<std::size_t>(1, count / kLooks), std::size_t{1}}) {
+    for (std::size_t i = step / 2; i < count; i += step) {
+      if (kind_of(frame.spheres[i]) == kind) radii.push_back(frame.spheres[i].radius);
+      if (step == 1 && radii.size() == kLooks) break;
+    }
+    if (!radii.empty()) break;
+  }
+  if (radii.empty()) return 1;
+  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  return *middle;
 }
 
 Look make_look(const Scene& scene, const ParticleSet& first, ColorBy by,
@@ -168,6 +199,9 @@ Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, 
   const std::vector<double> values = color_values(scene, particles, time, look.action, look.scale.by);
   const std::vector<WaterMixing> mixing =
       values.empty() ? mixing_of(scene, particles, look.foam_speed) : std::vector<WaterMixing>();
+  const bool skin = std::any_of(scene.materials.begin(), scene.materials.end(),
+                                [](const Material& m) { return m.look == MaterialLook::skin; });
+  const std::vector<std::uint8_t> body = skin ? skin_bodies(scene, particles) : std::vector<std::uint8_t>();
   frame.spheres.resize(particles.size());
   parallel_ranges(particles.size(), 4096, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
@@ -178,6 +212,10 @@ Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, 
       sphere.glows = glows(material);
       sphere.roughness = static_cast<std::uint8_t>(std::lround(255 * material.roughness));
       sphere.skin = material.look == MaterialLook::skin;
+      if (sphere.skin) {
+        sphere.body = body[i];
+        sphere.radius *= kSkinFilling;
+      }
       if (!values.empty()) {
         sphere.color = map_color((values[i] - look.scale.low) / (look.scale.high - look.scale.low));
       } else if (material.look == MaterialLook::water) {
@@ -187,7 +225,17 @@ Frame make_frame(const Scene& scene, const ParticleSet& particles, double time, 
       }
     }
   });
+  std::vector<Sphere> fine;
+  for (std::size_t i = 0; i < mixing.size(); ++i) {
+    Sphere& sphere = frame.spheres[i];
+    if (kind_of(sphere) != SphereKind::water) continue;
+    const float filled = mixing[i].filled, radius = drawn_radius(scene.materials[particles.material[i]]);
+    make_spray(sphere, particles.id[i], radius, looseness(filled), denseness(filled), fine);
+  }
+  for (Sphere& drop : fine) keep_inside(scene.domain, frame.tank, drop);
   if (scene.structure) add_structure(scene, particles, frame);
+  frame.spheres.insert(frame.spheres.end(), fine.begin(), fine.end());
+  frame.fine_drops = fine.size();
   return frame;
 }
 

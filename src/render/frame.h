@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -25,6 +26,7 @@ struct Sphere {
   bool glows = false;   ///< whether the ball shines by itself and throws no shadow
   bool skin = false;    ///< whether an opaque ball is part of a smooth skin
   std::uint8_t roughness = 128;  ///< 0 polished to 255 matt; of water, from 0 in a pool to 255 of a drop of its own
+  std::uint8_t body = 0;  ///< of a skin: spheres of different bodies do not melt into one surface
 };
 
 /// What a sphere is part of; each kind is drawn in its own way.
@@ -46,6 +48,7 @@ struct Tank {
 struct Frame {
   Vec3d origin{0, 0, 0};  ///< all positions are relative to it, so that single precision suffices in any domain, m
   std::vector<Sphere> spheres;
+  std::size_t fine_drops = 0;  ///< how many of them, at the end, are parts of the spray that the others are
   std::vector<ShadedMesh> meshes;
   Tank tank;
   Camera camera;  ///< eye and target relative to the origin
@@ -69,7 +72,7 @@ struct Frame {
 /// The radius of the sphere that draws a particle of a material, m. Of water it is changed by what is around.
 float drawn_radius(const Material& material);
 
-/// The radius of a sphere in the middle of those of a kind, m; 1 m where there is none.
+/// The median radius of some spheres of a kind, m; 1 m where there is none.
 float typical_radius(const Frame& frame, SphereKind kind);
 
 /// What stays the same for all pictures of a run.

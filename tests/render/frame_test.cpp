@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "hooke/render/spring_meshes.h"
 
@@ -193,6 +194,62 @@ TEST(MakeFrame, DropsAreSmallAndSheetsWide) {
                 .spheres[55]
                 .radius,
             0.26f);
+}
+
+// Loose particles get fine drops, which stay between the walls; a particle alone stays one drop.
+TEST(MakeFrame, SprayHasFineDrops) {
+  const Scene scene = tank();
+  ParticleSet particles;
+  for (std::size_t k = 0; k < 125; ++k) {
+    const auto at = [](std::size_t n) { return 0.05 + 1.0 * static_cast<double>(n); };
+    particles.id.push_back(k + 1);
+    particles.position.push_back({at(k % 5), at(k / 25), 0.5 * at(k / 5 % 5)});
+  }
+  particles.material.assign(125, 3);
+  particles.velocity.assign(125, {0, 0, 0});
+  const render::Look look = render::make_look(scene, particles, render::ColorBy::material);
+  const render::Frame spray = render::make_frame(scene, particles, 0, look, 1.5);
+  ASSERT_GT(spray.fine_drops, 125u);
+  ASSERT_EQ(spray.spheres.size(), 125 + spray.fine_drops);
+  EXPECT_GT(render::typical_radius(spray, render::SphereKind::water), 0.05f) << "not of fine drops";
+  for (std::size_t i = 0; i < spray.spheres.size(); ++i) {
+    const render::Sphere& drop = spray.spheres[i];
+    EXPECT_EQ(render::kind_of(drop), render::SphereKind::water) << i;
+    if (i < 125) continue;
+    EXPECT_LT(drop.radius, 0.1f) << i;
+    EXPECT_GE(drop.x - drop.radius, static_cast<float>(spray.tank.min.x) - 1e-5f) << i;
+  }
+  const render::Frame again = render::make_frame(scene, particles, 0, look, 1.5);
+  ASSERT_EQ(again.spheres.size(), spray.spheres.size());
+  EXPECT_EQ(again.spheres.back().x, spray.spheres.back().x);
+
+  particles.resize(1);
+  particles.position[0] = {4, 3, 2};
+  const render::Frame alone = render::make_frame(scene, particles, 0, look, 1.5);
+  EXPECT_EQ(alone.fine_drops, 0u);
+  EXPECT_EQ(alone.spheres.size(), 1u);
+}
+
+TEST(MakeFrame, SkinsOfDifferentBodiesAreToldApart) {
+  Scene scene = tank();
+  scene.materials[0].look = scene.materials[1].look = MaterialLook::skin;
+  ParticleSet particles;
+  particles.resize(7);
+  particles.id = {1, 2, 3, 4, 5, 6, 7};
+  particles.material = {0, 0, 0, 0, 0, 1, 2};
+  for (std::size_t i = 0; i < 7; ++i) particles.position[i] = {1.0 + 0.5 * static_cast<double>(i), 1, 1};
+  auto structure = std::make_shared<Structure>();
+  structure->springs.push_back({4, 3, 1, 100});
+  structure->springs.push_back({2, 1, 1, 100});
+  scene.structure = structure;
+  const render::Frame frame =
+      render::make_frame(scene, particles, 0, render::make_look(scene, particles, render::ColorBy::material), 1.5);
+  const auto body = [&](std::size_t i) { return int{frame.spheres[i].body}; };
+  EXPECT_EQ(body(0), body(1));
+  EXPECT_EQ(body(2), body(3));
+  const std::set<int> different{body(0), body(2), body(4), body(5), body(6)};
+  EXPECT_EQ(different.size(), 5u) << "two tied pairs, and what nothing ties by material";
+  EXPECT_EQ(body(6), 0) << "no skin";
 }
 
 TEST(MakeFrame, SkinIsWiderThanItsParticlesAndOpaque) {

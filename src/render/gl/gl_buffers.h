@@ -22,6 +22,7 @@ class SphereBuffer {
     attribute(1, 1, GL_FLOAT, offsetof(Sphere, radius));
     attribute(2, 4, GL_UNSIGNED_BYTE, offsetof(Sphere, color));
     attribute(3, 1, GL_UNSIGNED_BYTE, offsetof(Sphere, roughness));
+    attribute(4, 1, GL_UNSIGNED_BYTE, offsetof(Sphere, body));
   }
 
   bool empty() const { return spheres_.empty(); }

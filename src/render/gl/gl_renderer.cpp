@@ -117,6 +117,7 @@ class GlRenderer final : public Renderer {
 
   // The stencil tells what each sample shows, so that each kind is shaded by itself.
   enum Stencil { kNothing, kBall, kSkin, kSpark };
+  using Smooth = SurfacePasses::Smooth;
 
   static void use_for_surfaces(const Program& program, const Projection& view) {
     program.use();
@@ -138,9 +139,9 @@ class GlRenderer final : public Renderer {
                                                     : PixelRectangle{0, 0, settings_.width, settings_.height};
     const float skin_size = typical_radius(frame, SphereKind::skin);
     if (skin) {
-      surface_passes_.find_outline(pixels, box, skin_size);
+      surface_passes_.find_outline(Smooth::skin, pixels, box, skin_size);
       draw_surfaces(view, frame.meshes, true);
-      surface_passes_.smooth(frame, pixels, box, skin_size);
+      surface_passes_.smooth(Smooth::skin, frame, pixels, box, skin_size);
       draw_smoothed(view, SphereKind::skin, GL_EQUAL, 1);  // from now on it counts as solid
     }
     surface_passes_.find_solids(frame, pixels, box, light_.sphere_size, matt && !skin);
@@ -157,7 +158,7 @@ class GlRenderer final : public Renderer {
     if (eye_.has(SphereKind::spark)) shade(programs_.spark, kSpark, view);
   }
 
-  // `trimmed`: without what sticks out of the outline of skins, once that is known.
+  // `trimmed`: skins without what sticks out of their outline, once that is known.
   void draw_surfaces(const Projection& view, std::span<const ShadedMesh> meshes, bool trimmed) {
     targets_.begin_samples(targets_.to_spheres);
     glEnable(GL_DEPTH_TEST);
@@ -196,9 +197,10 @@ class GlRenderer final : public Renderer {
     use_for_surfaces(programs_.sphere, view);
     programs_.sphere.set("side", side);
     if (trimmed) {
+      const Smooth what = kind == SphereKind::water ? Smooth::water : Smooth::skin;
       programs_.sphere.set("trimmed", 1);
-      programs_.sphere.read("outline", 0, targets_.outline);
-      programs_.sphere.read("surface", 1, targets_.surface[0]);
+      programs_.sphere.set("bodies", what == Smooth::skin ? 1 : 0);
+      programs_.sphere.read("outline", 0, targets_.outline[static_cast<std::size_t>(what)]);
       programs_.sphere.set("sample_picture", view.width, view.height);
     }
     eye_.of(kind).draw();
@@ -217,7 +219,13 @@ class GlRenderer final : public Renderer {
     draw_tank(targets_.to_behind, frame, pixels, false);
     draw_smoothed(view, SphereKind::water, GL_GREATER, -1);
     const float water_size = typical_radius(frame, SphereKind::water);
-    surface_passes_.smooth(frame, pixels, bounds_on_picture(frame.spheres, eye_.indices(true), pixels), water_size);
+    const PixelRectangle box = bounds_on_picture(frame.spheres, eye_.indices(true), pixels);
+    surface_passes_.find_outline(Smooth::water, pixels, box, water_size);
+    const bool skin = eye_.has(SphereKind::skin);
+    draw_surfaces(view, frame.meshes, skin);
+    if (skin) draw_smoothed(view, SphereKind::skin, GL_EQUAL, 1);
+    draw_smoothed(view, SphereKind::water, GL_GREATER, -1, true);
+    surface_passes_.smooth(Smooth::water, frame, pixels, box, water_size);
     shade_water(pixels, water_size);
   }
 

@@ -26,7 +26,7 @@ RenderTargets::RenderTargets(const RenderSettings& settings)
   for (gl::Texture& s : surface) s = gl::make_texture(width, height, GL_RG32F, GL_NEAREST);
   for (gl::Texture& a : ambient) a = gl::make_texture(half(width), half(height), GL_R8, GL_LINEAR);
   water_normal = gl::make_texture(width, height, GL_RGBA16F, GL_NEAREST);
-  outline = gl::make_texture(width, height, GL_R8, GL_LINEAR);
+  for (gl::Texture& o : outline) o = gl::make_texture(width, height, GL_RGBA16F, GL_LINEAR);
   thickness = gl::make_texture(1, 1, GL_R32F, GL_LINEAR);
   backdrop = gl::make_texture(width, height, light, GL_NEAREST);
   behind = gl::make_texture(width, height, light, GL_LINEAR);
@@ -43,7 +43,7 @@ RenderTargets::RenderTargets(const RenderSettings& settings)
   to_spheres = gl::make_framebuffer({&color, &normal, &depth}, &depth_stencil);
   to_surface[0] = gl::make_framebuffer({&surface[0]}, nullptr);
   to_surface[1] = gl::make_framebuffer({&surface[1]}, nullptr);
-  to_outline = gl::make_framebuffer({&outline}, nullptr);
+  for (std::size_t k = 0; k < 2; ++k) to_outline[k] = gl::make_framebuffer({&outline[k]}, nullptr);
   to_water_normal = gl::make_framebuffer({&water_normal}, nullptr);
   to_ambient = gl::make_framebuffer({&ambient[0]}, nullptr);
   to_blurred = gl::make_framebuffer({&ambient[1]}, nullptr);

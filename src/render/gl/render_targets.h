@@ -21,13 +21,14 @@ struct RenderTargets {
   // Several samples a pixel.
   gl::Texture color, normal, depth, depth_stencil, shaded;
   // One sample a pixel, except the sun's maps and the water's thickness.
-  gl::Texture sun_map, water_sun_map, water_normal, outline, thickness, backdrop, behind, solids, water, result;
+  gl::Texture sun_map, water_sun_map, water_normal, thickness, backdrop, behind, solids, water, result;
   std::array<gl::Texture, 2> surface;
+  std::array<gl::Texture, 2> outline;  ///< of water, and of skins
   std::array<gl::Texture, 2> ambient;  ///< for every second pixel along each side
 
-  gl::Framebuffer to_sun_map, to_water_sun_map, to_spheres, to_water_normal, to_outline, to_ambient, to_blurred,
-      to_backdrop, to_shaded, to_behind, to_solids, to_water, to_result;
-  std::array<gl::Framebuffer, 2> to_surface;
+  gl::Framebuffer to_sun_map, to_water_sun_map, to_spheres, to_water_normal, to_ambient, to_blurred, to_backdrop,
+      to_shaded, to_behind, to_solids, to_water, to_result;
+  std::array<gl::Framebuffer, 2> to_surface, to_outline;
 
   // Direct later drawing into `target`.
   void begin_samples(const gl::Framebuffer& target) const { begin(target, samples_across, samples_down); }

@@ -35,32 +35,38 @@ void SurfacePasses::find_solids(const Frame& frame, const Projection& pixels, co
   if (ambient) clear_ambient();
   glEnable(GL_SCISSOR_TEST);
   restrict_to(box);
-  reduce(targets_.to_solids);
+  reduce(targets_.to_solids, false);
   if (ambient) draw_ambient(frame, pixels, targets_.solids, box, sphere_size);
   glDisable(GL_SCISSOR_TEST);
 }
 
-void SurfacePasses::find_outline(const Projection& pixels, const PixelRectangle& box, float sphere_size) const {
+void SurfacePasses::find_outline(Smooth what, const Projection& pixels, const PixelRectangle& box,
+                                 float sphere_size) const {
+  HOOKE_ASSERT(sphere_size > 0, sphere_size);
+  const gl::Framebuffer& to_outline = targets_.to_outline[static_cast<std::size_t>(what)];
   glClearColor(0, 0, 0, 0);
-  for (const gl::Framebuffer* target : {&targets_.to_surface[0], &targets_.to_outline}) {
+  for (const gl::Framebuffer* target : {&targets_.to_surface[0], &to_outline}) {
     targets_.begin_pixels(*target);
     glClear(GL_COLOR_BUFFER_BIT);
   }
   glEnable(GL_SCISSOR_TEST);
   restrict_to(box);
-  reduce(targets_.to_surface[0]);
+  reduce(targets_.to_surface[0], what == Smooth::water);
   const gl::Program& program = programs_.outline;
-  targets_.begin_pixels(targets_.to_outline);
+  targets_.begin_pixels(to_outline);
   program.use();
   program.read("surface", 0, targets_.surface[0]);
-  program.set("reach", 1.6f * sphere_size);
+  program.set("bodies", what == Smooth::skin ? 1 : 0);
+  program.set("reach", 1.8f * sphere_size);
   program.set("range", 10.0f * sphere_size);
+  program.set("touching", 2.5f * sphere_size);
+  program.set("inset", what == Smooth::skin ? 0.08f : 0.0f);
   program.set("scale", pixels.scale);
   whole_.draw();
   glDisable(GL_SCISSOR_TEST);
 }
 
-void SurfacePasses::smooth(const Frame& frame, const Projection& pixels, const PixelRectangle& box,
+void SurfacePasses::smooth(Smooth what, const Frame& frame, const Projection& pixels, const PixelRectangle& box,
                            float sphere_size) const {
   HOOKE_ASSERT(sphere_size > 0, sphere_size);
   glClearColor(0, 0, 0, 0);
@@ -71,9 +77,9 @@ void SurfacePasses::smooth(const Frame& frame, const Projection& pixels, const P
   clear_ambient();
   glEnable(GL_SCISSOR_TEST);
   restrict_to(box);
-  reduce(targets_.to_surface[0]);
-  smooth_depths(frame, pixels, sphere_size);
-  find_normals(pixels, sphere_size);
+  reduce(targets_.to_surface[0], what == Smooth::water);
+  smooth_depths(what, frame, pixels, sphere_size);
+  find_normals(what, pixels, sphere_size);
   draw_ambient(frame, pixels, targets_.surface[0], box, sphere_size);
   glDisable(GL_SCISSOR_TEST);
 }
@@ -86,19 +92,22 @@ void SurfacePasses::clear_ambient() const {
   }
 }
 
-void SurfacePasses::reduce(const gl::Framebuffer& target) const {
+void SurfacePasses::reduce(const gl::Framebuffer& target, bool drops) const {
   const gl::Program& program = programs_.reduce;
   targets_.begin_pixels(target);
   program.use();
   program.read("depths", 0, targets_.depth);
   program.read("colors", 1, targets_.color);
+  program.read("normals", 2, targets_.normal);
+  program.set("drops", drops ? 1 : 0);
   program.set("samples", samples_);
   whole_.draw();
 }
 
-void SurfacePasses::smooth_depths(const Frame& frame, const Projection& pixels, float sphere_size) const {
+void SurfacePasses::smooth_depths(Smooth what, const Frame& frame, const Projection& pixels, float sphere_size) const {
   const gl::Program& program = programs_.smooth;
   program.use();
+  program.set("bodies", what == Smooth::skin ? 1 : 0);
   program.set("range", 4.5f * sphere_size);
   program.set("rim", 0.6f * sphere_size);
   program.set("scale", pixels.scale);
@@ -119,10 +128,11 @@ void SurfacePasses::smooth_depths(const Frame& frame, const Projection& pixels, 
   }
 }
 
-void SurfacePasses::find_normals(const Projection& pixels, float sphere_size) const {
+void SurfacePasses::find_normals(Smooth what, const Projection& pixels, float sphere_size) const {
   const gl::Program& program = programs_.water_normal;
   targets_.begin_pixels(targets_.to_water_normal);
   program.use();
+  program.set("bodies", what == Smooth::skin ? 1 : 0);
   set_picture(program, pixels);
   program.read("surface", 0, targets_.surface[0]);
   program.set("range", 4.0f * sphere_size);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+
 #include "hooke/render/frame.h"
 #include "hooke/render/gl/gl_buffers.h"
 #include "hooke/render/gl/render_programs.h"
@@ -21,19 +23,24 @@ class SurfacePasses {
         programs_(programs),
         samples_(samples) {}
 
-  /// Finds the outline of skins, from spheres that are to be smoothed; they then are to be drawn again, trimmed.
-  void find_outline(const Projection& pixels, const PixelRectangle& box, float sphere_size) const;
+  /// Which surfaces are smoothed. Those of skins are told apart by their bodies.
+  enum class Smooth : std::uint8_t { water, skin };
+
+  /// Finds the outline of surfaces, from spheres that are to be smoothed; they then are to be drawn again, trimmed.
+  void find_outline(Smooth what, const Projection& pixels, const PixelRectangle& box, float sphere_size) const;
   /// Finds the smooth surface and its normals, and the ambient light there and on other surfaces.
-  void smooth(const Frame& frame, const Projection& pixels, const PixelRectangle& box, float sphere_size) const;
+  void smooth(Smooth what, const Frame& frame, const Projection& pixels, const PixelRectangle& box,
+              float sphere_size) const;
   /// Finds the depths of what is not smoothed, and, where asked, its ambient light.
   void find_solids(const Frame& frame, const Projection& pixels, const PixelRectangle& box, float sphere_size,
                    bool ambient) const;
 
  private:
   void clear_ambient() const;
-  void reduce(const gl::Framebuffer& target) const;
-  void smooth_depths(const Frame& frame, const Projection& pixels, float sphere_size) const;
-  void find_normals(const Projection& pixels, float sphere_size) const;
+  /// `drops`: whether drops of water are told apart from the rest.
+  void reduce(const gl::Framebuffer& target, bool drops) const;
+  void smooth_depths(Smooth what, const Frame& frame, const Projection& pixels, float sphere_size) const;
+  void find_normals(Smooth what, const Projection& pixels, float sphere_size) const;
   void draw_ambient(const Frame& frame, const Projection& pixels, const gl::Texture& surface, const PixelRectangle& box,
                     float sphere_size) const;
 

@@ -3,7 +3,7 @@
 uniform sampler2D depths;        // of the spheres, several samples a pixel; negative where water
 uniform sampler2D colors;        // of the spheres: the water's own colour
 uniform sampler2D normals;       // of the spheres; and how loose they are: 1 a drop of its own
-uniform sampler2D surface;       // smoothed: depth and foam
+uniform sampler2D surface;       // smoothed: depth; foam, and 2 more for drops
 uniform sampler2D water_normals;
 uniform sampler2D ambient;
 uniform sampler2D thickness;     // of the water along the view, m
@@ -50,7 +50,7 @@ void main() {
   vec2 depth_and_foam = texelFetch(surface, pixel, 0).xy;
   shaded = vec4(0.0);
   if (depth_and_foam.x >= 0.0) return;
-  float depth = -depth_and_foam.x, foam = depth_and_foam.y;
+  float depth = -depth_and_foam.x, foam = depth_and_foam.y - (depth_and_foam.y >= 2.0 ? 2.0 : 0.0);
   vec2 place = gl_FragCoord.xy / picture;
   ivec2 water_at = water_sample(pixel);
   vec3 albedo = texelFetch(colors, water_at, 0).rgb;

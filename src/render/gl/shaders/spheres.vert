@@ -10,10 +10,11 @@ layout(location = 0) in vec3 center;
 layout(location = 1) in float radius;
 layout(location = 2) in vec4 color;
 layout(location = 3) in float roughness;
+layout(location = 4) in float body;       // of a skin; 0 for all else
 
 flat out vec3 view_center;
 flat out float view_radius;
-flat out vec4 tint;
+flat out vec4 tint;        // alpha: foam, or the body
 flat out float rough;
 out vec3 offset;           // from the centre to a point of the triangle
 
@@ -21,7 +22,7 @@ void main() {
   vec2 corner = gl_VertexID == 0 ? vec2(-1.7320508, -1.0) : gl_VertexID == 1 ? vec2(1.7320508, -1.0) : vec2(0.0, 2.0);
   view_center = to_view * (center - eye);
   view_radius = radius;
-  tint = color;
+  tint = vec4(color.rgb, max(color.a, body));
   rough = roughness;
   if (parallel) {
     offset = radius * vec3(corner, 1.0);

@@ -1,14 +1,18 @@
 // The normal of the smoothed water.
-uniform sampler2D surface;   // depth (negative: water, smoothed; 0: nothing) and foam
+uniform sampler2D surface;   // depth (negative: water, smoothed; 0: nothing) ; foam, and 2 more for drops, or body
+uniform bool bodies;         // whether other bodies are other surfaces
 uniform float range;         // a step in depth up to this belongs to the same surface, m
 
 out vec4 water_normal;       // in view space, from [-1, 1] to [0, 1]
 
 const float kNothing = 1e30;
 
+vec2 own;
+
 float depth_at(ivec2 pixel) {
-  float depth = texelFetch(surface, clamp(pixel, ivec2(0), textureSize(surface, 0) - 1), 0).x;
-  return depth < 0.0 ? -depth : kNothing;
+  vec2 there = texelFetch(surface, clamp(pixel, ivec2(0), textureSize(surface, 0) - 1), 0).xy;
+  bool same = there.x < 0.0 && (bodies ? abs(there.y - own.y) < 0.5 / 255.0 : (there.y >= 2.0) == (own.y >= 2.0));
+  return same ? -there.x : kNothing;
 }
 
 // Direction of the surface towards `side`: the sum of the steps from behind and to ahead where both neighbours lie on
@@ -24,9 +28,9 @@ vec3 surface_step(ivec2 side, vec3 here) {
 }
 
 void main() {
-  float depth = texelFetch(surface, ivec2(gl_FragCoord.xy), 0).x;
+  own = texelFetch(surface, ivec2(gl_FragCoord.xy), 0).xy;
   water_normal = vec4(0.5, 0.5, 1.0, 1.0);
-  if (depth >= 0.0) return;
-  vec3 here = view_point(gl_FragCoord.xy, -depth);
+  if (own.x >= 0.0) return;
+  vec3 here = view_point(gl_FragCoord.xy, -own.x);
   water_normal.xyz = 0.5 + 0.5 * normalize(cross(surface_step(ivec2(1, 0), here), surface_step(ivec2(0, 1), here)));
 }
