@@ -22,7 +22,7 @@ build_packages=(
   libepoxy-dev libegl1 libgl1 libgl1-mesa-dri libpng-dev libopenexr-dev libcairo2-dev fonts-dejavu-core ffmpeg
   libglfw3-dev libimgui-dev
   python3)
-bench_packages=(lammps python3-numpy python3-matplotlib x11-xserver-utils xauth xdotool xvfb)
+bench_packages=(lammps python3-h5py python3-numpy python3-matplotlib x11-xserver-utils xauth xdotool xvfb)
 python_packages=(python3-dev pybind11-dev python3-numpy python3-pip python3-setuptools python3-wheel)
 test_packages=(appstream clang-format-19 desktop-file-utils groff-base lammps mold python3-h5py python3-matplotlib
   python3-vtk9 x11-xserver-utils xauth xdotool xvfb zsh "${python_packages[@]}")

@@ -36,6 +36,8 @@ scene::Json Viewer::status_now() const {
   json["help"] = state_.help;
   json["eye"] = {camera.eye.x, camera.eye.y, camera.eye.z};
   json["target"] = {camera.target.x, camera.target.y, camera.target.z};
+  json["up"] = {camera.up.x, camera.up.y, camera.up.z};
+  json["field_of_view"] = camera.field_of_view;
   const Vec3d& gravity = scene_->gravity;
   json["gravity"] = {gravity.x, gravity.y, gravity.z};
   json["held_collider"] = now.held_collider;

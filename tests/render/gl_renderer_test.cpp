@@ -307,6 +307,11 @@ TEST_F(GlRenderer, AlphaTellsWhereSomethingIs) {
   EXPECT_EQ(image.at(2, 2)[3], 0);
 }
 
+// How far an sRGB picture may be from the linear one, steps of 8 bits. Each stage rounds the root of the light to half
+// a step, which sRGB stretches by 1.446 at most: 12.92 (2 r) where the root r has sRGB's kink, r^2 = 0.0031308. The
+// linear one keeps roots as half floats, of 11 bits. Then follow noise of half a step and the last rounding.
+double most_rounding(int stages) { return stages * (0.5 + 255.0 / 4096) * 1.446 + 0.5 + 0.5; }
+
 // Linear light as an sRGB picture stores it.
 double as_stored(double light) {
   const double l = std::clamp(light, 0.0, 1.0);
@@ -327,12 +332,13 @@ TEST_F(GlRenderer, LinearLightIsTheSamePictureNotCutOffAtWhite) {
     ASSERT_TRUE(drawn) << drawn.error().text();
     ASSERT_TRUE(light) << light.error().text();
     const render::Image& image = *drawn;
-    int different = 0;
+    double most = 0;
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
       const double expected = i % 4 == 3 ? 255.0 * light->pixels[i] : as_stored(light->pixels[i]);
-      different += std::abs(expected - image.pixels[i]) > 4;  // rounded to 8 bits at each stage
+      most = std::max(most, std::abs(expected - image.pixels[i]));
     }
-    EXPECT_LT(different, 0.01 * static_cast<double>(image.pixels.size())) << p.name;
+    // Water is shaded over the picture behind it, whose roots are rounded, too.
+    EXPECT_LE(most, most_rounding(p.scene.materials[0].look == MaterialLook::water ? 2 : 1)) << p.name;
   }
   render::Frame bright = red_balls({{4, 2, 3}}, "#ffffff");
   bright.spheres[0].roughness = 0;
