@@ -5,9 +5,11 @@ uniform sampler2D depths;
 
 out vec4 shaded;
 
-// How far the surface at another pixel stands before `depth`, in multiples of `unit`, as far as it counts.
+// How far the surface at another pixel stands before `depth`, in multiples of `unit`, as far as it counts. What stands
+// far before casts no shade: a ball that flies has no dark rim around it.
 float stands_before(vec2 at, float depth, float unit) {
-  return clamp((depth - eye.w / max(texture(depths, at).r, 1e-9)) / unit, -2.0, 2.0);
+  float before = (depth - eye.w / max(texture(depths, at).r, 1e-9)) / unit;
+  return clamp(before, -2.0, 2.0) * (1.0 - smoothstep(3.0, 8.0, before));
 }
 
 // The same of both sides together: 0 on a plane, however it is inclined.
