@@ -79,13 +79,6 @@ class Room {
   FreeSpace free_;
 };
 
-// In contacts between particles and in springs, J.
-Expected<double> bound_energy(const Simulation& simulation) {
-  const auto now = simulation.measure();
-  if (!now) return fail(now.error());
-  return now->elastic_energy + now->spring_energy;
-}
-
 }  // namespace
 
 Expected<void> add_ball(Simulation& simulation, const AddBall& ball) {
@@ -118,29 +111,6 @@ Expected<void> add_ball(Simulation& simulation, const AddBall& ball) {
   const auto ids = simulation.add_particles(added);
   if (!ids) return fail(ids.error());
   return {};
-}
-
-Expected<void> cut_springs(Simulation& simulation, const CutSprings& cut) {
-  SimulationState state = simulation.state();
-  const std::size_t count = state.structure ? state.structure->springs.size() : 0;
-  std::set<std::uint64_t> broken(state.broken_springs.begin(), state.broken_springs.end());
-  const std::size_t before = broken.size();
-  for (const std::uint64_t spring : cut.springs) {
-    if (spring >= count)
-      return fail(Error::Kind::bad_input, "springs", "there is none of index " + std::to_string(spring));
-    broken.insert(spring);
-  }
-  if (broken.size() == before) return fail(Error::Kind::bad_input, "springs", "there is none to cut");
-  state.broken_springs.assign(broken.begin(), broken.end());
-  const auto whole = bound_energy(simulation);
-  if (!whole) return fail(whole.error());
-  if (auto restored = simulation.restore(state); !restored) return restored;
-  const auto now = bound_energy(simulation);
-  if (!now) return fail(now.error());
-  state.ledger.broken += broken.size() - before;
-  state.ledger.broken_energy.add(*whole);
-  state.ledger.broken_energy.add(-*now);
-  return simulation.restore(std::move(state));
 }
 
 Expected<void> scatter(Simulation& simulation, const Scatter& how) {

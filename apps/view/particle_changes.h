@@ -15,10 +15,6 @@ namespace hooke::view {
 /// there is no room for any.
 Expected<void> add_ball(Simulation& simulation, const AddBall& ball);
 
-/// Breaks springs for good. Springs that are broken already are passed over. The ledger has their energy as that of
-/// broken ones, less what contacts between their ends gain.
-Expected<void> cut_springs(Simulation& simulation, const CutSprings& cut);
-
 /// bad_input where the particles find no room, or none may be moved.
 Expected<void> scatter(Simulation& simulation, const Scatter& how);
 

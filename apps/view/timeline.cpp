@@ -108,7 +108,7 @@ Expected<void> Timeline::perform(Simulation& simulation, const Action& action) {
       return {};
     }
     Expected<void> operator()(const LetGo&) const { return line.hand_.let_go(s); }
-    Expected<void> operator()(const CutSprings& a) const { return cut_springs(s, a); }
+    Expected<void> operator()(const CutSprings& a) const { return s.cut_springs(a.springs); }
     Expected<void> operator()(const Scatter& a) const { return scatter(s, a); }
     Expected<void> operator()(const Reset&) const {
       auto reset = line.document_.reset(s);

@@ -471,6 +471,31 @@ Expected<void> Simulation::set_material(const Material& material) {
   return fail(Error::Kind::bad_input, "materials" + path_step(material.name), "there is no material of this name");
 }
 
+Expected<void> Simulation::cut_springs(std::span<const std::uint64_t> springs) {
+  const FloatingPointGuard guard;
+  Impl& s = *impl_;
+  const std::size_t count = s.scene.structure ? s.scene.structure->springs.size() : 0;
+  std::vector<std::uint64_t> broken = s.backend->broken_springs();
+  const std::size_t before = broken.size();
+  for (const std::uint64_t spring : springs) {
+    if (spring >= count) return fail(Error::Kind::bad_input, "springs", formatted("there is none of index {}", spring));
+  }
+  broken.insert(broken.end(), springs.begin(), springs.end());
+  std::sort(broken.begin(), broken.end());
+  broken.erase(std::unique(broken.begin(), broken.end()), broken.end());
+  if (broken.size() == before) return fail(Error::Kind::bad_input, "springs", "there is none to cut");
+  const auto whole = measure();
+  if (!whole) return fail(whole.error());
+  const std::shared_ptr<const Snapshot> all = s.snapshot();
+  if (auto started = s.start(all->particles, false, broken); !started) return started;
+  const auto cut = measure();
+  if (!cut) return fail(cut.error());
+  s.run.ledger.broken += broken.size() - before;
+  s.run.ledger.broken_energy.add(whole->elastic_energy + whole->spring_energy);
+  s.run.ledger.broken_energy.add(-(cut->elastic_energy + cut->spring_energy));
+  return {};
+}
+
 std::span<const ColliderPose> Simulation::collider_poses() const { return impl_->run.poses; }
 
 Expected<void> Simulation::set_collider_motion(const std::string& name, const Motion& motion) {

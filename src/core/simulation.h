@@ -115,6 +115,10 @@ class Simulation {
   /// Ids must exist and be unique, forces finite. Forces are not part of the state: a saved state does not have them,
   /// and set_material() and restore() end them. Their work is in the ledger (Cause::external).
   Expected<void> set_external_forces(std::span<const std::uint64_t> ids, std::span<const Vec3d> forces);
+  /// Breaks springs of the scene's structure (indices) for good, in any order; those that are broken already are passed
+  /// over, but one must be whole. The ledger counts them as broken, with their energy less what contacts between their
+  /// ends gain. Ends forces of set_external_forces(), as set_material() does.
+  Expected<void> cut_springs(std::span<const std::uint64_t> springs);
   /// Replaces the material of the same name, from the next step on.
   Expected<void> set_material(const Material& material);
 

@@ -6,6 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include "busy_scenes.h"
 #include "hooke/backends/cpu/isa.h"
 
@@ -119,6 +123,46 @@ TEST_P(Springs, StayBrokenOverARestart) {
   EXPECT_EQ(second.broken_springs(), saved.broken_springs);
   ASSERT_TRUE(advance(second, kSteps / 2));
   expect_same_springs(whole, second);
+}
+
+// The ledger has the energy of the springs, less what contacts between their ends, which may touch now, have gained.
+TEST_P(Springs, ThatAreCutAreBrokenOnes) {
+  Simulation cut = simulate(scene_, particles_, engine(2)), restored = simulate(scene_, particles_, engine(2));
+  ASSERT_TRUE(advance(cut, kSteps / 2));
+  ASSERT_TRUE(advance(restored, kSteps / 2));
+  SimulationState state = restored.state();
+  const std::uint64_t broken = cut.ledger().springs.broken, again = state.broken_springs.front();
+  std::vector<std::uint64_t> whole;
+  for (std::uint64_t k = 0; whole.size() < 5; ++k) {
+    if (!std::binary_search(state.broken_springs.begin(), state.broken_springs.end(), k)) whole.push_back(k);
+  }
+  state.broken_springs.insert(state.broken_springs.end(), whole.begin(), whole.end());
+  std::sort(state.broken_springs.begin(), state.broken_springs.end());
+  const auto bound_energy = [](const Simulation& s) { return measured(s).elastic_energy + measured(s).spring_energy; };
+  const double before = bound_energy(restored);
+  ASSERT_TRUE(restored.restore(state));
+  state.ledger.broken += 5;
+  state.ledger.broken_energy.add(before);
+  state.ledger.broken_energy.add(-bound_energy(restored));
+  ASSERT_TRUE(restored.restore(std::move(state)));
+
+  std::reverse(whole.begin(), whole.end());
+  whole.insert(whole.end(), {again, whole.front()});  // in any order, broken already, and twice
+  ASSERT_TRUE(cut.cut_springs(whole));
+  EXPECT_EQ(cut.ledger().springs.broken, broken + 5);
+  expect_same_bits(cut, restored);
+  ASSERT_TRUE(advance(cut, kSteps / 2));
+  ASSERT_TRUE(advance(restored, kSteps / 2));
+  expect_same_bits(cut, restored);
+  EXPECT_EQ(cut.broken_springs(), restored.broken_springs());
+
+  const std::uint64_t hash = cut.state_hash(), none = scene_.structure->springs.size();
+  for (const std::vector<std::uint64_t>& bad : {std::vector<std::uint64_t>{0, none}, {again}, {}}) {
+    const auto refused = cut.cut_springs(bad);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().kind, Error::Kind::bad_input);
+  }
+  EXPECT_EQ(cut.state_hash(), hash);
 }
 
 TEST_P(Springs, HoldParticlesStill) {
