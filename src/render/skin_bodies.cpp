@@ -30,6 +30,13 @@ class Bodies {
   std::vector<std::size_t> before_;
 };
 
+// ParticleSet::find(), at once where no particle before this one is gone.
+std::size_t find(const ParticleSet& particles, std::uint64_t id) {
+  const std::uint64_t likely = particles.empty() ? 0 : id - particles.id.front();
+  if (likely < particles.size() && particles.id[likely] == id) return static_cast<std::size_t>(likely);
+  return particles.find(id);
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> skin_bodies(const Scene& scene, const ParticleSet& particles) {
@@ -38,7 +45,7 @@ std::vector<std::uint8_t> skin_bodies(const Scene& scene, const ParticleSet& par
   if (scene.structure) {
     const SpringSet& springs = scene.structure->springs;
     for (std::size_t s = 0; s < springs.size(); ++s) {
-      const std::size_t i = particles.find(springs.a[s]), j = particles.find(springs.b[s]);
+      const std::size_t i = find(particles, springs.a[s]), j = find(particles, springs.b[s]);
       if (i == particles.size() || j == particles.size()) continue;
       bodies.join(i, j);
       tied[i] = tied[j] = 1;
