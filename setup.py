@@ -39,9 +39,9 @@ class CMakeBuild(build_ext):
         target.parent.mkdir(parents=True, exist_ok=True)
         suffix = sysconfig.get_config_var("EXT_SUFFIX")  # a folder used again may hold modules of other versions
         shutil.copy2(build / "python" / "hooke" / f"_hooke{suffix}", target)
-        drawing = build / "hooke-gl.so"
-        if drawing.exists():  # else the package has no pictures
-            shutil.copy2(drawing, target.parent)
+        for module in ("hooke-gl.so", "hooke-cuda.so"):
+            if (build / module).exists():  # else the package has no pictures, or takes no GPU
+                shutil.copy2(build / module, target.parent)
 
 
 version = re.search(r"project\(hooke VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)

@@ -46,7 +46,7 @@ struct CountSpringRows {
   HOOKE_HD void operator()(std::uint32_t i) const {
     if (is_vacant(records[i])) return;
     const std::uint32_t id_index = id_index_of(records[i].id_index);
-    raise_to(rows + i / kSliceLanes, springs.first[id_index + 1] - springs.first[id_index]);
+    raise_to(rows + i / kLanes, springs.first[id_index + 1] - springs.first[id_index]);
   }
 };
 
@@ -66,7 +66,7 @@ struct FillSpringRows {
     const std::uint32_t id_index = here ? id_index_of(records[i].id_index) : 0;
     const std::uint32_t to = here ? springs.first[id_index + 1] : 0;
     std::uint32_t k = here ? springs.first[id_index] : 0;
-    const std::uint32_t g = i / kSliceLanes, lane = i % kSliceLanes;
+    const std::uint32_t g = i / kLanes, lane = i % kLanes;
     for (std::uint32_t r = first_row[g]; r < first_row[g + 1]; ++r, ++k) {
       SpringRow<Real>& row = rows[r];
       const bool ties = k < to && springs.broken[springs.sides[k].spring] == 0 &&
@@ -92,7 +92,7 @@ struct PullBySprings {
   std::uint32_t* torn;  // springs
 
   HOOKE_HD void operator()(std::uint32_t i) const {
-    const std::uint32_t g = i / kSliceLanes, lane = i % kSliceLanes;
+    const std::uint32_t g = i / kLanes, lane = i % kLanes;
     SpringWork<Real> work;
     work.rows = rows;
     work.first_row = first_row;
@@ -110,7 +110,7 @@ struct PullBySprings {
  private:
   // Removes the springs of particle i that tore. Both ends do so; the lower one counts the spring.
   HOOKE_HD void finish_torn(std::uint32_t i) const {
-    const std::uint32_t g = i / kSliceLanes, lane = i % kSliceLanes, id_index = id_index_of(pass.records[i].id_index);
+    const std::uint32_t g = i / kLanes, lane = i % kLanes, id_index = id_index_of(pass.records[i].id_index);
     for (std::uint32_t r = first_row[g]; r < first_row[g + 1]; ++r) {
       if (rows[r].kind[lane] != kTornSpring) continue;
       rows[r].kind[lane] = kNoSpring;
@@ -338,7 +338,7 @@ struct HoldStill {
   SumCopies<double> sums;    // HoldSum::count
 
   HOOKE_HD void operator()(std::uint32_t i) const {
-    if ((bits[i / kSliceLanes] >> i % kSliceLanes & 1U) == 0 || is_vacant(before[i])) return;
+    if ((bits[i / kLanes] >> i % kLanes & 1U) == 0 || is_vacant(before[i])) return;
     const Vec3d held = vec_cast<double>(before[i].v), kicked = vec_cast<double>(after[i].v);
     const Vec3d given = (mass[static_cast<std::size_t>(before[i].material)] / kick) * (held - kicked);
     FixedSum<double>* const own = sums.of_item(i);

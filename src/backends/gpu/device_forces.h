@@ -153,7 +153,7 @@ class DeviceForces {
     if (any_held()) mark_held(particles);
     if (!has_springs()) return;
     // Of the whole room: newborns come behind, and have no rows.
-    const std::uint32_t slices = particles.room / static_cast<std::uint32_t>(kSliceLanes);
+    const std::uint32_t slices = particles.room / kLanes;
     first_spring_row_.reserve(slices + 1);
     first_spring_row_.fill(0, slices + 1);
     device_->each(particles.end, CountSpringRows<Real>{particles.records, spring_table(), first_spring_row_.data()});
@@ -169,7 +169,7 @@ class DeviceForces {
   /// Newborns have been added.
   void mark_held(const ParticlesView<Real>& particles) {
     if (!any_held()) return;
-    const std::uint32_t slices = particles.whole_end() / static_cast<std::uint32_t>(kSliceLanes);
+    const std::uint32_t slices = particles.whole_end() / kLanes;
     held_bits_.reserve(particles.room / kSliceLanes + 1);
     device_->each(slices, MarkHeld<Real>{particles.records, fixed_.data(), held_by_structure_ ? held_.data() : nullptr,
                                          held_bits_.data()});

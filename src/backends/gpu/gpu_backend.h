@@ -101,9 +101,7 @@ class GpuBackend final : public Backend {
   bool verlet() const { return scene_.integrator == Integrator::velocity_verlet; }
   std::uint32_t listed_count() const { return count_ - noninteracting_; }
   static std::uint32_t whole_warps(std::uint32_t n) { return (n + kWarp - 1) / kWarp * kWarp; }
-  static std::uint32_t slices(std::uint32_t n) {
-    return static_cast<std::uint32_t>((n + kSliceLanes - 1) / kSliceLanes);
-  }
+  static std::uint32_t slices(std::uint32_t n) { return (n + kLanes - 1) / kLanes; }
 
   // Particles ---------------------------------------------------------------------------------------------------------
 

@@ -357,7 +357,7 @@ void GpuBackend<Device, Real>::list_neighbours() {
   // The pass may read, and not use, some rows after the last.
   const std::size_t wanted = (std::size_t{rows} + kRowsAhead + 1) * kSliceLanes;
   if (wanted > entries_.room()) entries_.reserve(wanted + wanted / 8);
-  device_.each(slices * static_cast<std::uint32_t>(kSliceLanes),
+  device_.each(slices * kLanes,
                FillRows<Real>{search, first_row_.data(), slot_of_id_index_.data(), entries_.data(), filler, listed_});
   stale_ = false;
   ++builds_;

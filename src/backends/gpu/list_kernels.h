@@ -9,6 +9,7 @@
 #include "hooke/backends/gpu/brick_grid.h"
 #include "hooke/backends/gpu/device.h"
 #include "hooke/backends/gpu/device_report.h"
+#include "hooke/backends/gpu/warp.h"
 #include "hooke/neighbours/layout.h"
 #include "hooke/neighbours/row_network.h"
 #include "hooke/passes/force_pass.h"
@@ -179,7 +180,7 @@ struct CountRows {
   HOOKE_HD void operator()(std::uint32_t i) const {
     std::uint32_t count = 0;
     search.run(i, [&](std::uint32_t) { ++count; });
-    raise_to(rows + i / kSliceLanes, count);
+    raise_to(rows + i / kLanes, count);
   }
 };
 
@@ -194,8 +195,8 @@ struct FillRows {
   std::uint32_t listed;  // particles
 
   HOOKE_HD void operator()(std::uint32_t i) const {
-    const std::uint32_t g = i / kSliceLanes, rows = first_row[g + 1] - first_row[g];
-    std::uint32_t* const lane = entries + std::size_t{first_row[g]} * kSliceLanes + i % kSliceLanes;
+    const std::uint32_t g = i / kLanes, rows = first_row[g + 1] - first_row[g];
+    std::uint32_t* const lane = entries + std::size_t{first_row[g]} * kSliceLanes + i % kLanes;
     std::uint32_t count = 0;
     if (i < listed) {
       search.run(i, [&](std::uint32_t p) { lane[count++ * kSliceLanes] = id_index_of(search.records[p].id_index); });

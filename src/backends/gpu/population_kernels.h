@@ -43,7 +43,7 @@ struct FindParticles {
       particle.record = records[slot];
       if (acceleration != nullptr) particle.acceleration = acceleration[slot];
       if (first_row != nullptr && slot < listed)
-        particle.rows = first_row[slot / kSliceLanes + 1] - first_row[slot / kSliceLanes];
+        particle.rows = first_row[slot / kLanes + 1] - first_row[slot / kLanes];
     }
     found[k] = particle;
   }
@@ -68,7 +68,7 @@ struct CopyRows {
 
   HOOKE_HD void operator()(std::uint32_t k) const {
     const std::uint32_t* const lane =
-        entries + std::size_t{first_row[slot[k] / kSliceLanes]} * kSliceLanes + slot[k] % kSliceLanes;
+        entries + std::size_t{first_row[slot[k] / kLanes]} * kSliceLanes + slot[k] % kLanes;
     for (std::uint32_t at = first[k]; at < first[k + 1]; ++at) {
       const std::uint32_t neighbour = lane[std::size_t{at - first[k]} * kSliceLanes] / record_offset<Real>(1);
       rows[at] = {records[neighbour], neighbour};

@@ -101,9 +101,9 @@ struct StepParticle {
   HOOKE_HD void operator()(std::uint32_t i) const {
     PackRows rows;
     if (i < list.listed) {
-      const std::uint32_t* const lane = list.entries + i % kSliceLanes;
-      rows = {lane + std::size_t{list.first_row[i / kSliceLanes]} * kSliceLanes,
-              lane + std::size_t{list.first_row[i / kSliceLanes + 1]} * kSliceLanes};
+      const std::uint32_t* const lane = list.entries + i % kLanes;
+      rows = {lane + std::size_t{list.first_row[i / kLanes]} * kSliceLanes,
+              lane + std::size_t{list.first_row[i / kLanes + 1]} * kSliceLanes};
     }
     Report report;
     HOOKE_UNROLL
@@ -116,8 +116,7 @@ struct StepParticle {
                                                   : Vec3<Real>{Real(0), Real(0), Real(0)};
         add_move(out.moves, i, report.has_moved, moved);
       }
-      const bool pinned =
-          pass.buffers.pinned != nullptr && (pass.buffers.pinned[i / kSliceLanes] >> i % kSliceLanes & 1U) != 0;
+      const bool pinned = pass.buffers.pinned != nullptr && (pass.buffers.pinned[i / kLanes] >> i % kLanes & 1U) != 0;
       if (pass.rules.open_or_periodic[0] || pass.rules.open_or_periodic[1] || pass.rules.open_or_periodic[2]) {
         if (!pinned && !is_vacant(pass.buffers.out[i])) apply_boundaries(pass.rules, out, pass.buffers.out[i]);
       }
@@ -156,7 +155,7 @@ struct KickAndDrift {
   HOOKE_HD void operator()(std::uint32_t i) const {
     ParticleRecord<Real> p = records[i];
     const bool present = !is_vacant(p);
-    const bool held = pinned != nullptr && (pinned[i / kSliceLanes] >> i % kSliceLanes & 1U) != 0;
+    const bool held = pinned != nullptr && (pinned[i / kLanes] >> i % kLanes & 1U) != 0;
     if (present && !held) {
       p.v = kick(p.v, acceleration[i], Real(0.5) * rules.dt);
       p.x = drift(p.x, p.v, rules.dt);

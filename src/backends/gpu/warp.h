@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "hooke/backends/gpu/device.h"
+#include "hooke/neighbours/layout.h"
 
 namespace hooke::gpu {
 
@@ -12,6 +13,9 @@ namespace hooke::gpu {
 // these functions: kernels that do are run on whole warps. Without a GPU each item answers for itself.
 
 inline constexpr std::uint32_t kWarp = 32;
+
+/// The lanes of a slice (neighbours/layout.h), for numbers of slots.
+inline constexpr auto kLanes = static_cast<std::uint32_t>(kSliceLanes);
 
 /// Whether the condition holds for any item of the warp.
 HOOKE_HD bool any_in_warp(bool condition) {
