@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "hooke/backends/cpu/attraction_tree.h"
-#include "hooke/backends/cpu/exclusions.h"
 #include "hooke/backends/cpu/particle_slots.h"
 #include "hooke/backends/cpu/pinned_particles.h"
 #include "hooke/base/threads.h"
 #include "hooke/core/backend.h"
+#include "hooke/passes/exclusions.h"
 #include "hooke/passes/id_table.h"
 #include "support/assertions.h"
 #include "support/engines.h"

@@ -26,26 +26,8 @@ template <class Real>
 void FieldForces<Real>::bind(const IdTable& ids) {
   triangles_.clear();
   if (!blows_on_sheets_ || !scene_.structure) return;
-  for (const Surface& surface : scene_.structure->surfaces) {
-    for (std::size_t t = 0; t < surface.triangles.size(); t += 3) {
-      Triangle id_indices;
-      for (std::size_t k = 0; k < 3; ++k) {
-        id_indices[k] = static_cast<std::uint32_t>(ids.find(surface.particles[surface.triangles[t + k]]));
-      }
-      if (std::max({id_indices[0], id_indices[1], id_indices[2]}) < ids.size()) triangles_.push_back(id_indices);
-    }
-  }
-  on_triangle_.resize(triangles_.size());
-  first_.assign(ids.size() + 1, 0);
-  for (const Triangle& id_indices : triangles_) {
-    for (const std::uint32_t id_index : id_indices) ++first_[id_index + 1];
-  }
-  for (std::size_t id_index = 0; id_index < ids.size(); ++id_index) first_[id_index + 1] += first_[id_index];
-  own_.resize(first_.back());
-  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    for (const std::uint32_t id_index : triangles_[t]) own_[next[id_index]++] = static_cast<std::uint32_t>(t);
-  }
+  triangles_.bind(*scene_.structure, ids);
+  on_triangle_.resize(triangles_.all().size());
 }
 
 template <class Real>
@@ -65,7 +47,8 @@ void FieldForces<Real>::apply(const LargeVector<Record>& records, std::size_t co
         if (field.acts_on(material, p.x)) force_[i] += field.force(material, p.x, p.v);
         if (!on_sheets) continue;
         const std::uint32_t id_index = id_index_of(p.id_index);
-        for (std::uint32_t k = first_[id_index]; k < first_[id_index + 1]; ++k) force_[i] += on_triangle_[own_[k]];
+        for (std::uint32_t k = triangles_.first()[id_index]; k < triangles_.first()[id_index + 1]; ++k)
+          force_[i] += on_triangle_[triangles_.own()[k]];
       }
     });
     none_yet = false;
@@ -75,13 +58,13 @@ void FieldForces<Real>::apply(const LargeVector<Record>& records, std::size_t co
 template <class Real>
 void FieldForces<Real>::apply_to_triangles(const PlacedField<Real>& field, const LargeVector<Record>& records,
                                            const std::vector<std::uint32_t>& slot_of) {
-  parallel_ranges(triangles_.size(), kTile, [&](std::size_t first, std::size_t last) {
+  parallel_ranges(triangles_.all().size(), kTile, [&](std::size_t first, std::size_t last) {
     for (std::size_t t = first; t < last; ++t) {
       on_triangle_[t] = {Real(0), Real(0), Real(0)};
       const Record* corner[3];
       bool whole = true;
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t at = slot_of[triangles_[t][k]];
+        const std::uint32_t at = slot_of[triangles_.all()[t].id_index[k]];
         whole = whole && at < records.size() && !is_vacant(records[at]);
         corner[k] = &records[whole ? at : 0];
       }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "hooke/core/placed_fields.h"
 #include "hooke/core/scene.h"
 #include "hooke/neighbours/layout.h"
+#include "hooke/passes/cloth_triangles.h"
 #include "hooke/passes/id_table.h"
 #include "hooke/passes/particle_record.h"
 
@@ -33,9 +33,7 @@ class FieldForces {
   void bind(const IdTable& ids);
 
   /// There are more ids now, with id indices below `id_indices`; the new ones belong to no triangle.
-  void grow(std::size_t id_indices) {
-    if (needs_places()) first_.resize(id_indices + 1, first_.back());
-  }
+  void grow(std::size_t id_indices) { triangles_.grow(id_indices); }
 
   void set_time(double seconds) { time_ = seconds; }
 
@@ -46,8 +44,6 @@ class FieldForces {
   const Vec3<Real>* forces() const { return force_.data(); }
 
  private:
-  using Triangle = std::array<std::uint32_t, 3>;  // id indices
-
   void apply_to_triangles(const PlacedField<Real>& field, const LargeVector<Record>& records,
                           const std::vector<std::uint32_t>& slot_of);
 
@@ -55,9 +51,7 @@ class FieldForces {
   Vec3<Real> period_{};  // m
   bool blows_on_sheets_ = false;
   double time_ = 0;                       // s
-  std::vector<Triangle> triangles_;       // of cloths, where wind blows on them
-  LargeVector<std::uint32_t> own_;        // triangles of id index r: own_[first_[r]] to own_[first_[r + 1] - 1]
-  std::vector<std::uint32_t> first_;
+  ClothTriangles triangles_;  // where wind blows on them
   LargeVector<Vec3<Real>> on_triangle_;   // N on each corner, by one field
   LargeVector<Vec3<Real>> force_;         // N
 };

@@ -10,12 +10,12 @@
 #include <span>
 #include <vector>
 
-#include "hooke/backends/cpu/exclusions.h"
 #include "hooke/backends/cpu/patched_rows.h"
 #include "hooke/base/parallel.h"
 #include "hooke/neighbours/cell_list.h"
 #include "hooke/neighbours/neighbour_list.h"
 #include "hooke/neighbours/window_order.h"
+#include "hooke/passes/exclusions.h"
 #include "hooke/passes/pass_rules.h"
 #include "hooke/physics/periodic.h"
 

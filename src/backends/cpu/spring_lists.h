@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "hooke/backends/cpu/exclusions.h"
 #include "hooke/backends/cpu/particle_state.h"
 #include "hooke/base/huge_pages.h"
 #include "hooke/core/scene.h"
@@ -18,6 +17,7 @@
 #include "hooke/passes/force_pass.h"
 #include "hooke/passes/id_table.h"
 #include "hooke/passes/spring_pass.h"
+#include "hooke/passes/spring_table.h"
 
 namespace hooke {
 
@@ -34,20 +34,20 @@ class SpringLists {
 
   void configure(const Scene& scene, const RulesView<Real>& rules, SpringPassFunction<Real> run);
 
-  bool empty() const { return kind_.empty(); }
+  bool empty() const { return table_.empty(); }
 
   /// From now on these springs (indices, ascending) are broken, and no others.
-  void break_springs(const std::vector<std::uint64_t>& broken);
-  std::vector<std::uint64_t> broken() const;
+  void break_springs(const std::vector<std::uint64_t>& broken) { table_.break_springs(broken); }
+  std::vector<std::uint64_t> broken() const { return table_.broken_springs(); }
 
   /// Finds the springs' ends among the particles of these ids.
-  void bind(const IdTable& ids);
+  void bind(const IdTable& ids) { table_.bind(ids); }
 
   /// There are more particles now; no spring ties the new ones.
-  void grow(std::size_t id_indices);
+  void grow(std::size_t id_indices) { table_.grow(id_indices); }
 
   /// Pairs that springs keep from touching.
-  const Exclusions& exclusions() const { return exclusions_; }
+  const Exclusions& exclusions() const { return table_.exclusions(); }
 
   /// Lays the springs out for `count` particles in their present order; `slot_of` is the slot of each id index, kVacant
   /// where a particle is gone. The last of `size` records fills short rows.
@@ -70,29 +70,14 @@ class SpringLists {
                   std::span<const std::uint32_t> among, ExactSum& sum) const;
 
  private:
-  struct Side {
-    std::uint32_t spring, partner;  // index, id index
-  };
-
   template <class Visit>
   void for_each_side(const Record* records, const std::vector<std::uint32_t>& slot_of, std::size_t id_index,
                      const Visit& visit) const;
-  void take(const std::shared_ptr<const Structure>& structure);
   void finish_torn(const Record* records, std::size_t g, SpringSums& sums);
-  double energy_of(std::uint32_t spring, const Record& i, const Record& p) const;
 
   SpringPassFunction<Real> run_ = nullptr;
   SpringPass<Real> pass_;
-  Vec3<Real> period_{};  // m, as of the force pass
-  std::shared_ptr<const Structure> structure_;
-  std::vector<SpringKind<Real>> kinds_;
-  bool tearable_ = false;
-  LargeVector<std::uint32_t> kind_;  // by spring
-  LargeVector<Real> rest_length_;  // by spring, m
-  std::vector<std::uint8_t> broken_;  // by spring
-  LargeVector<Side> sides_;  // of id index r: first_side_[r] to first_side_[r + 1] - 1
-  std::vector<std::uint32_t> first_side_;
-  Exclusions exclusions_;
+  SpringTable<Real> table_;
 
   std::vector<std::pair<std::uint32_t, std::uint32_t>> released_;  // by the last apply(): indices of both particles
 

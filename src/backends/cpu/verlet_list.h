@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "hooke/backends/cpu/column_store.h"
-#include "hooke/backends/cpu/exclusions.h"
 #include "hooke/backends/cpu/outlier_pairs.h"
 #include "hooke/backends/cpu/patched_rows.h"
 #include "hooke/base/assert.h"
@@ -21,6 +20,7 @@
 #include "hooke/neighbours/motion_bounds.h"
 #include "hooke/neighbours/neighbour_list.h"
 #include "hooke/neighbours/window_order.h"
+#include "hooke/passes/exclusions.h"
 #include "hooke/passes/pass_rules.h"
 #include "hooke/physics/periodic.h"
 

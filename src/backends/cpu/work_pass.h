@@ -7,6 +7,7 @@
 #include "hooke/base/vec3.h"
 #include "hooke/passes/exact_parts.h"
 #include "hooke/passes/particle_record.h"
+#include "hooke/passes/work_sum.h"
 
 namespace hooke {
 
@@ -23,11 +24,6 @@ struct ForceWork {
   Real kick{};                                   // duration of a kick, s
   std::size_t count = 0;                         // at most kMost; whole slices of 16 can be read
   bool has_resultant = true;                          // the force itself is summed too
-};
-
-/// Powers are at twice the mean velocity, W, as in PassSum.
-struct WorkSum {
-  enum { power, next_power, force, count = force + 3 };
 };
 
 /// Adds up WorkSum::count sums.

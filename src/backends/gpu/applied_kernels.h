@@ -11,7 +11,10 @@
 #include "hooke/core/attraction.h"
 #include "hooke/core/placed_fields.h"
 #include "hooke/passes/cloth_force.h"
+#include "hooke/passes/cloth_triangles.h"
 #include "hooke/passes/spring_pass.h"
+#include "hooke/passes/spring_table.h"
+#include "hooke/passes/work_sum.h"
 #include "hooke/physics/attraction.h"
 // After the packs.
 #include "hooke/passes/spring_pass.inl"
@@ -21,14 +24,14 @@ namespace hooke::gpu {
 // Forces beside those of the pass: springs, fields, attraction, the caller's, each a column by slot; what they do; and
 // particles that are held.
 
-/// One end's side of a spring.
-struct SpringSide {
-  std::uint32_t spring, partner;  // index, id index
+/// A spring that tore, with the id indices of its ends.
+struct TornSpring {
+  std::uint32_t spring, a, b;
 };
 
 /// The springs of a scene, by id index: sides `first[i]` and on of id index i, in the order of their springs.
 template <class Real>
-struct SpringTable {
+struct SpringsView {
   const std::uint32_t* first = nullptr;
   const SpringSide* sides = nullptr;
   const std::uint32_t* kind = nullptr;  // by spring
@@ -40,7 +43,7 @@ struct SpringTable {
 template <class Real>
 struct CountSpringRows {
   const ParticleRecord<Real>* records;
-  SpringTable<Real> springs;
+  SpringsView<Real> springs;
   std::uint32_t* rows;  // by slice
 
   HOOKE_HD void operator()(std::uint32_t i) const {
@@ -54,7 +57,7 @@ struct CountSpringRows {
 template <class Real>
 struct FillSpringRows {
   const ParticleRecord<Real>* records;
-  SpringTable<Real> springs;
+  SpringsView<Real> springs;
   const std::uint32_t* first_row;
   const std::uint32_t* slot_of_id_index;
   SpringRow<Real>* rows;
@@ -87,9 +90,9 @@ struct PullBySprings {
   Real* power;  // W, by slot
   SumCopies<Real> sums;  // the dissipation comes first
   SumWindow window;
-  SpringTable<Real> springs;
+  SpringsView<Real> springs;
   DeviceReport* report;
-  std::uint32_t* torn;  // springs
+  TornSpring* torn;
 
   HOOKE_HD void operator()(std::uint32_t i) const {
     const std::uint32_t g = i / kLanes, lane = i % kLanes;
@@ -117,7 +120,7 @@ struct PullBySprings {
       const SpringSide side = springs.sides[springs.first[id_index] + (r - first_row[g])];
       if (side.partner < id_index) continue;
       springs.broken[side.spring] = 1;
-      torn[add_to(&report->torn, 1)] = side.spring;
+      torn[add_to(&report->torn, 1)] = {side.spring, id_index, side.partner};
     }
   }
 };
@@ -128,7 +131,7 @@ struct BlowOnTriangles {
   FieldView<Real> field;
   const ParticleRecord<Real>* records;
   const std::uint32_t* slot_of_id_index;
-  const std::uint32_t* corners;  // id indices, three a triangle
+  const ClothTriangles::Triangle* triangles;
   Vec3<Real> period;
   Vec3<Real>* force;  // N, by triangle
 
@@ -136,7 +139,7 @@ struct BlowOnTriangles {
     force[t] = {Real(0), Real(0), Real(0)};
     ParticleRecord<Real> corner[3];
     for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t slot = slot_of(records, slot_of_id_index, corners[3 * t + k]);
+      const std::uint32_t slot = slot_of(records, slot_of_id_index, triangles[t].id_index[k]);
       if (slot == kNoSlot) return;
       corner[k] = records[slot];
     }
@@ -301,7 +304,7 @@ struct AddForces {
 
 /// A bit for each held particle. Items are slices.
 template <class Real>
-struct MarkHeld {
+struct MarkPinned {
   const ParticleRecord<Real>* records;
   const std::uint8_t* fixed;            // by material
   const std::uint8_t* held;             // by id index; null where the structure holds none
@@ -354,12 +357,9 @@ struct HoldStill {
   }
 };
 
-/// What an applied force does in a step (backends/cpu/work_pass.h).
-struct AppliedSum {
-  enum { power, next_power, force, count = force + 3 };
-};
-struct AppliedWindows {
-  SumWindow of[AppliedSum::count];
+/// The windows of an applied force's sums.
+struct WorkWindows {
+  SumWindow of[WorkSum::count];
 };
 
 /// Sums the work of an applied force. Run on whole warps.
@@ -372,24 +372,24 @@ struct SumWork {
   Real kick_time;                  // s
   bool has_resultant;              // the force itself is summed too
   std::uint32_t end;               // slots in use
-  SumCopies<Real> sums;            // AppliedSum::count of them from `first` on
+  SumCopies<Real> sums;            // WorkSum::count of them from `first` on
   std::uint32_t first;
-  AppliedWindows windows;
+  WorkWindows windows;
 
   HOOKE_HD void operator()(std::uint32_t i) const {
     const Vec3<Real> zero{Real(0), Real(0), Real(0)};
     const Vec3<Real> f = i < end ? force[i] : zero;
     const Vec3<Real> v = after[i].v;
     FixedSum<Real>* const own = sums.of_item(i) + first;
-    add_term(own[AppliedSum::power], windows.of[AppliedSum::power], dot(f, before[i].v + v));
+    add_term(own[WorkSum::power], windows.of[WorkSum::power], dot(f, before[i].v + v));
     if (acceleration != nullptr) {
       const Vec3<Real> next = i < end ? kick(v, acceleration[i], kick_time) : zero;
-      add_term(own[AppliedSum::next_power], windows.of[AppliedSum::next_power], dot(f, v + next));
+      add_term(own[WorkSum::next_power], windows.of[WorkSum::next_power], dot(f, v + next));
     }
     if (!has_resultant) return;
-    add_term(own[AppliedSum::force], windows.of[AppliedSum::force], f.x);
-    add_term(own[AppliedSum::force + 1], windows.of[AppliedSum::force + 1], f.y);
-    add_term(own[AppliedSum::force + 2], windows.of[AppliedSum::force + 2], f.z);
+    add_term(own[WorkSum::force], windows.of[WorkSum::force], f.x);
+    add_term(own[WorkSum::force + 1], windows.of[WorkSum::force + 1], f.y);
+    add_term(own[WorkSum::force + 2], windows.of[WorkSum::force + 2], f.z);
   }
 };
 

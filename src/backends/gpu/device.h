@@ -113,6 +113,15 @@ class Buffer {
     *this = std::move(larger);
   }
 
+  /// Makes it hold these elements, whatever it held before.
+  void hold(const T* from, std::size_t count) {
+    reserve(count);
+    upload(from, count);
+  }
+  template <class Container>
+  void hold(const Container& from) {
+    hold(from.data(), from.size());
+  }
   void upload(const T* from, std::size_t count, std::size_t at = 0) {
     if (count > 0) device_->upload(data_ + at, from, count * sizeof(T));
   }

@@ -73,8 +73,7 @@ class DeviceScene {
  private:
   template <class T>
   const T* put(Buffer<Device, T>& to, const T* from, std::size_t count) {
-    to.reserve(count);
-    to.upload(from, count);
+    to.hold(from, count);
     return to.data();
   }
 

@@ -48,8 +48,10 @@ class GpuBackend final : public Backend {
   }
 
   void configure(const Scene& scene) override;
-  void break_springs(const std::vector<std::uint64_t>& broken) override { applied_.break_springs(broken); }
-  std::vector<std::uint64_t> broken_springs() const override { return applied_.broken_springs(); }
+  void break_springs(const std::vector<std::uint64_t>& broken) override {
+    applied_.springs().table().break_springs(broken);
+  }
+  std::vector<std::uint64_t> broken_springs() const override { return applied_.springs().table().broken_springs(); }
 
   void assign(const ParticleSet& particles) override { take(particles); }
   void download(const ParticleColumns<double>& out) const override { download_all(out); }

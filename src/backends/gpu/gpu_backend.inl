@@ -29,7 +29,7 @@ void GpuBackend<Device, Real>::configure(const Scene& scene) {
   skin_ = kSkin * 2 * rules_.smallest_touching();
   skin_limit_ = std::max(0.0, (1 - kRounding) * skin_ - 2 * rules_.rounding());
   scene_on_device_.configure(scene_, rules_, skin_ + kRounding * rules_.smallest_touching());
-  applied_.configure(scene_);
+  applied_.configure(scene_, rules_.view());
   windows_ = {};
 }
 
@@ -68,7 +68,7 @@ void GpuBackend<Device, Real>::take(const ParticleSet& particles, std::size_t bi
   leaving_ = 0;
   stale_ = true;
   applied_.bind(ids_);
-  applied_.mark_held(particles_view());  // velocity Verlet moves particles before the next list
+  applied_.mark_pinned(particles_view());  // velocity Verlet moves particles before the next list
 }
 
 // Makes room for so many slots; what is in the slots that are in use stays.
@@ -230,7 +230,7 @@ std::optional<std::uint64_t> GpuBackend<Device, Real>::set_external_forces(std::
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (found[k].slot == kNoSlot) return ids[k];
   }
-  applied_.set_external(ids_, ids, forces);
+  applied_.external().set(ids_, ids, forces);
   return std::nullopt;
 }
 
@@ -252,7 +252,7 @@ void GpuBackend<Device, Real>::half_kick_and_drift() {
   const std::uint32_t end = whole_warps(end_);
   clear_report();
   moves_.fill(0, end / kWarp);
-  device_.each(end, KickAndDrift<Real>{rules_.view(), records_.data(), acceleration_.data(), applied_.held(),
+  device_.each(end, KickAndDrift<Real>{rules_.view(), records_.data(), acceleration_.data(), applied_.pinned(),
                                        list_view(), step_output()});
   judge_motion(end);
   read_report();
@@ -344,9 +344,13 @@ void GpuBackend<Device, Real>::list_neighbours() {
   listed_ = listed_count();
   const std::uint32_t slices = GpuBackend::slices(listed_), filler = record_offset<Real>(room_ - 1);
   const RulesView<Real>& rules = rules_.view();
-  const Search<Real> search{records_.data(),          grid_,        start_.data(),
-                            scene_on_device_.reach(), rules.period, rules.periodic_kind == PeriodicKind::images,
-                            applied_.excluded()};
+  const Search<Real> search{records_.data(),
+                            grid_,
+                            start_.data(),
+                            scene_on_device_.reach(),
+                            rules.period,
+                            rules.periodic_kind == PeriodicKind::images,
+                            applied_.springs().excluded()};
   first_row_.reserve(slices + 1);
   first_row_.fill(0, slices + 1);
   device_.each(listed_, CountRows<Real>{search, first_row_.data()});
@@ -400,7 +404,7 @@ void GpuBackend<Device, Real>::run_pass(const Instant& now, Vec3<Real>* accelera
   if (acceleration == nullptr) moves_.fill(0, end / kWarp);
   const ForcePass<Real> pass{scene_on_device_.constants(),
                              scene_on_device_.colliders(),
-                             {records_.data(), next_.data(), acceleration, applied, applied_.held()}};
+                             {records_.data(), next_.data(), acceleration, applied, applied_.pinned()}};
   choose_loop(scene_on_device_.constants(), [&](auto materials, auto periodic) {
     constexpr Materials kMaterials = decltype(materials)::value;
     constexpr PeriodicKind kPeriodic = decltype(periodic)::value;
@@ -424,7 +428,7 @@ void GpuBackend<Device, Real>::run_pass(const Instant& now, Vec3<Real>* accelera
 // Books the springs that tore, with the energy that they had before the step.
 template <class Device, class Real>
 void GpuBackend<Device, Real>::book_torn(AppliedSums& sums) {
-  const std::vector<TornSpring> torn = applied_.take_torn(seen_.report.torn, stale_);
+  const std::vector<TornSpring> torn = applied_.springs().take_torn(seen_.report.torn, stale_);
   std::vector<std::uint32_t> ends;
   for (const TornSpring& spring : torn) {
     ends.push_back(spring.a);
@@ -432,7 +436,8 @@ void GpuBackend<Device, Real>::book_torn(AppliedSums& sums) {
   }
   const std::vector<Found> found = look_up(ends);
   for (std::size_t k = 0; k < torn.size(); ++k) {
-    sums.springs.broken_energy.add(applied_.energy_of(torn[k].spring, found[2 * k].record, found[2 * k + 1].record));
+    sums.springs.broken_energy.add(
+        applied_.springs().table().energy_of(torn[k].spring, found[2 * k].record, found[2 * k + 1].record));
     ++sums.springs.broken;
   }
 }
@@ -554,7 +559,7 @@ RemovalSums GpuBackend<Device, Real>::insert(const ParticleSet& newborn) {
   if (verlet()) device_.fill(acceleration_.data() + end_, 0, births * sizeof(Vec3<Real>));
   end_ += births;
   applied_.grow(ids_.size());
-  applied_.mark_held(particles_view());
+  applied_.mark_pinned(particles_view());
   recount();
   if (touching.empty()) return born;
   stale_ = true;
@@ -639,7 +644,7 @@ template <class Device, class Real>
 void GpuBackend<Device, Real>::add_elastic(const std::vector<std::uint32_t>& id_indices, ExactSum& sum) {
   std::vector<Found> found = look_up(id_indices);
   const auto touches = [&](const Found& p) { return rules_.interacts(static_cast<std::size_t>(p.record.material)); };
-  if (!applied_.has_springs() && std::none_of(found.begin(), found.end(), touches)) return;
+  if (applied_.springs().empty() && std::none_of(found.begin(), found.end(), touches)) return;
   if (neighbours_stale()) {
     if (!build_neighbours().good()) return;
     found = look_up(id_indices);
@@ -665,9 +670,9 @@ void GpuBackend<Device, Real>::add_spring_energy(const std::vector<std::uint32_t
   std::vector<Side> sides;
   std::vector<std::uint32_t> partners;
   for (std::size_t k = 0; k < id_indices.size(); ++k) {
-    applied_.for_each_side(id_indices[k], [&](std::uint32_t spring, std::uint32_t partner) {
-      sides.push_back({k, spring});
-      partners.push_back(partner);
+    applied_.springs().table().for_each_side(id_indices[k], [&](const SpringSide& side) {
+      sides.push_back({k, side.spring});
+      partners.push_back(side.partner);
     });
   }
   if (sides.empty()) return;
@@ -677,7 +682,8 @@ void GpuBackend<Device, Real>::add_spring_energy(const std::vector<std::uint32_t
   for (std::size_t k = 0; k < sides.size(); ++k) {
     if (there[k].slot == kNoSlot) continue;
     const bool both = std::binary_search(among.begin(), among.end(), partners[k]);
-    sum.add((both ? 0.5 : 1.0) * applied_.energy_of(sides[k].spring, found[sides[k].own].record, there[k].record));
+    sum.add((both ? 0.5 : 1.0) *
+            applied_.springs().table().energy_of(sides[k].spring, found[sides[k].own].record, there[k].record));
   }
 }
 
@@ -752,23 +758,23 @@ Expected<MeasurementSums> GpuBackend<Device, Real>::measure(const Instant& now) 
       total.add(part);
     });
   });
-  if (applied_.has_springs()) measure_springs(records, total);
-  if (const std::optional<double> energy = applied_.attraction_energy(particles_view(), records))
-    total.add_attraction(*energy);
+  if (!applied_.springs().empty()) measure_springs(records, total);
+  if (!applied_.attraction().empty()) total.add_attraction(applied_.attraction().energy(particles_view(), records));
   return total;
 }
 
 template <class Device, class Real>
 void GpuBackend<Device, Real>::measure_springs(const std::vector<Record>& records, MeasurementSums& total) const {
   const std::vector<std::uint32_t> slot_of = slots_by_id_index(records);
+  const SpringTable<Real>& table = applied_.springs().table();
   ExactSum energy;
   std::uint64_t holding = 0;
   for (std::uint32_t id_index = 0; id_index < slot_of.size(); ++id_index) {
     if (slot_of[id_index] == kNoSlot) continue;
-    applied_.for_each_side(id_index, [&](std::uint32_t spring, std::uint32_t partner) {
-      if (partner < id_index || slot_of[partner] == kNoSlot) return;
+    table.for_each_side(id_index, [&](const SpringSide& side) {
+      if (side.partner < id_index || slot_of[side.partner] == kNoSlot) return;
       ++holding;
-      energy.add(applied_.energy_of(spring, records[slot_of[id_index]], records[slot_of[partner]]));
+      energy.add(table.energy_of(side.spring, records[slot_of[id_index]], records[slot_of[side.partner]]));
     });
   }
   total.add_springs(holding, energy);

@@ -35,6 +35,9 @@ class Exclusions {
   }
 
   bool empty() const { return partners_.empty(); }
+  /// Partners first()[r] and on, to first()[r + 1], are of id index r; all bits 1 where a pair may touch.
+  const std::vector<std::uint32_t>& first() const { return first_; }
+  const std::vector<std::uint32_t>& partners() const { return partners_; }
   /// There are more particles now; the new ones have no pairs.
   void grow(std::size_t id_indices) {
     if (!empty()) first_.resize(id_indices + 1, first_.back());
