@@ -10,7 +10,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -21,6 +20,7 @@
 #include "hooke/base/exact_sum.h"
 #include "hooke/base/random.h"
 #include "hooke/neighbours/row_network.h"
+#include "numbers_to_sum.h"
 #include "support/gpu_on_host.h"
 
 namespace hooke::test {
@@ -33,44 +33,20 @@ using gpu::SumWindow;
 // Sums
 // -----------------------------------------------------------------------------------------------------------------
 
-enum class Terms { alike, wide, wild, cancelling, tiny, zero };
-
-template <class Real>
-Real term(Terms kind, std::uint64_t i) {
-  const auto u = uniform4(9, i, 0, static_cast<std::uint32_t>(kind));
-  const int most = std::numeric_limits<Real>::max_exponent - 14;  // a sum of thousands stays finite
-  const double sign = u[1] < 0.5 ? -1 : 1;
-  switch (kind) {
-    case Terms::alike:
-      return static_cast<Real>(sign * (0.5 + 0.5 * u[0]));
-    case Terms::wide:
-      return static_cast<Real>(std::ldexp(sign * (0.5 + 0.5 * u[0]), static_cast<int>(60 * u[2]) - 30));
-    case Terms::wild:
-      return static_cast<Real>(std::ldexp(sign * (0.5 + 0.5 * u[0]), static_cast<int>((2 * u[2] - 1) * most)));
-    case Terms::cancelling:
-      return static_cast<Real>(i % 3 == 0 ? 1e30 : i % 3 == 1 ? -1e30 : u[0]);
-    case Terms::tiny:
-      return static_cast<Real>(sign * u[0]) * std::numeric_limits<Real>::min() / 8;  // without a leading 1
-    case Terms::zero:
-      return static_cast<Real>(sign * 0.0);
-  }
-  return {};
-}
-
 template <class Real>
 class FixedSums : public testing::Test {};
 using Precisions = testing::Types<float, double>;
 TYPED_TEST_SUITE(FixedSums, Precisions);
 
 TYPED_TEST(FixedSums, AreExact) {
-  for (const Terms kind : {Terms::alike, Terms::wide, Terms::wild, Terms::cancelling, Terms::tiny, Terms::zero}) {
+  for (const Kind kind : {Kind::alike, Kind::mixed, Kind::wild, Kind::cancelling, Kind::tiny, Kind::zero}) {
     SCOPED_TRACE(static_cast<int>(kind));
     SumWindow window;
     for (int step = 0; step < 3; ++step) {  // the window follows the largest term
       FixedSum<TypeParam> sum{};
       ExactSum right, found;
       for (std::uint64_t i = 0; i < 3000; ++i) {
-        const auto value = term<TypeParam>(kind, 3000 * static_cast<std::uint64_t>(step) + i);
+        const auto value = number<TypeParam>(kind, 3000 * static_cast<std::uint64_t>(step) + i);
         gpu::add_term(sum, window, value);
         right.add(static_cast<double>(value));
       }
@@ -97,7 +73,7 @@ TEST(FixedSum, SeldomNeedsDigitsOnceItsWindowIsPlaced) {
   SumWindow window;
   for (int step = 0; step < 2; ++step) {
     FixedSum<float> sum{};
-    for (std::uint64_t i = 0; i < 3000; ++i) gpu::add_term(sum, window, term<float>(Terms::alike, i));
+    for (std::uint64_t i = 0; i < 3000; ++i) gpu::add_term(sum, window, number<float>(Kind::alike, i));
     const bool any_digit =
         std::any_of(std::begin(sum.digits), std::end(sum.digits), [](auto digit) { return digit != 0; });
     EXPECT_EQ(any_digit, step == 0);
