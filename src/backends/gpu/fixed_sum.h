@@ -157,7 +157,9 @@ void add_fixed(const FixedSum<Real>& sum, const SumWindow& window, ExactSum& to)
   const auto add = [&](unsigned long long whole, int exponent) {  // a number of 64 bits is two doubles
     if (whole == 0) return;
     const auto all = static_cast<long long>(whole);
-    const long long high = all >> 32, low = all - high * (1LL << 32);
+    // Both parts have the sign of the whole: the upper part of a small negative number in the highest digit is then
+    // zero, where a floor of -1 would be an infinity in a double.
+    const long long high = all / (1LL << 32), low = all % (1LL << 32);
     to.add(std::ldexp(static_cast<double>(high), exponent + 32));
     to.add(std::ldexp(static_cast<double>(low), exponent));
   };
