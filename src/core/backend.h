@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -166,6 +167,18 @@ class Backend {
   ///   symplectic Euler   v += dt a; x += dt v. finish_motion() is to follow.
   ///   velocity Verlet    v += dt/2 a
   virtual void apply_forces(const Instant& now, StepReport& report) = 0;
+
+  /// Symplectic Euler: how many steps apply_forces_in_a_row() may well take now, 1 or more.
+  virtual std::size_t most_in_a_row() const { return 1; }
+
+  /// Symplectic Euler: apply_forces() at these instants, a step apart, with the motion between them, as far as nothing
+  /// but finish_motion() would have to be called in between: until a list is stale, a particle is outside an open face,
+  /// a spring breaks, or a condition is found. Returns how many of the steps it took, 1 or more; the report is of all
+  /// of them, its condition that of the last. finish_motion() is to follow.
+  virtual std::size_t apply_forces_in_a_row(std::span<const Instant> steps, StepReport& report) {
+    apply_forces(steps.front(), report);
+    return 1;
+  }
 
   /// Velocity Verlet: evaluates the accelerations a(x, v) of all particles at `now`, which have none of a last step.
   /// Nothing moves. After build_neighbours() where the list was stale.

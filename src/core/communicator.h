@@ -15,6 +15,9 @@ class Communicator {
  public:
   virtual ~Communicator() = default;
 
+  /// Whether there is one rank alone, to which the other functions do nothing.
+  virtual bool is_serial() const = 0;
+
   /// Whether `here` is true on any rank.
   virtual bool any(bool here) = 0;
 
@@ -38,6 +41,7 @@ class Communicator {
 /// For a scene on one rank alone.
 class SerialCommunicator final : public Communicator {
  public:
+  bool is_serial() const override { return true; }
   bool any(bool here) override { return here; }
   Condition first(const Condition& here) override { return here; }
   void migrate(Backend&) override {}

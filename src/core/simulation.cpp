@@ -252,8 +252,8 @@ struct Simulation::Impl {
     return guarded([&]() -> Expected<void> {
       if (count == 0) return {};
       host.reset();
-      for (std::int64_t i = 0; i < count; ++i) {
-        if (auto taken = check(take_step(scene, *backend, ranks, run)); !taken) return taken;
+      for (const std::int64_t last = run.step + count; run.step < last;) {
+        if (auto taken = check(take_step(scene, *backend, ranks, run, last - run.step)); !taken) return taken;
       }
       // Particles that the last step has lost are reported before the state can be saved.
       return check(update_neighbours(*backend, ranks));

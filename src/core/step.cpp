@@ -3,13 +3,39 @@
 
 #include "hooke/core/step.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
 namespace hooke {
+
+namespace {
+
+Instant place_colliders(std::vector<ColliderPose>& poses, const Scene& scene, std::int64_t step) {
+  const double time = static_cast<double>(step) * scene.time_step;
+  poses.clear();
+  for (const Collider& collider : scene.colliders) poses.push_back(pose_at(collider, time));
+  return {time, poses};
+}
+
+// Symplectic Euler's forces of up to `most` steps in a row, the first at `now`. Returns how many were taken.
+std::int64_t apply_forces_in_a_row(const Scene& scene, Backend& backend, const RunState& run, const Instant& now,
+                                   std::int64_t most, StepReport& report) {
+  std::vector<Instant> steps{now};
+  std::vector<std::vector<ColliderPose>> poses(static_cast<std::size_t>(most - 1));
+  for (std::vector<ColliderPose>& of_step : poses) {
+    steps.push_back(place_colliders(of_step, scene, run.step + static_cast<std::int64_t>(steps.size())));
+    steps.back().moved = true;
+  }
+  return static_cast<std::int64_t>(backend.apply_forces_in_a_row(steps, report));
+}
+
+}  // namespace
 
 // Algorithm 3 of the thesis, with what has been added to it since: the cell list is rebuilt when it must be rather than
 // in every step, velocity Verlet has a half step of its own in front, and particles come and go at the end.
-Condition take_step(const Scene& scene, Backend& backend, Communicator& ranks, RunState& run) {
+Condition take_step(const Scene& scene, Backend& backend, Communicator& ranks, RunState& run, std::int64_t most) {
   const bool verlet = scene.integrator == Integrator::velocity_verlet;
-  const std::int64_t arrival = run.step + 1;
   const auto finish_motion = [&] {
     ranks.update(backend);
     RemovalSums left;
@@ -19,7 +45,7 @@ Condition take_step(const Scene& scene, Backend& backend, Communicator& ranks, R
 
   // 1. Velocity Verlet moves first, with half a kick by the accelerations of the last step. Its forces are those at the
   //    time of arrival; symplectic Euler's are those at the start.
-  Instant now = place_colliders(run, scene, verlet ? arrival : run.step);
+  Instant now = place_colliders(run, scene, verlet ? run.step + 1 : run.step);
   now.moved = verlet || run.step > 0;
   if (verlet) {
     backend.half_kick_and_drift();
@@ -32,13 +58,19 @@ Condition take_step(const Scene& scene, Backend& backend, Communicator& ranks, R
   // 3. All forces (contacts, walls, colliders, drag, gravity, springs, fields, attraction), and in the same pass the
   //    kick: Verlet's second half, or symplectic Euler's whole one and its drift.
   StepReport report;
-  backend.apply_forces(now, report);
+  if (verlet || !scene.sinks.empty() || !scene.emitters.empty() || !ranks.is_serial()) most = 1;
+  most = std::min(most, static_cast<std::int64_t>(backend.most_in_a_row()));
+  if (most > 1) {
+    run.step += apply_forces_in_a_row(scene, backend, run, now, most, report) - 1;
+  } else {
+    backend.apply_forces(now, report);
+  }
   run.ledger.book_step(report, scene);
   if (!verlet) finish_motion();
   if (const Condition found = ranks.first(report.condition); !found.good()) return found;
 
   // 4. The step is done. Sinks take particles, lives end, emitters give birth.
-  run.step = arrival;
+  const std::int64_t arrival = ++run.step;
   if (!verlet) place_colliders(run, scene, arrival);
   if (!scene.sinks.empty()) {
     run.ledger.book_sunk(backend.remove_sunk());
@@ -54,10 +86,7 @@ Condition take_step(const Scene& scene, Backend& backend, Communicator& ranks, R
 }
 
 Instant place_colliders(RunState& run, const Scene& scene, std::int64_t step) {
-  const double time = static_cast<double>(step) * scene.time_step;
-  run.poses.clear();
-  for (const Collider& collider : scene.colliders) run.poses.push_back(pose_at(collider, time));
-  return {time, run.poses};
+  return place_colliders(run.poses, scene, step);
 }
 
 Condition update_neighbours(Backend& backend, Communicator& ranks) {

@@ -24,9 +24,10 @@ struct RunState {
 /// Moves the colliders of the scene to their poses after `step` steps. Returns that instant.
 Instant place_colliders(RunState& run, const Scene& scene, std::int64_t step);
 
-/// Takes one step, the whole algorithm in its order. Stops at the first stage that finds something wrong: the step is
-/// not counted then, and no further one is possible.
-Condition take_step(const Scene& scene, Backend& backend, Communicator& ranks, RunState& run);
+/// Takes one step, the whole algorithm in its order, or up to `most` at once where the back end can do so and nothing
+/// has to happen in between. Stops at the first stage that finds something wrong: the step is not counted then, and no
+/// further one is possible.
+Condition take_step(const Scene& scene, Backend& backend, Communicator& ranks, RunState& run, std::int64_t most = 1);
 
 /// Rebuilds the neighbour list where it is stale. Every step does so; after the last of several steps, it reports at
 /// once what the next step would find wrong with the particles.

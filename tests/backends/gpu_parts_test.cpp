@@ -223,6 +223,26 @@ TEST(GpuMemory, ThatIsTooLittleIsAnErrorAtTheStart) {
       << simulation.error().text();
 }
 
+// Steps in a row
+// ---------------------------------------------------------------------------------------------------------------
+
+TEST(GpuSteps, ManyInARowAreWaitedForOnce) {
+  Scene scene = open_scene();
+  scene.precision = Precision::single_precision;
+  scene.gravity = {0, 0, 0};
+  const ParticleSet pool = lattice(scene, {8, 8, 8}, {-2, -2, -2}, 0.98, 0, 1);
+  const auto use = std::make_shared<gpu::HostDevice::Use>();
+  Simulation simulation =
+      *Simulation::create(scene, pool, make_gpu_on_host(Precision::single_precision, 1, gpu::ItemOrder::up, use),
+                          {.allow_unstable_step = true});
+  ASSERT_TRUE(advance(simulation, 400));
+  const std::size_t before = use->downloads;
+  const std::uint64_t lists = simulation.neighbour_statistics().rebuilds;
+  ASSERT_TRUE(advance(simulation, 640));
+  // A report of each row of steps; what the cells of a new list have found, and how many rows it has.
+  EXPECT_LE(use->downloads - before, 10 + 640 / 64 + 10 * (simulation.neighbour_statistics().rebuilds - lists));
+}
+
 TEST(GpuFailure, EndsARunWithAnError) {
   Scene scene = open_scene();
   scene.precision = Precision::single_precision;

@@ -101,6 +101,41 @@ TEST(Gpu, PushesTheParticlesThatItWasAskedToPush) {
   expect_same_bits(cpu, gpu);
 }
 
+// Steps in a row end where the host is needed: here particles leave, springs tear, colliders move, new lists are due.
+TEST(Gpu, TakesStepsInARowAsOneByOne) {
+  Scene scene = busy_scene({Boundary::open, Integrator::symplectic_euler, Precision::double_precision, true});
+  const ParticleSet particles = busy_particles(scene);
+  const auto structure = std::make_shared<Structure>();
+  for (std::size_t i = 0; i + 1 < 400; ++i)
+    structure->springs.push_back({particles.id[i], particles.id[i + 1], 0.5, 400, 2, 0.6});
+  scene.structure = structure;
+  Simulation cpu = simulate(scene, particles, kCpuDouble);
+  Simulation one_by_one = simulate(scene, particles, kGpuDouble), in_rows = simulate(scene, particles, kGpuDouble);
+  ASSERT_TRUE(advance(cpu, 200));
+  for (int k = 0; k < 200; ++k) ASSERT_TRUE(advance(one_by_one, 1));
+  for (const int steps : {1, 2, 90, 7, 100}) ASSERT_TRUE(advance(in_rows, steps));
+  expect_same_bits(cpu, one_by_one);
+  expect_same_bits(cpu, in_rows);
+  EXPECT_EQ(cpu.broken_springs(), in_rows.broken_springs());
+  EXPECT_GT(cpu.broken_springs().size(), 10U);
+  EXPECT_GT(cpu.ledger().removed, 10U);
+}
+
+TEST(Gpu, StopsInARowOfStepsWhereTheCpuStops) {
+  Scene scene = open_scene();
+  scene.domain.boundary[1] = Boundary::spring;
+  scene.gravity = {0, -2e4, 0};  // they fall on the floor after some hundred steps, four radii a step
+  const ParticleSet particles = lattice(scene, {4, 4, 4}, {-2, -2, -2}, 2.5, 0, 1);
+  Simulation cpu = simulate(scene, particles, kCpuDouble), gpu = simulate(scene, particles, kGpuDouble);
+  const auto cpu_steps = cpu.step(1000), gpu_steps = gpu.step(1000);
+  ASSERT_FALSE(cpu_steps);
+  ASSERT_FALSE(gpu_steps);
+  EXPECT_EQ(cpu_steps.error().text(), gpu_steps.error().text());
+  EXPECT_EQ(cpu.step_count(), gpu.step_count());
+  EXPECT_GT(gpu.step_count(), 50);
+  EXPECT_EQ(cpu.ledger(), gpu.ledger());
+}
+
 // Two particles that fly far together, and meet: their displacements are kept as floats.
 TEST(Gpu, MissesNoContactOfParticlesThatHaveComeFar) {
   for (int k = 0; k < 60; ++k) {

@@ -45,14 +45,14 @@ class DeviceAttraction {
   bool empty() const { return !attracts_; }
 
   /// Sums the forces on every particle, N by slot.
-  const Vec3<Real>* apply(const ParticlesView<Real>& particles) {
-    const std::uint32_t count = gather_sources(particles);
+  const Vec3<Real>* apply(const ParticlesView<Real>& particles, const StepRunner<Device>& step) {
+    gather_sources(particles);
     force_.reserve(particles.room);
     const auto run = [&](auto math) {
-      device_->each(
-          particles.whole_end(),
-          PullDirectly<Real, decltype(math)>{particles.records, sources_.data(), block_.data(), count, force_of_.data(),
-                                             inverse_length(), static_cast<Real>(softening2_), force_.data()});
+      step.each(particles.whole_end(),
+                PullDirectly<Real, decltype(math)>{particles.records, sources_.data(), block_.data(), particles.count,
+                                                   force_of_.data(), inverse_length(), static_cast<Real>(softening2_),
+                                                   force_.data()});
     };
     exact_ ? run(ExactMath{}) : run(FastMath{});
     return force_.data();
@@ -60,11 +60,11 @@ class DeviceAttraction {
 
   /// The energy of all particles in the attraction of the others, J.
   double energy(const ParticlesView<Real>& particles, const std::vector<ParticleRecord<Real>>& records) {
-    const std::uint32_t count = gather_sources(particles);
+    gather_sources(particles);
     potential_.reserve(particles.room);
     device_->each(particles.end,
-                  PotentialDirectly<Real>{particles.records, sources_.data(), block_.data(), count, inverse_length(),
-                                          static_cast<Real>(softening2_), potential_.data()});
+                  PotentialDirectly<Real>{particles.records, sources_.data(), block_.data(), particles.count,
+                                          inverse_length(), static_cast<Real>(softening2_), potential_.data()});
     std::vector<Real> potential(particles.end);
     potential_.download(potential.data(), particles.end);
     const double per_unit = units_.mass / units_.length;
@@ -80,20 +80,17 @@ class DeviceAttraction {
  private:
   Real inverse_length() const { return static_cast<Real>(1 / units_.length); }
 
-  // Puts all particles in order of their ids; returns how many.
-  std::uint32_t gather_sources(const ParticlesView<Real>& particles) {
+  // Puts all particles in order of their ids.
+  void gather_sources(const ParticlesView<Real>& particles) {
     rank_.reserve(particles.id_count + 1);
     rank_.fill(0, particles.id_count + 1);
     device_->each(particles.id_count, MarkPresent<Real>{particles.records, particles.slot_of_id_index, rank_.data()});
     device_->scan(rank_.data(), particles.id_count + 1);
-    std::uint32_t count = 0;
-    rank_.download(&count, 1, particles.id_count);
-    sources_.reserve(count);
-    block_.reserve(count);
+    sources_.reserve(particles.count);
+    block_.reserve(particles.count);
     device_->each(particles.id_count,
                   GatherSources<Real>{particles.records, particles.slot_of_id_index, rank_.data(), particles.ids,
                                       mass_.data(), inverse_length(), sources_.data(), block_.data()});
-    return count;
   }
 
   Device* device_;

@@ -50,13 +50,12 @@ class DeviceExternalForces {
   }
 
   /// N by slot; 0 for particles without a force.
-  const Vec3<Real>* apply(const ParticlesView<Real>& particles) {
+  const Vec3<Real>* apply(const ParticlesView<Real>& particles, const StepRunner<Device>& step) {
     column_.reserve(particles.room);
     column_.fill(0, particles.room);
     slot_.reserve(count_);
-    device_->each(count_,
-                  FindSlots<Real>{particles.records, particles.slot_of_id_index, id_index_.data(), slot_.data()});
-    device_->each(count_, PutForces<Real>{slot_.data(), force_.data(), column_.data()});
+    step.each(count_, FindSlots<Real>{particles.records, particles.slot_of_id_index, id_index_.data(), slot_.data()});
+    step.each(count_, PutForces<Real>{slot_.data(), force_.data(), column_.data()});
     return column_.data();
   }
 

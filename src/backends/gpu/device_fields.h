@@ -61,7 +61,7 @@ class DeviceFields {
   }
 
   /// Sums the forces at `time` (s) on every particle, N by slot.
-  const Vec3<Real>* apply(const ParticlesView<Real>& particles, double time) {
+  const Vec3<Real>* apply(const ParticlesView<Real>& particles, double time, const StepRunner<Device>& step) {
     force_.reserve(particles.room);
     const std::vector<PlacedField<Real>> fields = place_fields<Real>(scene_, time);
     for (std::size_t k = 0; k < fields.size(); ++k) {
@@ -69,13 +69,13 @@ class DeviceFields {
       view.feels = feels_.data() + k * scene_.materials.size();
       const bool on_sheets = view.blows_on_sheets() && !triangles_.empty();
       if (on_sheets) {
-        device_->each(static_cast<std::uint32_t>(triangles_.all().size()),
-                      BlowOnTriangles<Real>{view, particles.records, particles.slot_of_id_index, corners_.data(),
-                                            period_, on_triangle_.data()});
+        step.each(static_cast<std::uint32_t>(triangles_.all().size()),
+                  BlowOnTriangles<Real>{view, particles.records, particles.slot_of_id_index, corners_.data(), period_,
+                                        on_triangle_.data()});
       }
-      device_->each(particles.whole_end(),
-                    PushByField<Real>{view, particles.records, k == 0, on_sheets ? first_triangle_.data() : nullptr,
-                                      own_triangles_.data(), on_triangle_.data(), force_.data()});
+      step.each(particles.whole_end(),
+                PushByField<Real>{view, particles.records, k == 0, on_sheets ? first_triangle_.data() : nullptr,
+                                  own_triangles_.data(), on_triangle_.data(), force_.data()});
     }
     return force_.data();
   }

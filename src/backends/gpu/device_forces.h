@@ -117,42 +117,48 @@ class DeviceForces {
   /// A bit for each particle that is pinned, an entry a slice; null where none is.
   const std::uint16_t* pinned() const { return any_pinned() ? pinned_bits_.data() : nullptr; }
 
-  /// Sums all forces at `time` (s) into one column, N by slot; null where nothing acts. `may_tear`: as of the springs.
-  const Vec3<Real>* apply(const ParticlesView<Real>& particles, double time, bool may_tear, DeviceReport* report) {
-    applied_.clear();
+  /// Before the first of several steps, after which they are booked.
+  void clear_sums() {
     clear(work_sums_, kSums);
     if (any_pinned()) clear(hold_sums_, HoldSum::count);
+  }
+
+  /// Sums all forces at `time` (s) into one column, N by slot; null where nothing acts. `may_tear`: as of the springs.
+  const Vec3<Real>* apply(const ParticlesView<Real>& particles, double time, bool may_tear,
+                          const StepRunner<Device>& step) {
+    applied_.clear();
     if (!springs_.empty()) {
       applied_.push_back(
-          {Cause::springs, springs_.apply(particles, may_tear, work_sums(), windows_.dissipation, report)});
+          {Cause::springs, springs_.apply(particles, may_tear, work_sums(), windows_.dissipation, step)});
     }
-    if (!fields_.empty()) applied_.push_back({Cause::field, fields_.apply(particles, time)});
-    if (!attraction_.empty()) applied_.push_back({Cause::attraction, attraction_.apply(particles)});
-    if (!external_.empty()) applied_.push_back({Cause::external, external_.apply(particles)});
+    if (!fields_.empty()) applied_.push_back({Cause::field, fields_.apply(particles, time, step)});
+    if (!attraction_.empty()) applied_.push_back({Cause::attraction, attraction_.apply(particles, step)});
+    if (!external_.empty()) applied_.push_back({Cause::external, external_.apply(particles, step)});
     if (applied_.empty()) return nullptr;
     if (applied_.size() == 1) return applied_.front().force;
     total_.reserve(particles.room);
     for (std::size_t k = 0; k < applied_.size(); ++k)
-      device_->each(particles.whole_end(), AddForces<Real>{applied_[k].force, total_.data(), k == 0});
+      step.each(particles.whole_end(), AddForces<Real>{applied_[k].force, total_.data(), k == 0});
     return total_.data();
   }
 
   /// After the pass: puts pinned particles back, and sums the work of each force. `acceleration` (velocity Verlet, else
   /// null) is that of the coming half kick.
-  void finish(const ParticlesView<Real>& particles, ParticleRecord<Real>* after, Vec3<Real>* acceleration) {
+  void finish(const ParticlesView<Real>& particles, ParticleRecord<Real>* after, Vec3<Real>* acceleration,
+              const StepRunner<Device>& step) {
     const std::uint32_t end = particles.whole_end();
     if (any_pinned()) {
-      device_->each(particles.end, HoldStill<Real>{pinned_bits_.data(), particles.records, after, acceleration,
-                                                   mass_.data(), kick_, hold_sums()});
+      step.each(particles.end, HoldStill<Real>{pinned_bits_.data(), particles.records, after, acceleration,
+                                               mass_.data(), kick_, hold_sums()});
     }
     for (std::size_t k = 0; k < applied_.size(); ++k) {
-      device_->each(end, SumWork<Real>{particles.records, after, applied_[k].force, acceleration,
-                                       static_cast<Real>(kick_), applied_[k].cause != Cause::springs, particles.end,
-                                       work_sums(), first_sum(k), windows_.applied[k]});
+      step.each(end, SumWork<Real>{particles.records, after, applied_[k].force, acceleration, static_cast<Real>(kick_),
+                                   applied_[k].cause != Cause::springs, particles.end, work_sums(), first_sum(k),
+                                   windows_.applied[k]});
     }
   }
 
-  /// Adds what apply() and finish() have summed.
+  /// Adds what apply() and finish() have summed since clear_sums().
   void book(AppliedSums& to) {
     const std::vector<FixedSum<Real>> sums = read(work_sums_, work_sums());
     const auto take = [&](std::uint32_t sum, SumWindow& window, ExactSum& into) {

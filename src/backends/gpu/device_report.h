@@ -14,6 +14,8 @@ struct DeviceReport {
   std::uint32_t departed;  ///< how many particles are outside an open face, or in a sink
   std::uint32_t found;     ///< how many particles a search by place has found
   std::uint32_t torn;      ///< how many springs tore
+  std::uint32_t steps;     ///< how many steps in a row are done
+  std::uint32_t halted;    ///< 1: the last of them needs the host; kernels of the steps after it do nothing
   std::uint32_t moved[6];  ///< ordered(): the largest displacements along x, y, z, -x, -y, -z
 };
 

@@ -83,7 +83,7 @@ class DeviceSprings {
   /// Sums the forces on every particle, N by slot, and the dissipation, into the first of `sums`. With `may_tear`,
   /// springs that are stretched too far break, and are counted in DeviceReport::torn (take_torn()).
   const Vec3<Real>* apply(const ParticlesView<Real>& particles, bool may_tear, const SumCopies<Real>& sums,
-                          const SumWindow& window, DeviceReport* report) {
+                          const SumWindow& window, const StepRunner<Device>& step) {
     force_.reserve(particles.room);
     power_.reserve(particles.room);
     torn_.reserve(table_.size());
@@ -91,8 +91,8 @@ class DeviceSprings {
     pass_.kinds = kinds_.data();
     pass_.force = force_.data();
     pass_.may_tear = may_tear && table_.is_tearable();
-    device_->each(particles.whole_end(), PullBySprings<Real>{pass_, rows_.data(), first_row_.data(), power_.data(),
-                                                             sums, window, view(), report, torn_.data()});
+    step.each(particles.whole_end(), PullBySprings<Real>{pass_, rows_.data(), first_row_.data(), power_.data(), sums,
+                                                         window, view(), step.report(), torn_.data()});
     return force_.data();
   }
 

@@ -69,7 +69,9 @@ class GpuBackend final : public Backend {
   void finish_motion(RemovalSums& left) override;
   bool neighbours_stale() override { return (listed_count() > 0 && stale_) || applied_.needs_layout(); }
   Condition build_neighbours() override;
-  void apply_forces(const Instant& now, StepReport& report) override;
+  void apply_forces(const Instant& now, StepReport& report) override { apply_forces_in_a_row({&now, 1}, report); }
+  std::size_t most_in_a_row() const override;
+  std::size_t apply_forces_in_a_row(std::span<const Instant> steps, StepReport& report) override;
   void evaluate_accelerations(const Instant& now, StepReport& report) override;
 
   void find_inside(const Box3d& box, std::vector<Occupant>& out) const override;
@@ -88,6 +90,7 @@ class GpuBackend final : public Backend {
             slot_of_id_index_.data(),
             ids_on_device_.data(),
             static_cast<std::uint32_t>(ids_.size()),
+            count_,
             end_,
             room_};
   }
@@ -122,7 +125,7 @@ class GpuBackend final : public Backend {
 
   Condition sort_by_cell();
   void list_neighbours();
-  void judge_motion(std::uint32_t end);
+  void judge_motion(const StepRunner<Device>& step, std::uint32_t end);
   void read_report(std::size_t bytes = sizeof(DeviceReport)) const;
   void clear_report(std::size_t bytes = sizeof(DeviceReport)) const;
   ListView<Real> list_view() const { return {first_row_.data(), entries_.data(), position_at_build_.data(), listed_}; }
@@ -130,7 +133,10 @@ class GpuBackend final : public Backend {
   // The pass ----------------------------------------------------------------------------------------------------------
 
   void place_at(const Instant& now);
-  void run_pass(const Instant& now, Vec3<Real>* acceleration, bool may_tear, StepReport& report);
+  StepRunner<Device> step_runner() { return {device_, &block_.data()->report}; }
+  void start_sums(StepReport& report);
+  void run_pass(const Instant& now, Vec3<Real>* acceleration, bool may_tear);
+  void read_sums();
   void book_torn(AppliedSums& sums);
   void book_sums(StepReport& report);
   Condition check_suspects(bool moved);
@@ -161,6 +167,7 @@ class GpuBackend final : public Backend {
   PassRules<Real> rules_;
   DeviceScene<Device, Real> scene_on_device_{device_};
   PlacedColliders<Real> colliders_;  // at the last instant
+  std::vector<ColliderPose> placed_;  // where they are
   double skin_ = 0, skin_limit_ = 0;  // m; and what of it is left after rounding
 
   IdTable ids_;
@@ -183,6 +190,7 @@ class GpuBackend final : public Backend {
   std::uint32_t listed_ = 0;  // particles in the list
   std::uint64_t rows_ = 0, builds_ = 0;
   bool stale_ = true;
+  std::size_t list_age_ = 0, lifetime_ = 1;  // steps in a row since the list was built; those of the list before
 
   mutable DeviceBuffer<StepBlock> block_{device_};
   mutable StepBlock seen_{};  // the part of it that the host has read

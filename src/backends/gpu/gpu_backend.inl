@@ -26,6 +26,7 @@ void GpuBackend<Device, Real>::configure(const Scene& scene) {
   scene_ = scene;
   rules_ = PassRules<Real>(scene);
   colliders_ = {};
+  placed_.clear();
   skin_ = kSkin * 2 * rules_.smallest_touching();
   skin_limit_ = std::max(0.0, (1 - kRounding) * skin_ - 2 * rules_.rounding());
   scene_on_device_.configure(scene_, rules_, skin_ + kRounding * rules_.smallest_touching());
@@ -254,20 +255,27 @@ void GpuBackend<Device, Real>::half_kick_and_drift() {
   moves_.fill(0, end / kWarp);
   device_.each(end, KickAndDrift<Real>{rules_.view(), records_.data(), acceleration_.data(), applied_.pinned(),
                                        list_view(), step_output()});
-  judge_motion(end);
+  judge_motion(step_runner(), end);
   read_report();
 }
 
 // Compares how far the particles in the first `end` slots have moved.
 template <class Device, class Real>
-void GpuBackend<Device, Real>::judge_motion(std::uint32_t end) {
+void GpuBackend<Device, Real>::judge_motion(const StepRunner<Device>& step, std::uint32_t end) {
   if (listed_ == 0) return;
   const std::uint32_t warps = end / kWarp;
-  DeviceReport* const report = &block_.data()->report;
-  device_.each(whole_warps(warps), BoundMoves{moves_.data(), warps, report});
-  if (grid_.hashed) return;
-  const auto skin2 = static_cast<float>(skin_limit_ * skin_limit_);
-  device_.each(grid_.places * CompareBricks::kItems, CompareBricks{grid_, start_.data(), moves_.data(), skin2, report});
+  step.each(whole_warps(warps), BoundMoves{moves_.data(), warps, step.report()});
+  if (!grid_.hashed) {
+    const auto skin2 = static_cast<float>(skin_limit_ * skin_limit_);
+    step.each(grid_.places * CompareBricks::kItems,
+              CompareBricks{grid_, start_.data(), moves_.data(), skin2, step.report()});
+  }
+  // Particles of bricks that are not adjacent are four cells apart or more.
+  const double limit = grid_.hashed ? skin_limit_ : 3 * grid_.cell;
+  // Displacements are kept as floats. Before their rounding is as large as the list's allowance for it, 1e-3 of the
+  // skin, a new list begins from 0.
+  const double largest_kept = 1e-3 * skin_ * 0x1p22;
+  step.each(1, JudgeMoves{static_cast<float>(limit), static_cast<float>(largest_kept), step.report()});
 }
 
 template <class Device, class Real>
@@ -275,18 +283,7 @@ void GpuBackend<Device, Real>::finish_motion(RemovalSums& left) {
   const Stopwatch following(times_.motion);
   const DeviceReport& report = seen_.report;
   leaving_ = report.departed;
-  if (listed_ > 0 && report.moved[0] != 0) {
-    const double farthest = std::sqrt(static_cast<double>(farthest2(report.moved, report.moved)));
-    // Particles of bricks that are not adjacent are four cells apart or more.
-    const double limit = grid_.hashed ? skin_limit_ : 3 * grid_.cell;
-    stale_ = stale_ || report.stale != 0 || !(farthest < limit);
-    // Displacements are kept as floats. Before their rounding is as large as the list's allowance for it, 1e-3 of the
-    // skin, a new list begins from 0.
-    double largest = 0;
-    for (const std::uint32_t moved : report.moved)
-      largest = std::max(largest, static_cast<double>(from_ordered(moved)));
-    stale_ = stale_ || !(largest * 0x1p-22 < 1e-3 * skin_);
-  }
+  stale_ = stale_ || report.stale != 0;
   if (leaving_ > 0) left.add(let_go(read_departed(), false));
 }
 
@@ -365,6 +362,8 @@ void GpuBackend<Device, Real>::list_neighbours() {
                FillRows<Real>{search, first_row_.data(), slot_of_id_index_.data(), entries_.data(), filler, listed_});
   stale_ = false;
   ++builds_;
+  lifetime_ = list_age_;
+  list_age_ = 0;
 }
 
 // The pass -----------------------------------------------------------------------------------------------------------
@@ -372,35 +371,66 @@ void GpuBackend<Device, Real>::list_neighbours() {
 template <class Device, class Real>
 void GpuBackend<Device, Real>::place_at(const Instant& now) {
   if (scene_.colliders.empty()) return;
+  if (!placed_.empty() && std::equal(now.poses.begin(), now.poses.end(), placed_.begin(), placed_.end())) return;
+  placed_.assign(now.poses.begin(), now.poses.end());
   colliders_ = place_colliders<Real>(scene_, now.poses, rules_.largest_body_distance());
   scene_on_device_.place(colliders_);
 }
 
+// Steps that come after one that needs the host are kernels that do nothing, some microseconds each: this is about how
+// long the list will still be good for.
 template <class Device, class Real>
-void GpuBackend<Device, Real>::apply_forces(const Instant& now, StepReport& report) {
+std::size_t GpuBackend<Device, Real>::most_in_a_row() const {
+  constexpr std::size_t kMost = 64, kLeast = 4;
+  constexpr std::size_t kTerms = std::size_t{1} << 30U;  // that each digit of an exact sum has room for
+  const std::size_t left = list_age_ < lifetime_ ? lifetime_ - list_age_ : list_age_ / 4;
+  return std::clamp<std::size_t>(kTerms / std::max(end_, 1U), 1, std::clamp(left, kLeast, kMost));
+}
+
+template <class Device, class Real>
+std::size_t GpuBackend<Device, Real>::apply_forces_in_a_row(std::span<const Instant> steps, StepReport& report) {
   const Stopwatch forcing(times_.force);
-  place_at(now);
-  run_pass(now, verlet() ? acceleration_.data() : nullptr, true, report);
-  if (seen_.report.suspects > 0) report.condition = check_suspects(now.moved);
+  start_sums(report);
+  for (const Instant& now : steps) {
+    place_at(now);
+    run_pass(now, verlet() ? acceleration_.data() : nullptr, true);
+    std::swap(records_, next_);
+  }
+  read_sums();
+  const std::size_t taken = seen_.report.steps;
+  if ((steps.size() - taken) % 2 == 0) std::swap(records_, next_);  // the state before the last step that was taken
+  if (taken < steps.size()) place_at(steps[taken - 1]);
+  book_sums(report);
+  if (seen_.report.suspects > 0) report.condition = check_suspects(steps[taken - 1].moved);
   std::swap(records_, next_);
+  list_age_ += taken;
+  return taken;
 }
 
 template <class Device, class Real>
 void GpuBackend<Device, Real>::evaluate_accelerations(const Instant& now, StepReport& report) {
   place_at(now);
-  run_pass(now, acceleration_.data(), false, report);
+  start_sums(report);
+  run_pass(now, acceleration_.data(), false);
+  read_sums();
+  book_sums(report);
 }
 
 template <class Device, class Real>
-void GpuBackend<Device, Real>::run_pass(const Instant& now, Vec3<Real>* acceleration, bool may_tear,
-                                        StepReport& report) {
-  const std::uint32_t end = whole_warps(end_);
+void GpuBackend<Device, Real>::start_sums(StepReport& report) {
   clear_report(sizeof(StepBlock));
-  const Vec3<Real>* applied = nullptr;
-  if (!applied_.none()) {
-    report.applied.emplace();
-    applied = applied_.apply(particles_view(), now.time, may_tear, &block_.data()->report);
-  }
+  if (applied_.none()) return;
+  report.applied.emplace();
+  applied_.clear_sums();
+}
+
+// Adds to the sums of the steps in a row.
+template <class Device, class Real>
+void GpuBackend<Device, Real>::run_pass(const Instant& now, Vec3<Real>* acceleration, bool may_tear) {
+  const StepRunner<Device> step = step_runner();
+  const std::uint32_t end = whole_warps(end_);
+  const Vec3<Real>* const applied =
+      applied_.none() ? nullptr : applied_.apply(particles_view(), now.time, may_tear, step);
   if (acceleration == nullptr) moves_.fill(0, end / kWarp);
   const ForcePass<Real> pass{scene_on_device_.constants(),
                              scene_on_device_.colliders(),
@@ -409,20 +439,21 @@ void GpuBackend<Device, Real>::run_pass(const Instant& now, Vec3<Real>* accelera
     constexpr Materials kMaterials = decltype(materials)::value;
     constexpr PeriodicKind kPeriodic = decltype(periodic)::value;
     if (scene_.colliders.empty()) {
-      device_.each(end, StepParticle<Real, kMaterials, kPeriodic, false>{pass, list_view(), step_output(), windows_});
+      step.each(end, StepParticle<Real, kMaterials, kPeriodic, false>{pass, list_view(), step_output(), windows_});
     } else {
-      device_.each(end, StepParticle<Real, kMaterials, kPeriodic, true>{pass, list_view(), step_output(), windows_});
+      step.each(end, StepParticle<Real, kMaterials, kPeriodic, true>{pass, list_view(), step_output(), windows_});
     }
   });
-  if (report.applied) applied_.finish(particles_view(), next_.data(), acceleration);
+  if (!applied_.none()) applied_.finish(particles_view(), next_.data(), acceleration, step);
+  if (acceleration == nullptr) judge_motion(step, end);
+  step.each(1, EndStep{step.report()});
+}
+
+template <class Device, class Real>
+void GpuBackend<Device, Real>::read_sums() {
   const AddCopies<Real> add_copies{step_sums()};
   device_.each(add_copies.items(), add_copies);
-  if (acceleration == nullptr) judge_motion(end);
   read_report(kReadBytes);
-  book_sums(report);
-  if (!report.applied) return;
-  applied_.book(*report.applied);
-  if (seen_.report.torn > 0) book_torn(*report.applied);
 }
 
 // Books the springs that tore, with the energy that they had before the step.
@@ -442,7 +473,8 @@ void GpuBackend<Device, Real>::book_torn(AppliedSums& sums) {
   }
 }
 
-// Adds the device's sums to the report, and places the windows of the next ones.
+// Adds the device's sums to the report, and places the windows of the next ones. Springs that tore still have the state
+// in records_ from before the step.
 template <class Device, class Real>
 void GpuBackend<Device, Real>::book_sums(StepReport& report) {
   const auto take = [&](int sum, ExactSum& to) {
@@ -459,7 +491,10 @@ void GpuBackend<Device, Real>::book_sums(StepReport& report) {
     take(PassSum::kColliderForce + axis, report.sums.collider_force[axis]);
     take(PassSum::kDragForce + axis, report.sums.drag_force[axis]);
   }
-  report.mass = mass_;
+  report.mass.add_scaled(mass_, seen_.report.steps);
+  if (!report.applied) return;
+  applied_.book(*report.applied);
+  if (seen_.report.torn > 0) book_torn(*report.applied);
 }
 
 // The first contact that was too fast in the pass from records_ to next_, if there is one.

@@ -34,6 +34,7 @@ class HostDevice {
     std::size_t bytes = 0;        ///< allocated now
     std::size_t most_bytes = ~std::size_t{0};  ///< that it has
     std::size_t allocations = 0;  ///< so far
+    std::size_t downloads = 0;    ///< so far: each waits for the work before it
     std::size_t launches_left = ~std::size_t{0};  ///< until it fails
   };
 
@@ -95,7 +96,10 @@ class HostDevice {
 
   void fill(void* to, int byte, std::size_t bytes) const { std::memset(to, byte, bytes); }
   void upload(void* to, const void* from, std::size_t bytes) const { std::memcpy(to, from, bytes); }
-  void download(void* to, const void* from, std::size_t bytes) const { std::memcpy(to, from, bytes); }
+  void download(void* to, const void* from, std::size_t bytes) const {
+    ++use_->downloads;
+    std::memcpy(to, from, bytes);
+  }
   void copy(void* to, const void* from, std::size_t bytes) const { std::memcpy(to, from, bytes); }
 
   const char* name() const { return "host"; }

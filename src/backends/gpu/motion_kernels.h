@@ -99,4 +99,18 @@ struct CompareBricks {
   }
 };
 
+/// One item: whether the list is stale by the longest displacement of all.
+struct JudgeMoves {
+  float limit;  // m: what two particles that no bricks were compared for may come nearer
+  float largest_kept;  // m: displacements above it are too far for the rounding of floats
+  DeviceReport* report;
+
+  HOOKE_HD void operator()(std::uint32_t) const {
+    if (report->moved[0] == 0) return;
+    bool good = farthest2(report->moved, report->moved) < limit * limit;
+    for (const std::uint32_t moved : report->moved) good = good && from_ordered(moved) < largest_kept;
+    if (!good) report->stale = 1;
+  }
+};
+
 }  // namespace hooke::gpu

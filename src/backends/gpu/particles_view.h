@@ -16,6 +16,7 @@ struct ParticlesView {
   const std::uint32_t* slot_of_id_index = nullptr;
   const std::uint64_t* ids = nullptr;  // by id index
   std::uint32_t id_count = 0;          // id indices
+  std::uint32_t count = 0;             // particles
   std::uint32_t end = 0;               // one past the last slot in use
   std::uint32_t room = 0;              // slots; the last is the filler
 

@@ -61,6 +61,46 @@ HOOKE_HD void apply_boundaries(const RulesView<Real>& rules, const StepOutput<Re
   if (is_outside_open_face(rules, p.x)) out.departed[add_to(&out.report->departed, 1)] = id_index_of(p.id_index);
 }
 
+/// A kernel of one of several steps in a row: it does nothing where a step before needs the host.
+template <class Kernel>
+struct UnlessHalted {
+  const std::uint32_t* halted;
+  Kernel kernel;
+
+  HOOKE_HD void operator()(std::uint32_t i) const {
+    if (*halted == 0) kernel(i);
+  }
+};
+
+/// Runs the kernels of steps.
+template <class Device>
+class StepRunner {
+ public:
+  StepRunner(const Device& device, DeviceReport* report) : device_(&device), report_(report) {}
+
+  template <class Kernel>
+  void each(std::uint32_t count, const Kernel& kernel) const {
+    device_->each(count, UnlessHalted<Kernel>{&report_->halted, kernel});
+  }
+  DeviceReport* report() const { return report_; }
+
+ private:
+  const Device* device_;
+  DeviceReport* report_;
+};
+
+/// One item: the end of one of several steps in a row.
+struct EndStep {
+  DeviceReport* report;
+
+  HOOKE_HD void operator()(std::uint32_t) const {
+    ++report->steps;
+    report->halted = report->stale != 0 || report->suspects != 0 || report->departed != 0 || report->torn != 0 ? 1 : 0;
+    if (report->halted != 0) return;
+    for (std::uint32_t& moved : report->moved) moved = 0;
+  }
+};
+
 /// How far a particle is from where it was listed, m.
 template <class Real>
 HOOKE_HD Vec3<Real> moved_since_build(const RulesView<Real>& rules, const ListView<Real>& list, std::uint32_t i,
