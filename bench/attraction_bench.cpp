@@ -145,7 +145,7 @@ void direct(benchmark::State& state, const Isa& isa, bool exact, int threads) {
       peak += measured_peak();
       auto working = points;
       state.ResumeTiming();
-      sums.accelerations(working, ids, a.data());
+      sums.accelerations(working, working.size(), ids, a.data());
     }
     const double error = rms_error(a, pulls_on(positions, 16), 16);
     if (!(error < 1e-5)) state.SkipWithError("wrong forces");
@@ -175,7 +175,7 @@ void tree(benchmark::State& state, bool exact, double accuracy) {
     state.PauseTiming();
     auto working = points;
     state.ResumeTiming();
-    sums.accelerations(working, ids, a.data());
+    sums.accelerations(working, working.size(), ids, a.data());
   }
   const std::size_t stride = std::max<std::size_t>(1, count / kChecked);
   const double error = rms_error(a, pulls_on(positions, stride), stride);

@@ -125,12 +125,12 @@ void stage(benchmark::State& state, double StageTimes::* part, Integrator integr
   if (!pool) return state.SkipWithError(pool.error().text().c_str());
   pool->scene.integrator = integrator;
   Backend& backend = *pool->backend;
-  SerialCommunicator id_indices;
+  Ranks alone;
   RunState run;
   backend.configure(pool->scene);
   backend.assign(pool->particles);
   const Instant start_of_run = place_colliders(run, pool->scene, 0);
-  if (!start_particles(pool->scene, backend, id_indices, run).good()) return state.SkipWithError("the pool is bad");
+  if (!start_particles(pool->scene, backend, alone, run).good()) return state.SkipWithError("the pool is bad");
   const auto before = backend.measure(start_of_run);
   for (auto iteration : state) {
     const StageTimes start = backend.stage_times();
@@ -139,11 +139,15 @@ void stage(benchmark::State& state, double StageTimes::* part, Integrator integr
     StepReport report;
     if (verlet) {
       backend.half_kick_and_drift();
-      backend.finish_motion(left);
+      backend.follow_motion();
+      backend.remove_departed(left);
     }
     report.condition = backend.build_neighbours();
     if (report.condition.good()) backend.apply_forces(start_of_run, report);
-    if (!verlet) backend.finish_motion(left);
+    if (!verlet) {
+      backend.follow_motion();
+      backend.remove_departed(left);
+    }
     if (!report.condition.good()) return state.SkipWithError("the pool went bad");
     run.ledger.book_step(report, pool->scene);
     state.SetIterationTime((backend.stage_times() - start).*part);
@@ -181,7 +185,8 @@ void hand(benchmark::State& state) {
     RemovalSums left;
     StepReport report;
     backend.apply_forces(now, report);
-    backend.finish_motion(left);
+    backend.follow_motion();
+    backend.remove_departed(left);
     if (backend.neighbours_stale() && !backend.build_neighbours().good()) {
       return state.SkipWithError("the pool went bad");
     }

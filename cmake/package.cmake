@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The Hooke authors
 # SPDX-License-Identifier: MIT
 
-# Debian packages, by `make package`: hooke (the program, the window, scenes), libhooke-dev and python3-hooke.
+# Debian packages, by `make package`: hooke (the program, the window, scenes), hooke-mpi, libhooke-dev and python3-hooke.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME hooke)
 set(CPACK_PACKAGE_CONTACT "The Hooke authors <hooke@example.org>")
@@ -60,7 +60,17 @@ if(TARGET hooke_python)
  Simulations that are stepped, read and steered from Python, with numpy arrays; runs, pictures and films.")
 endif()
 
-foreach(component program development python)
+# The module of a cluster's ranks is a package of its own: who has one machine needs no MPI.
+if(TARGET hooke-mpi)
+  list(APPEND CPACK_COMPONENTS_ALL cluster)
+  set(CPACK_DEBIAN_CLUSTER_PACKAGE_NAME hooke-mpi)
+  set(CPACK_DEBIAN_CLUSTER_PACKAGE_DEPENDS "hooke (= ${PROJECT_VERSION}), openmpi-bin")
+  set(CPACK_COMPONENT_CLUSTER_DESCRIPTION "spring-mass particle engine: ranks of a cluster
+ For scenes that several processes compute together, on one machine or on many, by Open MPI.")
+  string(APPEND CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS ", hooke-mpi")
+endif()
+
+foreach(component program cluster development python)
   string(TOUPPER ${component} upper)
   if(DEFINED CPACK_DEBIAN_${upper}_PACKAGE_NAME)
     install(FILES LICENSE DESTINATION share/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME} RENAME copyright

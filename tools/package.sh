@@ -51,6 +51,11 @@ test_packages() {
   install libegl1 libgl1 libgl1-mesa-dri fonts-dejavu-core
   in_it hooke render /trial/balls -o /trial/balls.png
 
+  echo "== hooke-mpi"
+  install /packages/hooke-mpi_*.deb
+  in_it mpirun --allow-run-as-root --oversubscribe -np 2 hooke run /usr/share/hooke/scenes/ball-pit.json -o /trial/ranks --set time.end=0.2
+  in_it cmp /trial/balls/checkpoint.h5 /trial/ranks/checkpoint.h5
+
   echo "== libhooke-dev"
   install /packages/libhooke-dev_*.deb g++ cmake make
   in_it sh -ec '

@@ -17,7 +17,7 @@ set -euo pipefail
 build_packages=(
   build-essential cmake ninja-build ccache
   libtbb-dev nlohmann-json3-dev libvalijson-dev libcli11-dev libfmt-dev libspdlog-dev libhdf5-dev
-  libopenvdb-dev libboost-iostreams-dev
+  libopenvdb-dev libboost-iostreams-dev libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev
   libgtest-dev libgmock-dev libbenchmark-dev pkg-config
   libepoxy-dev libegl1 libgl1 libgl1-mesa-dri libpng-dev libopenexr-dev libcairo2-dev fonts-dejavu-core ffmpeg
   libglfw3-dev libimgui-dev

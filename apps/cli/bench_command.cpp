@@ -18,6 +18,7 @@
 #include "hooke/io/snapshot.h"
 #include "hooke/run/numbers.h"
 #include "hooke/run/open_simulation.h"
+#include "hooke/run/start_checks.h"
 #include "log.h"
 #include "progress.h"
 
@@ -158,8 +159,8 @@ void print_table(const io::RunReport& report) {
   row("list slots per particle", fmt::format("{:.1f}", report.neighbours.slots_per_particle));
   row("bytes per particle", fmt::format("{:.0f}, and {:.0f} MB of program", report.bytes_per_particle(),
                                         static_cast<double>(report.program_bytes) * 1e-6));
-  row("device", fmt::format("{} ({}), {} threads, {} precision", report.device, report.isa, report.threads,
-                            to_string(report.precision)));
+  row("device", fmt::format("{} ({}), {}, {} precision", report.device, report.isa,
+                            run::ranks_and_threads(report.ranks, report.threads), to_string(report.precision)));
   row("momentum drift", fmt::format("{:.2g}", report.momentum_drift));
   row("state hash", fmt::format("{:016x}", report.state_hash));
 }
@@ -179,11 +180,12 @@ Expected<void> advance(Simulation& simulation, std::int64_t steps, bool show) {
 
 }  // namespace
 
-ExitStatus bench_command(const BenchArguments& arguments) {
+ExitStatus bench_command(const BenchArguments& arguments, const run::LaunchedRanks& ranks) {
   const std::uint64_t program_bytes = io::peak_resident_bytes();
-  auto opened = run::open_simulation(arguments.scene, arguments.device, arguments.resume);
+  auto opened = run::open_simulation(arguments.scene, arguments.device, arguments.resume, ranks);
   if (!opened) return report_error(opened.error());
   for (const Finding& warning : opened->warnings) report_warning(warning);
+  if (const std::string small = run::small_ranks(*opened); !small.empty()) spdlog::warn(small);
   Simulation& simulation = opened->simulation;
   const std::uint64_t particles_before = simulation.particle_count();
   const std::uint64_t removed_before = simulation.ledger().removed;
@@ -194,26 +196,33 @@ ExitStatus bench_command(const BenchArguments& arguments) {
   }
   const auto rebuilds_before = simulation.neighbour_statistics().rebuilds;
   const StageTimes stages_before = simulation.stage_times();
+  (void)simulation.rank_costs();
   const auto start = std::chrono::steady_clock::now();
   if (auto stepped = advance(simulation, arguments.steps, show); !stepped) {
     return report_error(stepped.error(), true);
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
+  const RankCosts costs = simulation.rank_costs();
   const auto rebuilds = simulation.neighbour_statistics().rebuilds;
 
   const auto measurements = simulation.measure();
   if (!measurements) return report_error(measurements.error(), true);
   io::RunReport report = io::make_report(simulation, *measurements);
+  report.ranks = opened->ranks;
+  report.threads = opened->threads;
   report.steps = arguments.steps;
   report.program_bytes = program_bytes;
+  report.costs = costs;
   report.seconds = seconds;
   report.neighbours.rebuilds = rebuilds - rebuilds_before;
   report.stages = report.stages - stages_before;
   if (auto faults = find_faults(simulation, report, particles_before, removed_before); !faults.empty()) {
     return report_error({Error::Kind::run_failed, std::move(faults)}, true);
   }
-  if (const auto share = share_of_walls(simulation, arguments.device)) report.walls = *share * report.stages.force;
+  if (ranks.size() == 1) {  // of several each has a part of the particles, and another part of the walls
+    if (const auto share = share_of_walls(simulation, arguments.device)) report.walls = *share * report.stages.force;
+  }
   if (arguments.json) {
     fmt::print("{}", io::to_json(report));
   } else {

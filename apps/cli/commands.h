@@ -10,6 +10,7 @@
 
 #include "arguments.h"
 #include "hooke/io/export.h"
+#include "hooke/run/launched_ranks.h"
 #include "hooke/run/picture_arguments.h"
 #include "hooke/run/recorder.h"
 
@@ -63,10 +64,10 @@ struct InfoArguments {
   bool devices = false;
 };
 
-// One function per command; each prints and returns the exit status.
-ExitStatus run_command(const RunArguments& arguments);
+// One function per command; each prints and returns the exit status. With several ranks rank 0 calls it.
+ExitStatus run_command(const RunArguments& arguments, const run::LaunchedRanks& ranks);
 ExitStatus check_command(const CheckArguments& arguments);
-ExitStatus bench_command(const BenchArguments& arguments);
+ExitStatus bench_command(const BenchArguments& arguments, const run::LaunchedRanks& ranks);
 ExitStatus render_command(const RenderArguments& arguments);
 ExitStatus export_command(const ExportArguments& arguments);
 ExitStatus info_command(const InfoArguments& arguments);

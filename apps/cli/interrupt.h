@@ -4,8 +4,8 @@
 
 namespace hooke::cli {
 
-/// While an Interrupt exists, SIGINT, SIGTERM and SIGHUP only ask to stop. A second signal ends the program at once, as
-/// it would without an Interrupt.
+/// While an Interrupt exists, SIGINT, SIGTERM, SIGHUP and SIGUSR1 only ask to stop. A second one of the same signal
+/// ends the program at once, as it would without an Interrupt. SIGUSR1 is what mpirun hands on to the ranks.
 class Interrupt {
  public:
   Interrupt();

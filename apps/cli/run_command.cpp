@@ -24,11 +24,12 @@ namespace {
 void log_start(const run::OpenedSimulation& opened) {
   const Simulation& simulation = opened.simulation;
   const BackendInfo back_end = simulation.backend_info();
-  spdlog::info("hooke {}: {}, {} particles, step {} to {} of {} s, {} ({}), {} precision, {} threads", HOOKE_VERSION,
+  spdlog::info("hooke {}: {}, {} particles, step {} to {} of {} s, {} ({}), {} precision, {}", HOOKE_VERSION,
                printable(simulation.scene().name), simulation.particle_count(), simulation.step_count(),
                simulation.scene().steps, simulation.scene().time_step, back_end.device, back_end.isa,
-               to_string(back_end.precision), back_end.threads);
+               to_string(back_end.precision), run::ranks_and_threads(opened.ranks, opened.threads));
   for (const Finding& warning : opened.warnings) report_warning(warning);
+  if (const std::string small = run::small_ranks(opened); !small.empty()) spdlog::warn(small);
   if (simulation.step_count() == 0) {
     for (const std::string& sentence : run::overlapped_bodies(simulation)) spdlog::info(sentence);
   }
@@ -99,11 +100,11 @@ Expected<bool> run_to_the_end(run::Recorder& recorder, const Simulation& simulat
 
 }  // namespace
 
-ExitStatus run_command(const RunArguments& given) {
+ExitStatus run_command(const RunArguments& given, const run::LaunchedRanks& ranks) {
   RunArguments arguments = given;
   if (arguments.output.empty()) arguments.output = arguments.scene.file.stem();
   if (auto right = check_arguments(arguments); !right) return report_error(right.error());
-  auto opened = run::open_simulation(arguments.scene, arguments.device, arguments.resume);
+  auto opened = run::open_simulation(arguments.scene, arguments.device, arguments.resume, ranks);
   if (!opened) return report_error(opened.error());
   const Simulation& simulation = opened->simulation;
   run::RecordEvents events;

@@ -24,7 +24,7 @@ void add_scene_options(CLI::App& command, SceneArguments& scene) {
 }
 
 void add_device_options(CLI::App& command, DeviceArguments& device) {
-  command.add_option("--threads", device.threads, "threads to use (default: all)")
+  command.add_option("--threads", device.threads, "threads to use, of each rank (default: all)")
       ->option_text("N")
       ->check(CLI::Range(1, kMostThreads));
   command

@@ -91,6 +91,8 @@ class DeviceFailure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+class SharedParticles;
+
 /// Holds and steps particles: reference (all pairs, the specification), cpu, and others to come. A back end is three
 /// things: a store of particles in its own layout and order, which is read by id; the stages of a step, which are
 /// coarse, so that a back end can fuse the work inside a stage; and an observer of the state. core/step.cpp runs the
@@ -149,12 +151,15 @@ class Backend {
 
   // The stages of a step --------------------------------------------------------------------------------------------
 
-  /// First half of velocity Verlet: v += dt/2 a; x += dt v. finish_motion() is to follow.
+  /// First half of velocity Verlet: v += dt/2 a; x += dt v. follow_motion() and remove_departed() are to follow.
   virtual void half_kick_and_drift() = 0;
 
-  /// Called after particles have moved. When it returns, periodic coordinates are wrapped, particles outside open faces
-  /// are removed and reported in `left`, and the neighbour list has followed the motion or is stale.
-  virtual void finish_motion(RemovalSums& left) = 0;
+  /// Called after particles have moved. When it returns, periodic coordinates are wrapped, and the neighbour list has
+  /// followed the motion or is stale.
+  virtual void follow_motion() = 0;
+
+  /// Then removes the particles outside open faces, and reports them in `left`.
+  virtual void remove_departed(RemovalSums& left) = 0;
 
   /// Whether a pair not on the neighbour list could touch now. Always right; never depends on an old speed.
   virtual bool neighbours_stale() = 0;
@@ -164,7 +169,7 @@ class Backend {
 
   /// The main stage: all forces at `now` and, in the same pass, the integrator's part. Springs that are
   /// stretched too far when it begins break when it ends. Reports the condition and the sums.
-  ///   symplectic Euler   v += dt a; x += dt v. finish_motion() is to follow.
+  ///   symplectic Euler   v += dt a; x += dt v. follow_motion() and remove_departed() are to follow.
   ///   velocity Verlet    v += dt/2 a
   virtual void apply_forces(const Instant& now, StepReport& report) = 0;
 
@@ -172,9 +177,9 @@ class Backend {
   virtual std::size_t most_in_a_row() const { return 1; }
 
   /// Symplectic Euler: apply_forces() at these instants, a step apart, with the motion between them, as far as nothing
-  /// but finish_motion() would have to be called in between: until a list is stale, a particle is outside an open face,
+  /// but follow_motion() would have to be called in between: until a list is stale, a particle is outside an open face,
   /// a spring breaks, or a condition is found. Returns how many of the steps it took, 1 or more; the report is of all
-  /// of them, its condition that of the last. finish_motion() is to follow.
+  /// of them, its condition that of the last. follow_motion() and remove_departed() are to follow.
   virtual std::size_t apply_forces_in_a_row(std::span<const Instant> steps, StepReport& report) {
     apply_forces(steps.front(), report);
     return 1;
@@ -200,6 +205,9 @@ class Backend {
 
   /// Times of everything so far, also outside of steps.
   virtual StageTimes stage_times() const = 0;
+
+  /// This back end as one of several that hold a scene's particles together; null where it can't be one.
+  virtual SharedParticles* shared() { return nullptr; }
 };
 
 /// All particles of a back end, with accelerations under velocity Verlet.

@@ -2,53 +2,67 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
 
-#include "hooke/core/backend.h"
-#include "hooke/core/ledger_sums.h"
+#include "hooke/base/box3.h"
+#include "hooke/base/vec3.h"
 
 namespace hooke {
 
-/// The communication in a step between the ranks that compute one scene together. Each rank's back end holds and
-/// reports its own particles; every rank calls each of these functions at the same point of the same step.
-class Communicator {
- public:
-  virtual ~Communicator() = default;
-
-  /// Whether there is one rank alone, to which the other functions do nothing.
-  virtual bool is_serial() const = 0;
-
-  /// Whether `here` is true on any rank.
-  virtual bool any(bool here) = 0;
-
-  /// The one to report of all ranks' conditions; good where all are good.
-  virtual Condition first(const Condition& here) = 0;
-
-  /// Before a neighbour list: moves every particle to the rank that owns its position, and renews the ghosts, copies of
-  /// the other ranks' particles that may touch this rank's until the next list.
-  virtual void migrate(Backend& backend) = 0;
-
-  /// After particles have moved: updates the ghosts.
-  virtual void update(Backend& backend) = 0;
-
-  /// When the figures of the whole scene are read: each rank's sums become the sums over all ranks. Exact sums may be
-  /// added in any order.
-  virtual void sum(LedgerSums& sums) = 0;
-  virtual void sum(MeasurementSums& sums) = 0;
-  virtual void sum(std::uint64_t& count) = 0;  ///< modulo 2^64: of particles, of their hashes
+/// Bytes to another rank, or from it.
+struct Parcel {
+  int rank = 0;
+  std::vector<std::byte> bytes;
 };
 
-/// For a scene on one rank alone.
-class SerialCommunicator final : public Communicator {
+/// How the ranks that compute one scene together talk to each other: processes of a cluster (comm/mpi), threads of a
+/// test. Rank 0 leads: it reads, writes and speaks. Every rank calls each of these functions in the same order.
+class Communicator {
  public:
-  bool is_serial() const override { return true; }
-  bool any(bool here) override { return here; }
-  Condition first(const Condition& here) override { return here; }
-  void migrate(Backend&) override {}
-  void update(Backend&) override {}
-  void sum(LedgerSums&) override {}
-  void sum(MeasurementSums&) override {}
-  void sum(std::uint64_t&) override {}
+  /// Adds one item to another: of equal type, trivially copyable, in any order of ranks with the same result.
+  using Add = void (*)(const void* item, void* sum);
+
+  /// Messages between the same ranks, of the same sizes, again and again.
+  class Channel {
+   public:
+    virtual ~Channel() = default;
+    /// Sends what is to be sent; returns when all that was to come has come.
+    virtual void exchange() = 0;
+  };
+  /// What goes to a rank, or where what comes from it is put; the memory stays the caller's.
+  struct Route {
+    int rank = 0;
+    std::span<std::byte> bytes;
+  };
+
+  virtual ~Communicator() = default;
+
+  virtual int rank() const = 0;  ///< 0 to size() - 1
+  virtual int size() const = 0;
+
+  /// Every rank's `count` items of `bytes` bytes each become the sums over all ranks.
+  virtual void combine(void* items, std::size_t count, std::size_t bytes, Add add) = 0;
+
+  /// Everyone gets what rank 0 has.
+  virtual void broadcast(std::vector<std::byte>& data) = 0;
+
+  /// Sends these, at most one to each rank, and returns what others sent here, in order of their ranks. Nobody knows
+  /// before who writes to whom; a rank may write to itself.
+  virtual std::vector<Parcel> exchange(std::vector<Parcel> out) = 0;
+
+  /// A channel: each route out has one in at the other end, of the same size. Routes of no bytes are left out.
+  virtual std::unique_ptr<Channel> open(std::span<const Route> out, std::span<const Route> in) = 0;
+
+  /// Cuts space into a box (m) for each rank, so that the boxes tile it and hold about as many of all ranks' points
+  /// each. Their outer faces are at infinity. Every rank gets all of them.
+  virtual std::vector<Box3d> cut(std::span<const Vec3d> points) = 0;
+
+  /// Ends the program on all ranks, where one alone knows that it can't go on: `why` is said on standard error.
+  [[noreturn]] virtual void abort(const std::string& why) = 0;
 };
 
 }  // namespace hooke

@@ -13,6 +13,7 @@
 #include "hooke/core/backend.h"
 #include "hooke/core/free_space.h"
 #include "hooke/core/placed_colliders.h"
+#include "hooke/core/ranks.h"
 
 namespace hooke {
 namespace {
@@ -82,14 +83,14 @@ std::span<const std::uint64_t> Emission::end_lives(std::int64_t step) {
 }
 
 const ParticleSet& Emission::give_birth(const Scene& scene, std::int64_t step, std::span<const ColliderPose> poses,
-                                        std::span<const std::uint8_t> was_there, const Backend& backend,
+                                        std::span<const std::uint8_t> was_there, const Backend& backend, Ranks& ranks,
                                         std::uint64_t& next_id) {
   HOOKE_ASSERT(step > 0, step);
   HOOKE_ASSERT(emitters_.size() == scene.emitters.size(), emitters_.size(), scene.emitters.size());
   HOOKE_ASSERT(poses.size() == scene.colliders.size(), poses.size(), scene.colliders.size());
   HOOKE_ASSERT(was_there.size() == ending_.size(), was_there.size(), ending_.size());
   newborn_.clear();
-  for (std::uint32_t i = 0; i < emitters_.size(); ++i) emit(scene, i, step, poses, backend, next_id);
+  for (std::uint32_t i = 0; i < emitters_.size(); ++i) emit(scene, i, step, poses, backend, ranks, next_id);
   for (std::size_t k = 0; k < ending_.size(); ++k) {  // they may be born again from the next step on
     const std::uint32_t emitter = ending_[k].emitter;
     if (was_there[k] != 0 && scene.emitters[emitter].respawn) ++emitters_[emitter].to_respawn;
@@ -98,7 +99,7 @@ const ParticleSet& Emission::give_birth(const Scene& scene, std::int64_t step, s
 }
 
 void Emission::emit(const Scene& scene, std::uint32_t index, std::int64_t step, std::span<const ColliderPose> poses,
-                    const Backend& backend, std::uint64_t& next_id) {
+                    const Backend& backend, Ranks& ranks, std::uint64_t& next_id) {
   const Emitter& emitter = scene.emitters[index];
   EmitterState& state = emitters_[index];
   const std::uint64_t wanted = state.to_respawn + births_due(emitter, state, step, scene.time_step);
@@ -118,7 +119,7 @@ void Emission::emit(const Scene& scene, std::uint32_t index, std::int64_t step, 
       component(box.max, axis) = component(scene.domain.max, axis);
     }
     std::vector<Occupant> occupants;
-    backend.find_inside(box, occupants);
+    ranks.find_inside(backend, box, occupants);
     for (const Occupant& occupant : occupants) space.add(occupant);
     for (std::size_t k = 0; k < newborn_.size(); ++k) {
       const Material& other = scene.materials[newborn_.material[k]];

@@ -18,6 +18,7 @@ namespace hooke {
 
 class Backend;
 class FreeSpace;
+class Ranks;
 struct Scene;
 
 /// The progress of an emitter.
@@ -63,10 +64,11 @@ class Emission {
   std::span<const std::uint64_t> end_lives(std::int64_t step);
 
   /// The particles born with step `step` (> 0) of the configured scene, whose colliders are in these poses. They get
-  /// the ids from `next_id` on, which advances. The back end is only asked what is in the way. `was_there` says for
-  /// each life that ended whether its particle still existed. Valid until the next call.
+  /// the ids from `next_id` on, which advances. The ranks' back ends are only asked what is in the way, and all draw
+  /// the same births. `was_there` says for each life that ended whether its particle still existed. Valid until the
+  /// next call.
   const ParticleSet& give_birth(const Scene& scene, std::int64_t step, std::span<const ColliderPose> poses,
-                                std::span<const std::uint8_t> was_there, const Backend& backend,
+                                std::span<const std::uint8_t> was_there, const Backend& backend, Ranks& ranks,
                                 std::uint64_t& next_id);
 
   EmissionState state() const;
@@ -82,7 +84,7 @@ class Emission {
   };
 
   void emit(const Scene& scene, std::uint32_t index, std::int64_t step, std::span<const ColliderPose> poses,
-            const Backend& backend, std::uint64_t& next_id);
+            const Backend& backend, Ranks& ranks, std::uint64_t& next_id);
   void find_births(const PlacedEmitter& emitter, const Scene& scene, FreeSpace& space, bool single,
                    std::uint64_t wanted);
 

@@ -10,6 +10,7 @@
 
 #include "hooke/base/ascending.h"
 #include "hooke/base/assert.h"
+#include "hooke/base/bytes.h"
 #include "hooke/base/floating_point.h"
 #include "hooke/base/format.h"
 #include "hooke/base/hash.h"
@@ -93,6 +94,59 @@ std::vector<Finding> check_particles(const Scene& scene, const ParticleSet& p, b
 
 Unexpected no_backend() { return fail(Error::Kind::bad_input, "backend", "there is none: it is null"); }
 
+template <class Real>
+void copy_columns(const ParticleSet& from, const ParticleColumns<Real>& to) {
+  const auto vectors = [](const std::vector<Vec3d>& column, Vec3<Real>* out) {
+    for (std::size_t i = 0; out != nullptr && i < column.size(); ++i) out[i] = vec_cast<Real>(column[i]);
+  };
+  if (to.id != nullptr) std::copy(from.id.begin(), from.id.end(), to.id);
+  if (to.material != nullptr) std::copy(from.material.begin(), from.material.end(), to.material);
+  vectors(from.position, to.position);
+  vectors(from.velocity, to.velocity);
+  vectors(from.acceleration, to.acceleration);
+}
+
+// A structure in the message that starts other ranks.
+void append_structure(std::vector<std::byte>& to, const Structure& structure) {
+  const SpringSet& s = structure.springs;
+  append_column(to, s.a);
+  append_column(to, s.b);
+  for (const std::vector<double>* column : {&s.rest_length, &s.stiffness, &s.damping, &s.break_strain})
+    append_column(to, *column);
+  append_column(to, s.mode);
+  append_column(to, s.contact);
+  append_column(to, structure.pinned);
+  append_bytes(to, structure.surfaces.size());
+  for (const Surface& surface : structure.surfaces) {
+    append_column(to, std::vector<char>(surface.name.begin(), surface.name.end()));
+    append_column(to, surface.particles);
+    append_column(to, surface.triangles);
+  }
+}
+
+Structure take_structure(std::span<const std::byte>& from) {
+  Structure structure;
+  SpringSet& s = structure.springs;
+  take_column(from, s.a);
+  take_column(from, s.b);
+  for (std::vector<double>* column : {&s.rest_length, &s.stiffness, &s.damping, &s.break_strain})
+    take_column(from, *column);
+  take_column(from, s.mode);
+  take_column(from, s.contact);
+  take_column(from, structure.pinned);
+  std::size_t surfaces = 0;
+  take_bytes(from, surfaces);
+  for (std::size_t k = 0; k < surfaces; ++k) {
+    Surface& surface = structure.surfaces.emplace_back();
+    std::vector<char> name;
+    take_column(from, name);
+    surface.name.assign(name.begin(), name.end());
+    take_column(from, surface.particles);
+    take_column(from, surface.triangles);
+  }
+  return structure;
+}
+
 Error out_of_memory(std::int64_t step) {
   return {Error::Kind::run_failed, {{formatted("step {}", step), "out of memory"}}};
 }
@@ -100,9 +154,12 @@ Error out_of_memory(std::int64_t step) {
 }  // namespace
 
 struct Simulation::Impl {
+  explicit Impl(std::shared_ptr<Communicator> communicator) : ranks(std::move(communicator)) {}
+  ~Impl() { lead(Order::end); }
+
   Scene scene;
   std::unique_ptr<Backend> backend;
-  SerialCommunicator ranks;
+  Ranks ranks;
   RunState run;
   double initial_energy = 0, initial_elastic = 0;
   Vec3d initial_momentum{0, 0, 0};
@@ -115,6 +172,34 @@ struct Simulation::Impl {
   bool failed = false;
   Error failure;
 
+  // What rank 0 has the others do (follow()), each time that it does so itself.
+  enum class Order : std::uint8_t { start, step, count, hash, ledger, measure, gather, broken, neighbours, costs, end };
+  struct StartOrder {
+    std::int64_t step;
+    std::uint64_t next_id;
+    double kick;  // LedgerSums::kick
+    bool take_accelerations;
+  };
+  template <class... Details>
+  void lead(Order order, const Details&... details) {
+    if (ranks.is_serial() || !ranks.leads()) return;
+    std::vector<std::byte> bytes;
+    append_bytes(bytes, order);
+    (append_bytes(bytes, details), ...);
+    ranks.communicator().broadcast(bytes);
+  }
+
+  // What several ranks can't do yet.
+  Expected<void> check_ranks() const {
+    if (ranks.is_serial() || backend->shared() != nullptr) return {};
+    return fail(Error::Kind::bad_input, backend->info().device, "this device can't compute on several ranks yet");
+  }
+  // For what changes single particles, materials and motions, of which the other ranks would not know.
+  Expected<void> check_alone() const {
+    if (ranks.is_serial()) return {};
+    return fail(Error::Kind::bad_input, "simulation", "can't be changed while several ranks compute it");
+  }
+
   bool single() const { return scene.precision == Precision::single_precision; }
   double mass_of(std::size_t material) const { return scene.materials[material].mass; }
 
@@ -123,8 +208,15 @@ struct Simulation::Impl {
     const std::shared_ptr<Snapshot> now = pool.take();
     now->step = run.step;
     now->time = static_cast<double>(run.step) * scene.time_step;
-    download(*backend, scene.integrator, now->particles);
+    gather(now->particles);
     return host = now;
+  }
+
+  // Rank 0 gets all particles.
+  void gather(ParticleSet& particles) {
+    lead(Order::gather);
+    download(*backend, scene.integrator, particles);
+    ranks.gather(particles);
   }
 
   // Runs what changes or asks the back end. If memory runs out or a device fails, the back end's state is unknown: the
@@ -137,6 +229,7 @@ struct Simulation::Impl {
     } catch (const std::bad_alloc&) {
       failed = true;
       failure = out_of_memory(run.step);
+      if (!ranks.is_serial()) ranks.communicator().abort(failure.text());
       return fail(failure);
     } catch (const DeviceFailure& of_device) {
       return device_failed(of_device);
@@ -165,7 +258,11 @@ struct Simulation::Impl {
   Expected<void> copy_particles(const ParticleColumns<Real>& out) {
     const FloatingPointGuard guard;
     return guarded([&]() -> Expected<void> {
-      backend->download(out);
+      if (ranks.is_serial()) {
+        backend->download(out);
+      } else {
+        copy_columns(snapshot()->particles, out);
+      }
       return {};
     });
   }
@@ -179,7 +276,7 @@ struct Simulation::Impl {
     return fail(failure);
   }
 
-  std::string describe(const Condition& condition) const {
+  std::string describe(const Condition& condition) {
     const double speed = std::abs(condition.speed), moved = speed * scene.time_step;
     const bool part = condition.speed < 0;
     switch (condition.kind) {
@@ -205,9 +302,13 @@ struct Simulation::Impl {
     return {};
   }
 
-  std::string likely_cause() const {
+  std::string likely_cause() {
     ParticleSet now;
-    if (scene.structure) download(*backend, scene.integrator, now);
+    if (scene.structure) {
+      download(*backend, scene.integrator, now);
+      ranks.gather(now);  // all ranks have found the same condition
+    }
+    if (!ranks.leads()) return {};
     const StableStep stable = stable_step(scene, now);
     if (std::string unstable = unstable_step(scene, stable); !unstable.empty()) return "time.step " + unstable;
     return formatted(
@@ -227,14 +328,50 @@ struct Simulation::Impl {
   // Hands all particles to the back end. Under velocity Verlet those that are new get their first accelerations.
   Expected<void> start(const ParticleSet& particles, bool are_new, const std::vector<std::uint64_t>& broken_springs) {
     if (auto right = check_precision(); !right) return right;
+    if (auto can = check_ranks(); !can) return can;
+    const bool take_accelerations = !particles.empty() && are_new;
+    lead_start(take_accelerations, broken_springs);
+    return start_here(particles, take_accelerations, broken_springs);
+  }
+
+  void lead_start(bool take_accelerations, const std::vector<std::uint64_t>& broken_springs) {
+    if (ranks.is_serial() || !ranks.leads()) return;
+    const EmissionState emission = run.emission.state();
+    std::vector<std::byte> details;
+    append_column(details, emission.emitters);
+    append_column(details, emission.mortals);
+    append_column(details, broken_springs);
+    if (scene.structure) append_structure(details, *scene.structure);
+    lead(Order::start, StartOrder{run.step, run.next_id, run.ledger.kick, take_accelerations}, details);
+  }
+  void follow_start(std::span<const std::byte> from) {
+    StartOrder start{};
+    take_bytes(from, start);
+    EmissionState emission;
+    take_column(from, emission.emitters);
+    take_column(from, emission.mortals);
+    std::vector<std::uint64_t> broken_springs;
+    take_column(from, broken_springs);
+    scene.structure = from.empty() ? nullptr : std::make_shared<Structure>(take_structure(from));
+    run.emission.restore(std::move(emission));
+    run.step = start.step;
+    run.next_id = start.next_id;
+    run.ledger = {};
+    run.ledger.kick = start.kick;
+    failed = false;
+    (void)start_here({}, start.take_accelerations, broken_springs);
+  }
+
+  Expected<void> start_here(const ParticleSet& particles, bool take_accelerations,
+                            const std::vector<std::uint64_t>& broken_springs) {
     host.reset();
     try {
       backend->configure(scene);
       run.emission.configure(scene);
       backend->break_springs(broken_springs);
       place_colliders(run, scene, run.step);
-      backend->assign(particles);
-      if (particles.empty() || !are_new) return {};
+      ranks.assign(*backend, scene, particles);
+      if (!take_accelerations) return {};
       return check(start_particles(scene, *backend, ranks, run));
     } catch (const std::bad_alloc& memory) {
       const std::string why = memory.what();  // a GPU says how much it lacks
@@ -242,6 +379,7 @@ struct Simulation::Impl {
       failure = Error{Error::Kind::bad_input,
                       {{"particles", formatted("{} particles do not fit into memory{}", particles.size(),
                                                why == std::bad_alloc().what() ? "" : " (" + why + ")")}}};
+      if (!ranks.is_serial()) ranks.communicator().abort(failure.text());
       return fail(failure);
     } catch (const DeviceFailure& of_device) {
       return device_failed(of_device);
@@ -249,6 +387,7 @@ struct Simulation::Impl {
   }
 
   Expected<void> take_steps(std::int64_t count) {
+    lead(Order::step, count);
     return guarded([&]() -> Expected<void> {
       if (count == 0) return {};
       host.reset();
@@ -259,6 +398,104 @@ struct Simulation::Impl {
       return check(update_neighbours(*backend, ranks));
     });
   }
+
+  std::uint64_t particle_count() {
+    lead(Order::count);
+    std::uint64_t count = backend->particle_count();
+    ranks.sum(count);
+    return count;
+  }
+  std::vector<std::uint64_t> broken_springs() {
+    lead(Order::broken);
+    std::vector<std::uint64_t> broken = backend->broken_springs();
+    ranks.unite(broken);
+    return broken;
+  }
+  RankCosts rank_costs() {
+    lead(Order::costs);
+    return ranks.costs(backend->particle_count());
+  }
+  NeighbourStatistics neighbour_statistics() {
+    lead(Order::neighbours);
+    NeighbourStatistics statistics = backend->neighbour_statistics();
+    ranks.sum(statistics.missed_contacts);
+    return statistics;
+  }
+  std::uint64_t particles_hash() {
+    lead(Order::hash);
+    std::uint64_t hash = backend->particles_hash();
+    ranks.sum(hash);
+    return hash;
+  }
+  LedgerSums ledger() {
+    lead(Order::ledger);
+    LedgerSums sums = run.ledger;
+    ranks.sum(sums);
+    return sums;
+  }
+  Expected<Measurements> measure() {
+    lead(Order::measure);
+    return guarded([&]() -> Expected<Measurements> {
+      const Instant now = place_colliders(run, scene, run.step);
+      if (!ranks.is_serial()) {
+        if (auto listed = check(update_neighbours(*backend, ranks)); !listed) return fail(listed.error());
+      }
+      auto sums = backend->measure(now);
+      if (!sums) return fail(sums.error());
+      ranks.sum(*sums);
+      return sums->result(scene.colliders.size());
+    });
+  }
+
+  // Ranks above 0: does what rank 0 orders, until it ends. A failure is that of all ranks, and rank 0 reports it.
+  void follow() {
+    for (;;) {
+      std::vector<std::byte> bytes;
+      ranks.communicator().broadcast(bytes);
+      std::span<const std::byte> from = bytes;
+      Order order{};
+      take_bytes(from, order);
+      switch (order) {
+        case Order::start:
+          follow_start(from);
+          break;
+        case Order::step: {
+          std::int64_t count = 0;
+          take_bytes(from, count);
+          (void)take_steps(count);
+          break;
+        }
+        case Order::count:
+          (void)particle_count();
+          break;
+        case Order::hash:
+          (void)particles_hash();
+          break;
+        case Order::ledger:
+          (void)ledger();
+          break;
+        case Order::measure:
+          (void)measure();
+          break;
+        case Order::gather: {
+          ParticleSet own;
+          gather(own);
+          break;
+        }
+        case Order::costs:
+          (void)rank_costs();
+          break;
+        case Order::broken:
+          (void)broken_springs();
+          break;
+        case Order::neighbours:
+          (void)neighbour_statistics();
+          break;
+        case Order::end:
+          return;
+      }
+    }
+  }
 };
 
 Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -268,6 +505,7 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 Expected<Simulation> Simulation::create(Scene scene, ParticleSet particles, std::unique_ptr<Backend> backend,
                                         const CreateOptions& options) {
+  auto impl = std::make_unique<Impl>(options.communicator);
   if (backend == nullptr) return no_backend();
   const FloatingPointGuard guard;
   std::vector<Finding> findings = validate(scene);
@@ -279,7 +517,6 @@ Expected<Simulation> Simulation::create(Scene scene, ParticleSet particles, std:
   }
   if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});
 
-  auto impl = std::make_unique<Impl>();
   impl->scene = std::move(scene);
   impl->backend = std::move(backend);
   impl->run.next_id = particles.empty() ? 1 : particles.id.back() + 1;
@@ -295,17 +532,27 @@ Expected<Simulation> Simulation::create(Scene scene, ParticleSet particles, std:
   return simulation;
 }
 
-Expected<Simulation> Simulation::resume(Scene scene, SimulationState state, std::unique_ptr<Backend> backend) {
+Expected<Simulation> Simulation::resume(Scene scene, SimulationState state, std::unique_ptr<Backend> backend,
+                                        std::shared_ptr<Communicator> communicator) {
+  auto impl = std::make_unique<Impl>(std::move(communicator));
   if (backend == nullptr) return no_backend();
   const FloatingPointGuard guard;
   std::vector<Finding> findings = validate(scene);
   if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});
-  auto impl = std::make_unique<Impl>();
   impl->scene = std::move(scene);
   impl->backend = std::move(backend);
   Simulation simulation(std::move(impl));
   if (auto restored = simulation.restore(std::move(state)); !restored) return fail(restored.error());
   return simulation;
+}
+
+void Simulation::follow(Scene scene, std::unique_ptr<Backend> backend, std::shared_ptr<Communicator> communicator) {
+  HOOKE_ASSERT(backend != nullptr && communicator != nullptr && communicator->rank() > 0);
+  const FloatingPointGuard guard;
+  Impl impl(std::move(communicator));
+  impl.scene = std::move(scene);
+  impl.backend = std::move(backend);
+  impl.follow();
 }
 
 Expected<void> Simulation::step(std::int64_t count) {
@@ -321,10 +568,11 @@ Expected<void> Simulation::step(std::int64_t count) {
 const Scene& Simulation::scene() const { return impl_->scene; }
 std::int64_t Simulation::step_count() const { return impl_->run.step; }
 double Simulation::time() const { return static_cast<double>(impl_->run.step) * impl_->scene.time_step; }
-std::uint64_t Simulation::particle_count() const { return impl_->backend->particle_count(); }
+std::uint64_t Simulation::particle_count() const { return impl_->particle_count(); }
 std::uint64_t Simulation::next_id() const { return impl_->run.next_id; }
 BackendInfo Simulation::backend_info() const { return impl_->backend->info(); }
-NeighbourStatistics Simulation::neighbour_statistics() const { return impl_->backend->neighbour_statistics(); }
+NeighbourStatistics Simulation::neighbour_statistics() const { return impl_->neighbour_statistics(); }
+RankCosts Simulation::rank_costs() { return impl_->rank_costs(); }
 const StageTimes& Simulation::stage_times() const { return impl_->stage_times; }
 
 std::shared_ptr<const Snapshot> Simulation::snapshot() const { return impl_->snapshot(); }
@@ -342,6 +590,7 @@ std::span<const Vec3d> Simulation::velocities() const { return particles().veloc
 Expected<std::vector<std::uint64_t>> Simulation::add_particles(std::span<const NewParticle> particles) {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
+  if (auto alone = s.check_alone(); !alone) return fail(alone.error());
   std::vector<Finding> findings;
   for (std::size_t i = 0; i < particles.size() && findings.size() < kMostFindings; ++i) {
     const NewParticle& p = particles[i];
@@ -370,6 +619,7 @@ Expected<std::vector<std::uint64_t>> Simulation::add_particles(std::span<const N
 Expected<void> Simulation::remove_particles(std::span<const std::uint64_t> ids) {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
+  if (auto alone = s.check_alone(); !alone) return alone;
   return s.guarded([&]() -> Expected<void> {
     std::vector<std::uint64_t> gone(ids.begin(), ids.end());
     std::sort(gone.begin(), gone.end());
@@ -384,12 +634,14 @@ Expected<void> Simulation::remove_particles(std::span<const std::uint64_t> ids) 
 }
 
 Expected<ParticleAt> Simulation::find(std::uint64_t id) const {
+  if (auto alone = impl_->check_alone(); !alone) return fail(alone.error());
   return impl_->guarded([&] { return impl_->find(id); });
 }
 
 Expected<void> Simulation::apply_impulse(std::uint64_t id, const Vec3d& impulse) {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
+  if (auto alone = s.check_alone(); !alone) return alone;
   return s.guarded([&]() -> Expected<void> {
     const auto before = s.find(id);
     if (!before) return fail(before.error());
@@ -409,6 +661,7 @@ Expected<void> Simulation::apply_impulse(std::uint64_t id, const Vec3d& impulse)
 Expected<void> Simulation::set_particle(std::uint64_t id, const Vec3d& position, const Vec3d& velocity) {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
+  if (auto alone = s.check_alone(); !alone) return alone;
   return s.guarded([&]() -> Expected<void> {
     const auto before = s.find(id);
     if (!before) return fail(before.error());
@@ -422,6 +675,7 @@ Expected<void> Simulation::set_particle(std::uint64_t id, const Vec3d& position,
 Expected<void> Simulation::set_external_forces(std::span<const std::uint64_t> ids, std::span<const Vec3d> forces) {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
+  if (auto alone = s.check_alone(); !alone) return alone;
   if (ids.size() != forces.size()) {
     return fail(Error::Kind::bad_input, "forces", formatted("{} forces for {} ids", forces.size(), ids.size()));
   }
@@ -450,6 +704,7 @@ Expected<void> Simulation::set_external_forces(std::span<const std::uint64_t> id
 Expected<void> Simulation::set_material(const Material& material) {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
+  if (auto alone = s.check_alone(); !alone) return alone;
   Scene changed = s.scene;
   for (std::size_t k = 0; k < changed.materials.size(); ++k) {
     Material& m = changed.materials[k];
@@ -474,6 +729,7 @@ Expected<void> Simulation::set_material(const Material& material) {
 Expected<void> Simulation::cut_springs(std::span<const std::uint64_t> springs) {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
+  if (auto alone = s.check_alone(); !alone) return alone;
   const std::size_t count = s.scene.structure ? s.scene.structure->springs.size() : 0;
   std::vector<std::uint64_t> broken = s.backend->broken_springs();
   const std::size_t before = broken.size();
@@ -501,6 +757,7 @@ std::span<const ColliderPose> Simulation::collider_poses() const { return impl_-
 Expected<void> Simulation::set_collider_motion(const std::string& name, const Motion& motion) {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
+  if (auto alone = s.check_alone(); !alone) return alone;
   for (std::size_t k = 0; k < s.scene.colliders.size(); ++k) {
     if (s.scene.colliders[k].name != name) continue;
     const Motion before = std::exchange(s.scene.colliders[k].motion, motion);
@@ -517,7 +774,7 @@ Expected<void> Simulation::set_collider_motion(const std::string& name, const Mo
 SimulationState Simulation::state() const {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
-  return {particles(),      s.run.step,       s.run.next_id,     s.run.ledger,       s.scene.structure,
+  return {particles(),      s.run.step,       s.run.next_id,     s.ledger(),         s.scene.structure,
           broken_springs(), s.initial_energy, s.initial_elastic, s.initial_momentum, s.run.emission.state()};
 }
 
@@ -557,29 +814,18 @@ std::uint64_t Simulation::state_hash() const {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
   const auto clock = combine64(mix64(static_cast<std::uint64_t>(s.run.step)), s.run.next_id);
-  std::uint64_t particles = s.backend->particles_hash();
-  s.ranks.sum(particles);
-  return particles + clock;
+  return s.particles_hash() + clock;
 }
 
 Expected<Measurements> Simulation::measure() const {
   const FloatingPointGuard guard;
-  Impl& s = *impl_;
-  return s.guarded([&]() -> Expected<Measurements> {
-    auto sums = s.backend->measure(place_colliders(s.run, s.scene, s.run.step));
-    if (!sums) return fail(sums.error());
-    s.ranks.sum(*sums);
-    return sums->result(s.scene.colliders.size());
-  });
+  return impl_->measure();
 }
 
-std::vector<std::uint64_t> Simulation::broken_springs() const { return impl_->backend->broken_springs(); }
+std::vector<std::uint64_t> Simulation::broken_springs() const { return impl_->broken_springs(); }
 Ledger Simulation::ledger() const {
   const FloatingPointGuard guard;
-  Impl& s = *impl_;
-  LedgerSums sums = s.run.ledger;
-  s.ranks.sum(sums);
-  return sums.read();
+  return impl_->ledger().read();
 }
 
 double Simulation::initial_energy() const { return impl_->initial_energy; }

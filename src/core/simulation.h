@@ -10,9 +10,11 @@
 
 #include "hooke/base/expected.h"
 #include "hooke/core/backend.h"
+#include "hooke/core/communicator.h"
 #include "hooke/core/emission.h"
 #include "hooke/core/ledger_sums.h"
 #include "hooke/core/particles.h"
+#include "hooke/core/ranks.h"
 #include "hooke/core/scene.h"
 #include "hooke/core/snapshot.h"
 
@@ -42,6 +44,8 @@ struct NewParticle {
 /// How Simulation::create() takes a scene.
 struct CreateOptions {
   bool allow_unstable_step = false;  ///< takes steps beyond stable_step(), with which springs may gain energy
+  /// The ranks that compute the scene together, of which this is rank 0; the others follow(). Null: one alone.
+  std::shared_ptr<Communicator> communicator{};
 };
 
 /// One simulation: a scene's rules, its particles, and a back end that steps them.
@@ -64,7 +68,14 @@ class Simulation {
 
   /// Goes on from a saved state: the same bits as if it had never stopped. Errors as of create(), but that the step may
   /// be an unstable one, as it was when the state was saved.
-  static Expected<Simulation> resume(Scene scene, SimulationState state, std::unique_ptr<Backend> backend);
+  static Expected<Simulation> resume(Scene scene, SimulationState state, std::unique_ptr<Backend> backend,
+                                     std::shared_ptr<Communicator> communicator = nullptr);
+
+  /// On ranks above 0, in place of create() or resume() on rank 0: holds this rank's part of the particles and takes
+  /// part in all that rank 0's simulation is asked to do, until that one is gone. The same scene, without its
+  /// particles, and a back end of the same precision. What goes wrong on any rank rank 0 reports. On several ranks a
+  /// simulation steps, measures, and is read and saved; what changes it otherwise is refused.
+  static void follow(Scene scene, std::unique_ptr<Backend> backend, std::shared_ptr<Communicator> communicator);
 
   ~Simulation();
   Simulation(Simulation&&) noexcept;
@@ -80,7 +91,9 @@ class Simulation {
   std::uint64_t particle_count() const;
   std::uint64_t next_id() const;
   BackendInfo backend_info() const;
-  NeighbourStatistics neighbour_statistics() const;
+  NeighbourStatistics neighbour_statistics() const;  ///< of several ranks, rank 0's, but for missed contacts
+  /// What the ranks that compute it have cost since the last call.
+  RankCosts rank_costs();
   /// Wall time of all calls of step() so far, by stage.
   const StageTimes& stage_times() const;
 

@@ -34,13 +34,14 @@ std::int64_t apply_forces_in_a_row(const Scene& scene, Backend& backend, const R
 
 // Algorithm 3 of the thesis, with what has been added to it since: the cell list is rebuilt when it must be rather than
 // in every step, velocity Verlet has a half step of its own in front, and particles come and go at the end.
-Condition take_step(const Scene& scene, Backend& backend, Communicator& ranks, RunState& run, std::int64_t most) {
+Condition take_step(const Scene& scene, Backend& backend, Ranks& ranks, RunState& run, std::int64_t most) {
   const bool verlet = scene.integrator == Integrator::velocity_verlet;
-  const auto finish_motion = [&] {
-    ranks.update(backend);
+  const auto finish_motion = [&](const Condition& found) {
+    const Condition on_any_rank = ranks.follow_motion(backend, found);
     RemovalSums left;
-    backend.finish_motion(left);
+    backend.remove_departed(left);
     run.ledger.book_left(left);
+    return on_any_rank;
   };
 
   // 1. Velocity Verlet moves first, with half a kick by the accelerations of the last step. Its forces are those at the
@@ -49,7 +50,7 @@ Condition take_step(const Scene& scene, Backend& backend, Communicator& ranks, R
   now.moved = verlet || run.step > 0;
   if (verlet) {
     backend.half_kick_and_drift();
-    finish_motion();
+    (void)finish_motion({});
   }
 
   // 2. Cells, sorting, neighbour lists: when a pair that is on no list could touch.
@@ -66,21 +67,21 @@ Condition take_step(const Scene& scene, Backend& backend, Communicator& ranks, R
     backend.apply_forces(now, report);
   }
   run.ledger.book_step(report, scene);
-  if (!verlet) finish_motion();
-  if (const Condition found = ranks.first(report.condition); !found.good()) return found;
+  const Condition found = verlet ? ranks.first(report.condition) : finish_motion(report.condition);
+  if (!found.good()) return found;
 
   // 4. The step is done. Sinks take particles, lives end, emitters give birth.
   const std::int64_t arrival = ++run.step;
   if (!verlet) place_colliders(run, scene, arrival);
   if (!scene.sinks.empty()) {
-    run.ledger.book_sunk(backend.remove_sunk());
+    run.ledger.book_sunk(ranks.remove_sunk(backend));
   }
   if (!scene.emitters.empty()) {
-    const Removal expired = backend.remove(run.emission.end_lives(arrival));
+    const Removal expired = ranks.remove(backend, run.emission.end_lives(arrival));
     run.ledger.book_expired(expired.sums);
     const ParticleSet& newborn =
-        run.emission.give_birth(scene, arrival, run.poses, expired.was_there, backend, run.next_id);
-    run.ledger.book_born(backend.insert(newborn));
+        run.emission.give_birth(scene, arrival, run.poses, expired.was_there, backend, ranks, run.next_id);
+    run.ledger.book_born(ranks.insert(backend, scene, newborn));
   }
   return {};
 }
@@ -89,13 +90,11 @@ Instant place_colliders(RunState& run, const Scene& scene, std::int64_t step) {
   return place_colliders(run.poses, scene, step);
 }
 
-Condition update_neighbours(Backend& backend, Communicator& ranks) {
-  if (!ranks.any(backend.neighbours_stale())) return {};
-  ranks.migrate(backend);
-  return ranks.first(backend.build_neighbours());
+Condition update_neighbours(Backend& backend, Ranks& ranks) {
+  return ranks.neighbours_stale(backend) ? ranks.build_neighbours(backend) : Condition{};
 }
 
-Condition start_particles(const Scene& scene, Backend& backend, Communicator& ranks, RunState& run) {
+Condition start_particles(const Scene& scene, Backend& backend, Ranks& ranks, RunState& run) {
   if (scene.integrator != Integrator::velocity_verlet) return {};
   if (const Condition found = update_neighbours(backend, ranks); !found.good()) return found;
   StepReport report;

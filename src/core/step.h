@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "hooke/core/backend.h"
-#include "hooke/core/communicator.h"
 #include "hooke/core/emission.h"
 #include "hooke/core/ledger_sums.h"
+#include "hooke/core/ranks.h"
 
 namespace hooke {
 
@@ -27,14 +27,14 @@ Instant place_colliders(RunState& run, const Scene& scene, std::int64_t step);
 /// Takes one step, the whole algorithm in its order, or up to `most` at once where the back end can do so and nothing
 /// has to happen in between. Stops at the first stage that finds something wrong: the step is not counted then, and no
 /// further one is possible.
-Condition take_step(const Scene& scene, Backend& backend, Communicator& ranks, RunState& run, std::int64_t most = 1);
+Condition take_step(const Scene& scene, Backend& backend, Ranks& ranks, RunState& run, std::int64_t most = 1);
 
 /// Rebuilds the neighbour list where it is stale. Every step does so; after the last of several steps, it reports at
 /// once what the next step would find wrong with the particles.
-Condition update_neighbours(Backend& backend, Communicator& ranks);
+Condition update_neighbours(Backend& backend, Ranks& ranks);
 
 /// Velocity Verlet: gives all particles the accelerations that the first step begins with. Under symplectic Euler there
 /// is nothing to do.
-Condition start_particles(const Scene& scene, Backend& backend, Communicator& ranks, RunState& run);
+Condition start_particles(const Scene& scene, Backend& backend, Ranks& ranks, RunState& run);
 
 }  // namespace hooke

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "hooke/base/assert.h"
+#include "hooke/base/bytes.h"
 #include "hooke/physics/contact.h"
 
 namespace hooke {
@@ -75,6 +76,21 @@ void ColliderLoadSums::add(const ColliderLoadSums& other) {
   }
 }
 
+void ColliderLoadSums::write(std::vector<std::byte>& to) const {
+  for (const auto& [index, load] : loads_) {
+    append_bytes(to, static_cast<std::uint64_t>(index));
+    append_bytes(to, load);
+  }
+}
+
+void ColliderLoadSums::read(std::span<const std::byte> from) {
+  while (!from.empty()) {
+    std::uint64_t index = 0;
+    take_bytes(from, index);
+    take_bytes(from, loads_[static_cast<std::size_t>(index)]);
+  }
+}
+
 std::vector<ColliderLoad> ColliderLoadSums::result(std::size_t count) const {
   HOOKE_ASSERT(loads_.empty() || loads_.rbegin()->first < count, loads_.rbegin()->first, count);
   std::vector<ColliderLoad> all(count);
@@ -84,98 +100,111 @@ std::vector<ColliderLoad> ColliderLoadSums::result(std::size_t count) const {
 
 void MeasurementSums::add_particle(double mass, const Vec3d& x, const Vec3d& v, const Vec3d& gravity) {
   const double speed = std::sqrt(dot(v, v));
-  mass_.add(mass);
-  kinetic_.add(0.5 * mass * dot(v, v));
-  potential_.add(-mass * dot(gravity, x));
-  momentum_.add(mass * v);
-  mass_moment_.add(mass * x);
-  momentum_scale_.add(mass * speed);
-  max_speed_ = std::max(max_speed_, speed);
-  box_.add(x);
-  ++particles_;
+  totals_.mass.add(mass);
+  totals_.kinetic.add(0.5 * mass * dot(v, v));
+  totals_.potential.add(-mass * dot(gravity, x));
+  totals_.momentum.add(mass * v);
+  totals_.mass_moment.add(mass * x);
+  totals_.momentum_scale.add(mass * speed);
+  totals_.max_speed = std::max(totals_.max_speed, speed);
+  totals_.box.add(x);
+  ++totals_.particles;
 }
 
 void MeasurementSums::add_contact_side(const ContactLaw<double>& law, double overlap, double reach) {
   HOOKE_ASSERT(reach > 0, reach);
-  elastic_.add(0.5 * contact_energy(overlap, law));
+  totals_.elastic.add(0.5 * contact_energy(overlap, law));
   if (!(overlap > 0)) return;
-  ++contact_sides_;
-  overlap_ratio_.add(overlap / reach);
-  max_pair_ratio_ = std::max(max_pair_ratio_, overlap / reach);
+  ++totals_.contact_sides;
+  totals_.overlap_ratio.add(overlap / reach);
+  totals_.max_pair_ratio = std::max(totals_.max_pair_ratio, overlap / reach);
 }
 
 void MeasurementSums::add_wall_contact(const ContactLaw<double>& law, double overlap, double radius,
                                        const Vec3d& force) {
   HOOKE_ASSERT(radius > 0, radius);
-  if (overlap > 0) ++wall_contacts_;
-  max_body_ratio_ = std::max(max_body_ratio_, overlap / radius);
-  wall_elastic_.add(contact_energy(overlap, law));
-  wall_force_.add(force);
+  if (overlap > 0) ++totals_.wall_contacts;
+  totals_.max_body_ratio = std::max(totals_.max_body_ratio, overlap / radius);
+  totals_.wall_elastic.add(contact_energy(overlap, law));
+  totals_.wall_force.add(force);
 }
 
 void MeasurementSums::add_collider_contact(std::size_t index, const Vec3d& point, const ContactLaw<double>& law,
                                            double overlap, double radius, const Vec3d& force) {
   HOOKE_ASSERT(radius > 0, radius);
-  max_body_ratio_ = std::max(max_body_ratio_, overlap / radius);
-  collider_elastic_.add(contact_energy(overlap, law));
+  totals_.max_body_ratio = std::max(totals_.max_body_ratio, overlap / radius);
+  totals_.collider_elastic.add(contact_energy(overlap, law));
   collider_loads_.add_contact(index, point, force);
 }
 
 void MeasurementSums::add_springs(std::uint64_t count, const ExactSum& energy) {
-  springs_ += count;
-  spring_energy_.add(energy);
+  totals_.springs += count;
+  totals_.spring_energy.add(energy);
 }
 
 void MeasurementSums::add(const MeasurementSums& other) {
-  box_.add(other.box_);
-  particles_ += other.particles_;
-  contact_sides_ += other.contact_sides_;
-  wall_contacts_ += other.wall_contacts_;
-  springs_ += other.springs_;
-  mass_.add(other.mass_);
-  kinetic_.add(other.kinetic_);
-  potential_.add(other.potential_);
-  elastic_.add(other.elastic_);
-  wall_elastic_.add(other.wall_elastic_);
-  overlap_ratio_.add(other.overlap_ratio_);
-  momentum_scale_.add(other.momentum_scale_);
-  momentum_.add(other.momentum_);
-  mass_moment_.add(other.mass_moment_);
-  wall_force_.add(other.wall_force_);
-  collider_elastic_.add(other.collider_elastic_);
-  spring_energy_.add(other.spring_energy_);
-  attraction_energy_.add(other.attraction_energy_);
+  totals_.box.add(other.totals_.box);
+  totals_.particles += other.totals_.particles;
+  totals_.contact_sides += other.totals_.contact_sides;
+  totals_.wall_contacts += other.totals_.wall_contacts;
+  totals_.springs += other.totals_.springs;
+  totals_.mass.add(other.totals_.mass);
+  totals_.kinetic.add(other.totals_.kinetic);
+  totals_.potential.add(other.totals_.potential);
+  totals_.elastic.add(other.totals_.elastic);
+  totals_.wall_elastic.add(other.totals_.wall_elastic);
+  totals_.overlap_ratio.add(other.totals_.overlap_ratio);
+  totals_.momentum_scale.add(other.totals_.momentum_scale);
+  totals_.momentum.add(other.totals_.momentum);
+  totals_.mass_moment.add(other.totals_.mass_moment);
+  totals_.wall_force.add(other.totals_.wall_force);
+  totals_.collider_elastic.add(other.totals_.collider_elastic);
+  totals_.spring_energy.add(other.totals_.spring_energy);
+  totals_.attraction_energy.add(other.totals_.attraction_energy);
   collider_loads_.add(other.collider_loads_);
-  max_speed_ = std::max(max_speed_, other.max_speed_);
-  max_pair_ratio_ = std::max(max_pair_ratio_, other.max_pair_ratio_);
-  max_body_ratio_ = std::max(max_body_ratio_, other.max_body_ratio_);
+  totals_.max_speed = std::max(totals_.max_speed, other.totals_.max_speed);
+  totals_.max_pair_ratio = std::max(totals_.max_pair_ratio, other.totals_.max_pair_ratio);
+  totals_.max_body_ratio = std::max(totals_.max_body_ratio, other.totals_.max_body_ratio);
+}
+
+void MeasurementSums::write(std::vector<std::byte>& to) const {
+  append_bytes(to, totals_);
+  collider_loads_.write(to);
+}
+
+void MeasurementSums::add(std::span<const std::byte> from) {
+  MeasurementSums other;
+  take_bytes(from, other.totals_);
+  other.collider_loads_.read(from);
+  add(other);
 }
 
 Measurements MeasurementSums::result(std::size_t colliders) const {
   Measurements m;
-  m.particles = particles_;
-  m.contacts = contact_sides_ / 2;
-  m.wall_contacts = wall_contacts_;
-  m.kinetic_energy = kinetic_.value();
-  m.potential_energy = potential_.value();
-  m.elastic_energy = elastic_.value();
-  m.wall_elastic_energy = wall_elastic_.value();
-  m.momentum = momentum_.value();
-  if (particles_ > 0) m.centre_of_mass = (1 / mass_.value()) * mass_moment_.value();
-  m.momentum_scale = momentum_scale_.value();
-  m.max_speed = max_speed_;
-  m.max_overlap_ratio = std::max(max_pair_ratio_, max_body_ratio_);
-  m.max_pair_overlap_ratio = max_pair_ratio_;
-  if (contact_sides_ > 0) m.mean_overlap_ratio = overlap_ratio_.value() / static_cast<double>(contact_sides_);
-  if (particles_ > 0) {
-    m.min = box_.min;
-    m.max = box_.max;
+  m.particles = totals_.particles;
+  m.contacts = totals_.contact_sides / 2;
+  m.wall_contacts = totals_.wall_contacts;
+  m.kinetic_energy = totals_.kinetic.value();
+  m.potential_energy = totals_.potential.value();
+  m.elastic_energy = totals_.elastic.value();
+  m.wall_elastic_energy = totals_.wall_elastic.value();
+  m.momentum = totals_.momentum.value();
+  if (totals_.particles > 0) m.centre_of_mass = (1 / totals_.mass.value()) * totals_.mass_moment.value();
+  m.momentum_scale = totals_.momentum_scale.value();
+  m.max_speed = totals_.max_speed;
+  m.max_overlap_ratio = std::max(totals_.max_pair_ratio, totals_.max_body_ratio);
+  m.max_pair_overlap_ratio = totals_.max_pair_ratio;
+  if (totals_.contact_sides > 0)
+    m.mean_overlap_ratio = totals_.overlap_ratio.value() / static_cast<double>(totals_.contact_sides);
+  if (totals_.particles > 0) {
+    m.min = totals_.box.min;
+    m.max = totals_.box.max;
   }
-  m.wall_force = wall_force_.value();
-  m.collider_elastic_energy = collider_elastic_.value();
-  m.springs = springs_;
-  m.spring_energy = spring_energy_.value();
-  m.attraction_energy = attraction_energy_.value();
+  m.wall_force = totals_.wall_force.value();
+  m.collider_elastic_energy = totals_.collider_elastic.value();
+  m.springs = totals_.springs;
+  m.spring_energy = totals_.spring_energy.value();
+  m.attraction_energy = totals_.attraction_energy.value();
   m.colliders = collider_loads_.result(colliders);
   return m;
 }

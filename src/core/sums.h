@@ -3,8 +3,11 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "hooke/base/assert.h"
@@ -115,6 +118,10 @@ class ColliderLoadSums {
   /// One entry for each of `count` colliders, which is above all indices that were added.
   std::vector<ColliderLoad> result(std::size_t count) const;
 
+  /// Appends it as bytes, and reads these back, to the last one.
+  void write(std::vector<std::byte>& to) const;
+  void read(std::span<const std::byte> from);
+
  private:
   struct Load {
     ExactVectorSum force, torque;
@@ -139,19 +146,26 @@ class MeasurementSums {
   /// `count` springs of the scene's structure that hold, with this energy, J, in them.
   void add_springs(std::uint64_t count, const ExactSum& energy);
   /// Energy of particles in the attraction of all others, J.
-  void add_attraction(double energy) { attraction_energy_.add(energy); }
+  void add_attraction(double energy) { totals_.attraction_energy.add(energy); }
+  void add_attraction(const ExactSum& energy) { totals_.attraction_energy.add(energy); }
   void add(const MeasurementSums& other);
+  /// Appends it as bytes, for another rank to add.
+  void write(std::vector<std::byte>& to) const;
+  void add(std::span<const std::byte> from);
   /// `colliders`: how many the scene has.
   Measurements result(std::size_t colliders) const;
 
  private:
-  std::uint64_t particles_ = 0, contact_sides_ = 0, wall_contacts_ = 0, springs_ = 0;
-  ExactSum mass_, kinetic_, potential_, elastic_, wall_elastic_, overlap_ratio_, momentum_scale_;
-  ExactVectorSum momentum_, mass_moment_, wall_force_;
-  ExactSum collider_elastic_, spring_energy_, attraction_energy_;
+  struct Totals {
+    std::uint64_t particles = 0, contact_sides = 0, wall_contacts = 0, springs = 0;
+    ExactSum mass, kinetic, potential, elastic, wall_elastic, overlap_ratio, momentum_scale;
+    ExactVectorSum momentum, mass_moment, wall_force;
+    ExactSum collider_elastic, spring_energy, attraction_energy;
+    double max_speed = 0, max_pair_ratio = 0, max_body_ratio = 0;
+    Box3d box = Box3d::none();  // around the centres, m
+  };
+  Totals totals_;
   ColliderLoadSums collider_loads_;
-  double max_speed_ = 0, max_pair_ratio_ = 0, max_body_ratio_ = 0;
-  Box3d box_ = Box3d::none();  // around the centres, m
 };
 
 }  // namespace hooke

@@ -223,13 +223,24 @@ hid_t file_type<std::uint8_t>() {
   return H5T_STD_U8LE;
 }
 
+namespace {
+
+/// Properties of what is created: no times of day, so that equal runs write equal files.
+Handle without_times(hid_t kind) {
+  Handle properties(H5Pcreate(kind));
+  H5Pset_obj_track_times(properties.get(), false);
+  return properties;
+}
+
+}  // namespace
+
 Column Column::create(hid_t parent, const char* name, hid_t type, hsize_t width, hsize_t chunk_rows, bool compressed) {
   HOOKE_ASSERT(width > 0 && chunk_rows > 0, name, width, chunk_rows);
   const int rank = width == 1 ? 1 : 2;
   const hsize_t size[2] = {0, width};
   const hsize_t most[2] = {H5S_UNLIMITED, width};
   const hsize_t chunk[2] = {chunk_rows, width};
-  const Handle properties(H5Pcreate(H5P_DATASET_CREATE));
+  const Handle properties = without_times(H5P_DATASET_CREATE);
   H5Pset_chunk(properties.get(), rank, chunk);
   if (compressed) {
     H5Pset_shuffle(properties.get());
@@ -338,7 +349,7 @@ template hsize_t Column::append_chunks(const float*, hsize_t);
 template hsize_t Column::append_chunks(const double*, hsize_t);
 
 Handle create_group(hid_t parent, const char* name) {
-  return Handle(check(H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), parent,
+  return Handle(check(H5Gcreate2(parent, name, H5P_DEFAULT, without_times(H5P_GROUP_CREATE).get(), H5P_DEFAULT), parent,
                       std::string("can't make ") + name));
 }
 
@@ -408,7 +419,8 @@ void write_text(hid_t parent, const char* name, const std::string& text) {
   H5Tset_cset(type.get(), H5T_CSET_UTF8);
   H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
   const Handle space(H5Screate(H5S_SCALAR));
-  const Handle dataset(H5Dcreate2(parent, name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  const Handle properties = without_times(H5P_DATASET_CREATE);
+  const Handle dataset(H5Dcreate2(parent, name, type.get(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT));
   const bool good =
       dataset.get() >= 0 && H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) >= 0;
   if (!good) fail_at(parent, std::string("can't make ") + name);
@@ -437,7 +449,9 @@ template <class T>
 void write_array(hid_t parent, const char* name, const T* values, hsize_t rows, hsize_t width) {
   const hsize_t size[2] = {rows, width};
   const Handle space(H5Screate_simple(width == 1 ? 1 : 2, size, nullptr));
-  const Handle dataset(H5Dcreate2(parent, name, file_type<T>(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  const Handle properties = without_times(H5P_DATASET_CREATE);
+  const Handle dataset(
+      H5Dcreate2(parent, name, file_type<T>(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT));
   if (dataset.get() < 0 ||
       (rows > 0 && H5Dwrite(dataset.get(), memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)) {
     fail_at(parent, std::string("can't make ") + name);

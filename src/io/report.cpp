@@ -3,11 +3,12 @@
 #include "hooke/io/report.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
-#include <fstream>
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
+#include "hooke/base/process_usage.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/output_file.h"
 #include "hooke/io/snapshot.h"
@@ -73,6 +74,29 @@ RunReport make_report(const Simulation& simulation, const Measurements& measurem
   return report;
 }
 
+namespace {
+
+nlohmann::ordered_json costs_of(const RankCosts& c, std::int64_t steps) {
+  const auto each = [&](const RankFigure& figure, double per) {
+    return nlohmann::ordered_json{{"mean", figure.sum / c.ranks / per}, {"most", figure.most / per}};
+  };
+  const auto per_step = static_cast<double>(std::max<std::int64_t>(steps, 1));
+  const auto per_exchange = static_cast<double>(std::max<std::uint64_t>(c.exchanges, 1));
+  nlohmann::ordered_json json;
+  json["processor_seconds"] = each(c.processor, 1);
+  json["waiting_seconds"] = each(c.waiting, 1);
+  json["peak_bytes"] = each(c.peak_bytes, 1);
+  json["particles"] = each(c.particles, 1);
+  json["ghosts"] = each(c.ghosts, per_exchange);
+  json["messages_per_step"] = each(c.messages, per_step);
+  json["bytes_per_step"] = each(c.bytes, per_step);
+  json["exchanges"] = c.exchanges;
+  json["cuts"] = c.cuts;
+  return json;
+}
+
+}  // namespace
+
 std::string to_json(const RunReport& r) {
   const Measurements& m = r.measurements;
   nlohmann::ordered_json json;
@@ -90,6 +114,7 @@ std::string to_json(const RunReport& r) {
   json["wall_contacts"] = m.wall_contacts;
   json["slots_per_particle"] = r.neighbours.slots_per_particle;
   json["neighbour_rebuilds"] = r.neighbours.rebuilds;
+  json["ranks"] = r.ranks;
   json["threads"] = r.threads;
   json["device"] = r.device;
   json["isa"] = r.isa;
@@ -142,6 +167,7 @@ std::string to_json(const RunReport& r) {
   json["sunk"] = r.ledger.population.sunk;
   json["springs"] = m.springs;
   json["broken_springs"] = r.ledger.springs.broken;
+  if (r.costs) json["costs"] = costs_of(*r.costs, r.steps);
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }
 
@@ -153,16 +179,6 @@ Expected<void> write_text_file(const std::filesystem::path& file, const std::str
   });
 }
 
-std::uint64_t peak_resident_bytes() {
-  std::ifstream status("/proc/self/status");
-  std::string word;
-  while (status >> word) {
-    std::uint64_t kibibytes = 0;
-    if (word == "VmHWM:" && status >> kibibytes) return kibibytes * 1024;
-  }
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
-}
+std::uint64_t peak_resident_bytes() { return hooke::peak_resident_bytes(); }
 
 }  // namespace hooke::io

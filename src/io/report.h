@@ -24,7 +24,8 @@ struct RunReport {
   double seconds = 0;             ///< wall time of those steps
   std::string device, isa;
   Precision precision = Precision::double_precision;
-  int threads = 1;
+  int ranks = 1;    ///< that computed it together
+  int threads = 1;  ///< of all ranks
   std::uint64_t peak_bytes = 0;   ///< largest resident memory so far
   std::uint64_t program_bytes = 0;  ///< the part in use before the scene was read: program and libraries; 0 if unknown
   std::uint64_t state_hash = 0;
@@ -36,6 +37,7 @@ struct RunReport {
   double momentum_drift = 0;  ///< not explained by gravity, walls, colliders, drag and departures, relative
   NeighbourStatistics neighbours;
   StageTimes stages;  ///< of those steps
+  std::optional<RankCosts> costs;  ///< of the ranks, in those steps, where that is told
   std::optional<double> walls;  ///< s, the walls' part of stages.force, where it was measured
 
   double steps_per_second() const { return seconds > 0 ? static_cast<double>(steps) / seconds : 0; }
@@ -46,8 +48,8 @@ struct RunReport {
   double energy_balance() const;  ///< change of energy that the ledger does not explain, J
 };
 
-/// Fills all fields but `walls`, `steps` and `seconds`, which the caller has timed. `stages` are those of all steps of
-/// `simulation`.
+/// Fills all fields but `walls`, `steps` and `seconds`, which the caller has timed. Ranks and threads are one rank's.
+/// `stages` are those of all steps of `simulation`.
 RunReport make_report(const Simulation& simulation, const Measurements& measurements);
 
 /// One JSON object, indented, with a line feed at the end. Numbers that are not finite become null. "stages" holds

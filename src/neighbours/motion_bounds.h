@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "hooke/base/box3.h"
 #include "hooke/base/parallel.h"
 #include "hooke/base/vec3.h"
 #include "hooke/neighbours/cell_grid.h"
@@ -80,6 +81,15 @@ class MotionBounds {
   /// How far the reference frames around a window may be from its own reference frame after `steps` steps, m.
   double frames_apart(const Frame& frame, Real steps) const {
     return skin_ - 2 * static_cast<double>(frame.buffer - steps * frame.buffer_loss);
+  }
+
+  /// The box around the displacements of all reference frames after `steps` steps, m; Box3d::none() without any.
+  Box3d frame_displacements(double steps) const {
+    if (anywhere_.empty()) return Box3d::none();
+    const auto edge = [&](std::size_t axis) {
+      return static_cast<double>(anywhere_.edge[axis]) + steps * static_cast<double>(anywhere_.edge[axis + 3]);
+    };
+    return {{-edge(0), -edge(1), -edge(2)}, {edge(6), edge(7), edge(8)}};
   }
 
   /// The middle of all reference frames after `steps` steps, m, and the largest distance of an reference frame from it.

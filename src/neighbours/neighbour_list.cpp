@@ -17,8 +17,10 @@ template <class Real>
 class WindowSearcher {
  public:
   // Finds the neighbours given by `rule` of points in the order of `cells`.
-  WindowSearcher(const CellList& cells, const NeighbourRule<Real>& rule, WindowSearchFunction<Real> search)
+  WindowSearcher(const CellList& cells, const GhostPoints& ghosts, const NeighbourRule<Real>& rule,
+                 WindowSearchFunction<Real> search)
       : cells_(cells),
+        ghosts_(ghosts),
         rule_(rule),
         search_(search) {
     for (std::size_t level = 0; level < cells.level_count(); ++level) {
@@ -92,7 +94,16 @@ class WindowSearcher {
     std::size_t points = 0;
     for (std::size_t other = 0; other < levels_.size(); ++other) {
       const Vec3d reach{level.reach[other], level.reach[other], level.reach[other]};
-      points += cells_.find(other, vec_cast<double>(min) - reach, vec_cast<double>(max) + reach, ranges_);
+      const Box3d around{vec_cast<double>(min) - reach, vec_cast<double>(max) + reach};
+      points += cells_.find(other, around.min, around.max, ranges_);
+      if (ghosts_.cells == nullptr || (ghosts_.without.contains(around.min) && ghosts_.without.contains(around.max)))
+        continue;
+      const std::size_t first_range = ranges_.size();
+      points += ghosts_.cells->find(other, around.min, around.max, ranges_);
+      for (std::size_t k = first_range; k < ranges_.size(); ++k) {
+        ranges_[k].from += static_cast<std::uint32_t>(ghosts_.first);
+        ranges_[k].to += static_cast<std::uint32_t>(ghosts_.first);
+      }
     }
     block.range_count = static_cast<std::uint32_t>(ranges_.size() - before);
     return points;
@@ -132,6 +143,7 @@ class WindowSearcher {
   }
 
   const CellList& cells_;
+  const GhostPoints& ghosts_;
   const NeighbourRule<Real>& rule_;
   const WindowSearchFunction<Real> search_;
   std::vector<Level> levels_;
@@ -220,7 +232,7 @@ NeighbourList::Tile NeighbourList::Writer::finish_tile() {
 
 template <class Real>
 void build_neighbour_list(const CellList& cells, const NeighbourRule<Real>& rule,
-                          WindowSearchFunction<Real> search_window, NeighbourList& list) {
+                          WindowSearchFunction<Real> search_window, NeighbourList& list, const GhostPoints& ghosts) {
   HOOKE_ASSERT(search_window != nullptr);
   HOOKE_ASSERT(
       cells.point_count() == 0 || (rule.at.x != nullptr && rule.id_index != nullptr && rule.slot_in_window != nullptr),
@@ -229,7 +241,7 @@ void build_neighbour_list(const CellList& cells, const NeighbourRule<Real>& rule
   list.clear((count + NeighbourList::kTile - 1) / NeighbourList::kTile);
 
   parallel_ranges(list.tiles.size(), 1, [&](std::size_t first_tile, std::size_t last_tile) {
-    WindowSearcher<Real> searcher(cells, rule, search_window);
+    WindowSearcher<Real> searcher(cells, ghosts, rule, search_window);
     NeighbourList::Writer writer(list);
     for (std::size_t s = first_tile; s < last_tile; ++s) {
       const std::size_t end = std::min((s + 1) * NeighbourList::kTile, count);
@@ -242,8 +254,10 @@ void build_neighbour_list(const CellList& cells, const NeighbourRule<Real>& rule
 }
 
 template void build_neighbour_list(const CellList& cells, const NeighbourRule<float>& rule,
-                                   WindowSearchFunction<float> search_window, NeighbourList& list);
+                                   WindowSearchFunction<float> search_window, NeighbourList& list,
+                                   const GhostPoints& ghosts);
 template void build_neighbour_list(const CellList& cells, const NeighbourRule<double>& rule,
-                                   WindowSearchFunction<double> search_window, NeighbourList& list);
+                                   WindowSearchFunction<double> search_window, NeighbourList& list,
+                                   const GhostPoints& ghosts);
 
 }  // namespace hooke

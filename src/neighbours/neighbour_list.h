@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "hooke/base/assert.h"
+#include "hooke/base/box3.h"
 #include "hooke/base/huge_pages.h"
 #include "hooke/neighbours/cell_list.h"
 #include "hooke/neighbours/window_search.h"
@@ -97,9 +98,18 @@ class NeighbourList {
   std::vector<std::span<std::uint32_t>> begun_;
 };
 
+/// Points that are listed as neighbours only: those from `first` on in the columns of a rule, in the order of cells of
+/// their own. Searches inside of `without` (m) leave them out.
+struct GhostPoints {
+  const CellList* cells = nullptr;  // null: there are none
+  std::size_t first = 0;
+  Box3d without = Box3d::none();
+};
+
 /// Rebuilds `list` for the sorted points, whose columns `rule` holds.
 template <class Real>
 void build_neighbour_list(const CellList& cells, const NeighbourRule<Real>& rule,
-                          WindowSearchFunction<Real> search_window, NeighbourList& list);
+                          WindowSearchFunction<Real> search_window, NeighbourList& list,
+                          const GhostPoints& ghosts = {});
 
 }  // namespace hooke

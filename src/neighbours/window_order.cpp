@@ -6,12 +6,16 @@
 #include <algorithm>
 #include <array>
 
+#include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
 
 namespace hooke {
 
+namespace {
+constexpr std::size_t kReadable = 16;  // places after the last
+}
+
 void WindowOrder::lay_out(std::span<std::uint32_t> order) {
-  constexpr std::size_t kReadable = 16;
   places_.resize(order.size() + kReadable);
   parallel_ranges(order.size(), 16 * kWindow, [&](std::size_t first, std::size_t last) {
     for (std::size_t start = first; start < last; start += kWindow) {
@@ -19,6 +23,12 @@ void WindowOrder::lay_out(std::span<std::uint32_t> order) {
     }
   });
   neighbour_counts_.resize(order.size());
+}
+
+void WindowOrder::add_in_order(std::size_t first, std::size_t end) {
+  HOOKE_ASSERT(first % kWindow == 0 && first <= end, first, end);
+  places_.resize(end + kReadable);
+  for (std::size_t p = first; p < end; ++p) places_[p] = static_cast<std::uint8_t>(p % kWindow);
 }
 
 // Counting sort, stable.

@@ -20,6 +20,10 @@ class WindowOrder {
   /// of the point now in slot s. A point without a known number of neighbours counts as having none.
   void lay_out(std::span<std::uint32_t> order);
 
+  /// Points `first`, a whole window, to `end` - 1 lie in memory in their order; those before that were not laid out are
+  /// not to be asked for. After lay_out().
+  void add_in_order(std::size_t first, std::size_t end);
+
   /// The slot of the p-th point in cell order, for points that were laid out.
   std::size_t slot_of(std::size_t p) const { return p / kWindow * kWindow + places_[p]; }
   /// The slot within its window of each point in cell order; 16 more can be read.

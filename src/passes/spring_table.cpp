@@ -42,6 +42,7 @@ std::vector<std::uint64_t> SpringTable<Real>::broken_springs() const {
 template <class Real>
 void SpringTable<Real>::bind(const IdTable& ids) {
   if (empty()) return;
+  ids_ = ids;
   const SpringSet& springs = structure_->springs;
   first_side_.assign(ids.size() + 1, 0);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> apart;
@@ -125,6 +126,17 @@ bool SpringTable<Real>::tear(std::uint32_t spring, std::uint32_t a, std::uint32_
   if (structure_->springs.contact[spring] != 0) return false;
   exclusions_.release(a, b);
   return true;
+}
+
+template <class Real>
+void SpringTable<Real>::tear(std::uint32_t spring) {
+  if (broken_[spring] != 0) return;
+  const std::size_t a = ids_.find(structure_->springs.a[spring]), b = ids_.find(structure_->springs.b[spring]);
+  if (a < ids_.size() && b < ids_.size()) {
+    tear(spring, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+  } else {
+    broken_[spring] = 1;
+  }
 }
 
 template class SpringTable<float>;

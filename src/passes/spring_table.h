@@ -47,6 +47,9 @@ class SpringTable {
   /// on.
   bool tear(std::uint32_t spring, std::uint32_t a, std::uint32_t b);
 
+  /// The same for a spring that has torn elsewhere; nothing where it is broken already.
+  void tear(std::uint32_t spring);
+
   /// The energy of a spring between two records, J.
   double energy_of(std::uint32_t spring, const ParticleRecord<Real>& i, const ParticleRecord<Real>& p) const;
 
@@ -74,6 +77,7 @@ class SpringTable {
   void take(const std::shared_ptr<const Structure>& structure);
 
   std::shared_ptr<const Structure> structure_;
+  IdTable ids_;  // of the last bind()
   Vec3<Real> period_{};  // m
   std::vector<SpringKind<Real>> kinds_;
   bool is_tearable_ = false;

@@ -29,6 +29,10 @@ std::string clock_time(double seconds) {
                    : fmt::format("{}:{:02}", minutes, whole % 60);
 }
 
+std::string ranks_and_threads(int ranks, int threads) {
+  return ranks == 1 ? fmt::format("{} threads", threads) : fmt::format("{} ranks, {} threads", ranks, threads);
+}
+
 std::int64_t next_batch(std::int64_t steps, double seconds, double most_seconds) {
   const double a_step = std::max(seconds / static_cast<double>(steps), 1e-9);
   return static_cast<std::int64_t>(std::clamp(most_seconds / a_step, 1.0, 2 * static_cast<double>(steps)));

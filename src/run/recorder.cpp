@@ -192,6 +192,9 @@ Expected<io::RunReport> Recorder::finish() {
   const auto measurements = run.simulation.measure();
   if (!measurements) return fail(measurements.error());
   io::RunReport report = io::make_report(run.simulation, *measurements);
+  report.ranks = run.opened.ranks;
+  report.threads = run.opened.threads;
+  if (report.ranks > 1) report.costs = run.simulation.rank_costs();
   report.steps = run.simulation.step_count() - run.first;
   report.seconds = run.stepping_seconds;
   if (auto written = run.writer.write_report(report); !written) return fail(std::move(written).error());

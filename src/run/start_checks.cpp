@@ -48,6 +48,18 @@ std::string coarse_positions(const Simulation& simulation) {
       radii, kFinest);
 }
 
+std::string small_ranks(const OpenedSimulation& opened) {
+  // Below it a rank has a fifth as many ghosts as particles, and more (docs/cluster.md).
+  constexpr std::uint64_t kFewest = 20'000;
+  if (opened.ranks == 1 || !opened.simulation.scene().emitters.empty()) return {};
+  const std::uint64_t each = opened.simulation.particle_count() / static_cast<std::uint64_t>(opened.ranks);
+  if (each >= kFewest) return {};
+  return fmt::format(
+      "{} ranks have {} particles each, below {} each they do little but exchange ghosts: fewer ranks, or threads in "
+      "place of ranks, are faster",
+      opened.ranks, with_commas(each), with_commas(kFewest));
+}
+
 std::string soft_particles(const Simulation& simulation, const Measurements& now) {
   constexpr double kSoft = 0.05;
   if (now.contacts == 0 || now.mean_overlap_ratio <= kSoft) return {};

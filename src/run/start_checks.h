@@ -7,6 +7,7 @@
 
 #include "hooke/base/expected.h"
 #include "hooke/core/simulation.h"
+#include "hooke/run/open_simulation.h"
 
 namespace hooke::run {
 
@@ -33,5 +34,9 @@ std::string soft_particles(const Simulation& simulation, const Measurements& now
 
 /// A sentence about a domain too large for the single precision in use; empty if it is not too large.
 std::string coarse_positions(const Simulation& simulation);
+
+/// A sentence about ranks of too few particles to be worth it; empty where they have enough or more
+/// are to be born, and for one alone.
+std::string small_ranks(const OpenedSimulation& opened);
 
 }  // namespace hooke::run

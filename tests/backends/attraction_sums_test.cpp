@@ -61,14 +61,16 @@ template <class Real>
 std::vector<Vec3<Real>> pulls(std::vector<AttractionPoint<Real>> points, const Way& run) {
   std::vector<Vec3<Real>> a(points.size());
   auto sums = sums_of<Real>(run);
-  Threads(run.threads).run([&] { sums.accelerations(points, IdTable(ids_for(points.size())), a.data()); });
+  Threads(run.threads).run([&] {
+    sums.accelerations(points, points.size(), IdTable(ids_for(points.size())), a.data());
+  });
   return a;
 }
 
 template <class Real>
 std::vector<double> potentials(std::vector<AttractionPoint<Real>> points, const Way& run) {
   std::vector<double> potential(points.size());
-  sums_of<Real>(run).potentials(points, IdTable(ids_for(points.size())), potential.data());
+  sums_of<Real>(run).potentials(points, points.size(), IdTable(ids_for(points.size())), potential.data());
   return potential;
 }
 

@@ -13,6 +13,7 @@
 #include "hooke/backends/cpu/isa.h"
 #include "support/engines.h"
 #include "support/particles.h"
+#include "support/ranks.h"
 
 namespace hooke::test {
 namespace {
@@ -71,6 +72,18 @@ TEST_P(AttractingBalls, HaveTheSameBitsEverywhere) {
     Simulation other = simulate(scene_, particles_, engine);
     ASSERT_TRUE(advance(other, 60));
     expect_same_bits(right, other);
+  }
+}
+
+TEST_P(AttractingBalls, HaveTheSameBitsOnAnyNumberOfRanks) {
+  Simulation one = simulate(scene_, particles_, engine(1));
+  ASSERT_TRUE(advance(one, 60));
+  for (const int ranks : {2, 5}) {
+    SCOPED_TRACE(ranks);
+    on_ranks(ranks, scene_, particles_, engine(1), [&](Simulation& many) {
+      ASSERT_TRUE(advance(many, 60));
+      expect_same_bits(one, many);
+    });
   }
 }
 

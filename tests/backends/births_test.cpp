@@ -11,6 +11,7 @@
 #include "busy_scenes.h"
 #include "hooke/backends/cpu/isa.h"
 #include "hooke/core/contacts.h"
+#include "support/ranks.h"
 
 namespace hooke::test {
 namespace {
@@ -105,6 +106,27 @@ TEST_P(Births, AreTheSameForAnyThreadsInstructionsAndDevices) {
     Simulation other = simulate(scene_, particles_, engine);
     ASSERT_TRUE(advance(other, 100));
     expect_same_bits(one, other);
+  }
+}
+
+TEST_P(Births, AreTheSameOnAnyNumberOfRanks) {
+  Simulation one = simulate(scene_, particles_, engine(1));
+  ASSERT_TRUE(advance(one, 100));
+  for (const int ranks : {2, 3, 6}) {
+    SCOPED_TRACE(ranks);
+    SimulationState saved;
+    on_ranks(ranks, scene_, particles_, engine(1), [&](Simulation& many) {
+      ASSERT_TRUE(advance(many, 43));
+      saved = many.state();
+      ASSERT_TRUE(advance(many, 57));
+      expect_same_bits(one, many);
+      EXPECT_EQ(many.state().emission, one.state().emission);
+      EXPECT_EQ(many.neighbour_statistics().missed_contacts, 0U);
+    });
+    resume_on_ranks(5 - ranks / 2, scene_, saved, engine(1), [&](Simulation& resumed) {
+      ASSERT_TRUE(advance(resumed, 57));
+      expect_same_bits(one, resumed);
+    });
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "busy_scenes.h"
 #include "hooke/backends/cpu/isa.h"
+#include "support/ranks.h"
 
 namespace hooke::test {
 namespace {
@@ -94,6 +95,18 @@ TEST_P(BusyFields, HaveTheSameBitsForAnyNumberOfThreadsInstructionSetAndDevice) 
     Simulation other = simulate(scene_, particles_, engine);
     ASSERT_TRUE(advance(other, kSteps));
     expect_same_bits(one, other);
+  }
+}
+
+TEST_P(BusyFields, HaveTheSameBitsOnAnyNumberOfRanks) {
+  Simulation one = simulate(scene_, particles_, engine(1));
+  ASSERT_TRUE(advance(one, kSteps));
+  for (const int ranks : {2, 5}) {
+    SCOPED_TRACE(ranks);
+    on_ranks(ranks, scene_, particles_, engine(1), [&](Simulation& many) {
+      ASSERT_TRUE(advance(many, kSteps));
+      expect_same_bits(one, many);
+    });
   }
 }
 

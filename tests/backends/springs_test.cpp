@@ -12,6 +12,7 @@
 
 #include "busy_scenes.h"
 #include "hooke/backends/cpu/isa.h"
+#include "support/ranks.h"
 
 namespace hooke::test {
 namespace {
@@ -107,6 +108,25 @@ TEST_P(Springs, HaveTheSameBitsForAnyNumberOfThreadsInstructionSetAndDevice) {
     Simulation other = simulate(scene_, particles_, engine);
     ASSERT_TRUE(advance(other, kSteps));
     expect_same_springs(one, other);
+  }
+}
+
+TEST_P(Springs, AreTheSameOnAnyNumberOfRanks) {
+  Simulation one = simulate(scene_, particles_, engine(1));
+  ASSERT_TRUE(advance(one, kSteps));
+  for (const int ranks : {2, 3, 6}) {
+    SCOPED_TRACE(ranks);
+    SimulationState saved;
+    on_ranks(ranks, scene_, particles_, engine(1), [&](Simulation& many) {
+      ASSERT_TRUE(advance(many, kSteps / 2));
+      saved = many.state();
+      ASSERT_TRUE(advance(many, kSteps - kSteps / 2));
+      expect_same_springs(one, many);
+    });
+    resume_on_ranks(7 - ranks, scene_, saved, engine(1), [&](Simulation& many) {
+      ASSERT_TRUE(advance(many, kSteps - kSteps / 2));
+      expect_same_springs(one, many);
+    });
   }
 }
 

@@ -36,12 +36,12 @@ std::string program_file() { return HOOKE_PROGRAM; }
 std::string faults_library() { return HOOKE_FAULTS; }
 
 Program::Program(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
-                 std::uint64_t file_size_limit, const std::vector<std::string>& environment) {
+                 std::uint64_t file_size_limit, const std::vector<std::string>& environment,
+                 const std::string& program) {
   static std::atomic<int> count{0};
   const std::string name = "call" + std::to_string(count++);
   out_ = folder / (name + ".out");
   err_ = folder / (name + ".err");
-  const std::string program = program_file();
   std::vector<const char*> argv{program.c_str()};
   for (const std::string& argument : arguments) argv.push_back(argument.c_str());
   argv.push_back(nullptr);
@@ -68,6 +68,15 @@ Outcome Program::wait() {
 }
 
 void Program::send(int signal) const { kill(-pid_, signal); }
+void Program::send_to_itself(int signal) const { kill(pid_, signal); }
+
+std::vector<pid_t> Program::children() const {
+  const std::string id = std::to_string(pid_);
+  std::ifstream list("/proc/" + id + "/task/" + id + "/children");
+  std::vector<pid_t> all;
+  for (pid_t child = 0; list >> child;) all.push_back(child);
+  return all;
+}
 
 ProgramTest::ProgramTest() {
   std::string pattern = (std::filesystem::temp_directory_path() / "hooke_cli_XXXXXX").string();
@@ -87,6 +96,10 @@ std::string ProgramTest::read(const std::string& name) const { return slurp(path
 
 Program ProgramTest::start(const std::vector<std::string>& arguments, std::uint64_t file_size_limit) const {
   return {folder_, arguments, file_size_limit};
+}
+
+Program ProgramTest::start_other(const std::string& program, const std::vector<std::string>& arguments) const {
+  return {folder_, arguments, 0, {}, program};
 }
 
 Outcome ProgramTest::hooke(const std::vector<std::string>& arguments, std::uint64_t file_size_limit) const {

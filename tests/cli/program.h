@@ -27,15 +27,20 @@ struct Outcome {
 /// A library that lets calls of the operating system fail: faults.cpp.
 std::string faults_library();
 
-/// A running call of the program, in `folder`; its output goes to files there. `environment`: NAME=VALUE, besides what
-/// the tests have.
+/// A running call of the program, or of another one, in `folder`; its output goes to files there. `environment`:
+/// NAME=VALUE, besides what the tests have.
 class Program {
  public:
   Program(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
-          std::uint64_t file_size_limit = 0, const std::vector<std::string>& environment = {});
+          std::uint64_t file_size_limit = 0, const std::vector<std::string>& environment = {},
+          const std::string& program = program_file());
   Outcome wait();
   /// Sends a signal to the program's process group, as a terminal does.
   void send(int signal) const;
+  /// Sends it to the program alone.
+  void send_to_itself(int signal) const;
+  /// The programs that it has started, in that order.
+  std::vector<pid_t> children() const;
 
  private:
   std::filesystem::path out_, err_;
@@ -56,6 +61,8 @@ class ProgramTest : public testing::Test {
   Program start(const std::vector<std::string>& arguments, std::uint64_t file_size_limit = 0) const;
   Outcome hooke(const std::vector<std::string>& arguments, std::uint64_t file_size_limit = 0) const;
   Outcome hooke(const std::vector<std::string>& arguments, const std::vector<std::string>& environment) const;
+  /// Another program, in the same folder.
+  Program start_other(const std::string& program, const std::vector<std::string>& arguments) const;
   /// Expects status 0; returns the output.
   std::string hooke_ok(const std::vector<std::string>& arguments) const;
   /// All snapshots of a run as CSV.

@@ -3,9 +3,11 @@
 
 #include <gmock/gmock.h>
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "program.h"
 
@@ -53,6 +55,15 @@ TEST_F(RunCommand, ReportHoldsTheFields) {
   EXPECT_EQ(report.at("steps"), 60);
   EXPECT_EQ(report.at("state_hash").get<std::string>().size(), 16U);
   EXPECT_EQ(report.at("state_hash"), state_hash("s"));
+}
+
+// No time of day is in them.
+TEST_F(RunCommand, EqualRunsWriteEqualFiles) {
+  hooke_ok({"run", "s.json", "-o", "a"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  hooke_ok({"run", "s.json", "-o", "b"});
+  for (const std::string file : {"scene.json", "particles.vtkhdf", "series.csv", "checkpoint.h5"})
+    EXPECT_TRUE(read("a/" + file) == read("b/" + file)) << file;
 }
 
 TEST_F(RunCommand, EndAndStepsSayWhenToStop) {

@@ -45,7 +45,7 @@ class Stop : public ProgramTest {
 };
 
 TEST_F(Stop, AnInterruptLeavesACheckpointFromWhichTheRunGoesOn) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) {
     const Outcome stopped = stop_by(signal);
     EXPECT_EQ(stopped.status, 130) << stopped.err;
     EXPECT_THAT(stopped.err, HasSubstr("--resume"));

@@ -16,6 +16,7 @@
 #include "hooke/core/materials.h"
 #include "hooke/core/placed_colliders.h"
 #include "hooke/core/placed_fields.h"
+#include "hooke/core/ranks.h"
 #include "hooke/core/simulation.h"
 #include "hooke/core/springs.h"
 #include "hooke/core/sums.h"
@@ -113,9 +114,10 @@ TEST(CorePreconditions, EmissionKnowsItsScene) {
   scene.emitters.emplace_back();
   const auto backend = make_backend(kReference);
   Emission emission;
+  Ranks alone;
   std::uint64_t next_id = 1;
   EXPECT_ASSERTS((void)emission.end_lives(0), "step = 0");
-  EXPECT_ASSERTS((void)emission.give_birth(scene, 1, {}, {}, *backend, next_id),
+  EXPECT_ASSERTS((void)emission.give_birth(scene, 1, {}, {}, *backend, alone, next_id),
                  "emitters_.size() = 0, scene.emitters.size() = 1");
   EXPECT_ASSERTS(emission.restore({{}, {{9, 1, 0}, {5, 2, 0}}}), "state.mortals.size() = 2");
 }

@@ -18,6 +18,7 @@ MAY_USE = {
     "neighbours": {"base"},
     "core": {"base", "physics", "neighbours"},
 }
+MAY_USE["comm/mpi"] = {"base", "core"}
 for upper in ("passes", "backends/reference", "backends/cpu", "backends/gpu", "scene", "io", "render/gl", "render"):
     MAY_USE[upper] = {"base", "physics", "neighbours", "core"}
 MAY_USE["backends/cpu"] |= {"passes"}
@@ -34,6 +35,7 @@ MAY_USE["apps"] = set(MAY_USE) - {"python"}
 KEPT_TO = {
     r"hdf5|H5\w+\.h": {"io"},
     r"openvdb/": {"volumes"},
+    r"mpi\.h|zoltan": {"comm/mpi"},
     r"valijson/": {"scene"},
     r"nlohmann/": {"scene", "io", "apps"},
     r"CLI/": {"apps"},
@@ -59,7 +61,9 @@ def library_of(path):
 
 def target_library(target):
     """The library of a CMake target's name without hooke_: "backend_cpu" -> "backends/cpu"."""
-    name = re.sub(r"^volumes_.*", "volumes", re.sub(r"^render_", "render/", re.sub(r"^backend_", "backends/", target)))
+    name = re.sub(r"^volumes_.*", "volumes", target)
+    for start, folder in (("render_", "render/"), ("backend_", "backends/"), ("comm_", "comm/")):
+        name = re.sub("^" + start, folder, name)
     return name if name in MAY_USE else None
 
 
@@ -139,6 +143,11 @@ PLANTED = [  # file, text, a part of the line expected for it (None: no violatio
      "io must not link scene"),
     ("src/run/aa.cpp", '#include "hooke/scene/load_scene.h"\n#include "hooke/backends/cpu/cpu_backend.h"\n', None),
     ("src/run/ab.cpp", '#include "hooke/render/gl/gl_renderer.h"\n', "run must not use render/gl"),
+    ("src/core/af.cpp", "#include <mpi.h>\n", "kept to comm/mpi"),
+    ("src/run/ag.cpp", "#include <zoltan.h>\n", "kept to comm/mpi"),
+    ("src/comm/mpi/ah.cpp", '#include "hooke/core/communicator.h"\n#include <mpi.h>\n#include <zoltan.h>\n', None),
+    ("src/comm/mpi/ai.cpp", '#include "hooke/scene/load_scene.h"\n', "comm/mpi must not use scene"),
+    ("src/comm/mpi/CMakeLists.txt", "target_link_libraries(hooke_comm_mpi PUBLIC hooke_io)\n", "comm/mpi must not link io"),
     ("src/io/ac.cpp", '#include "hooke/run/studio.h"\n', "io must not use run"),
     ("src/run/ad.cpp", "#include <pybind11/numpy.h>\n", "kept to python"),
     ("python/ae.cpp", '#include "hooke/run/studio.h"\n#include <pybind11/numpy.h>\n', None),

@@ -3,6 +3,7 @@
 
 #include "hooke/backends/cpu/applied_forces.h"
 
+#include <algorithm>
 #include <array>
 
 #include "hooke/base/assert.h"
@@ -35,6 +36,12 @@ void AppliedForces<Real>::bind(const Particles& particles) {
   const IdTable& ids = particles.ids;
   springs_.bind(ids);
   fields_.bind(ids);
+  bind_pinned(particles);
+}
+
+template <class Real>
+void AppliedForces<Real>::bind_pinned(const Particles& particles) {
+  const IdTable& ids = particles.ids;
   pinned_id_indices_.clear();
   pinned_ = {};
   std::vector<std::uint32_t>& pinned = pinned_id_indices_;
@@ -58,8 +65,7 @@ void AppliedForces<Real>::bind(const Particles& particles) {
 template <class Real>
 void AppliedForces<Real>::add(const Particles& particles, std::size_t slot, bool fixed) {
   const std::size_t id_indices = particles.ids.size();
-  springs_.grow(id_indices);
-  fields_.grow(id_indices);
+  grow(id_indices);
   if (!fixed) return pinned_.release(slot);
   if (pinned_.none()) pinned_.clear(particles.slots.room());
   pinned_.hold(slot);
@@ -68,10 +74,10 @@ void AppliedForces<Real>::add(const Particles& particles, std::size_t slot, bool
 
 template <class Real>
 void AppliedForces<Real>::lay_out(const Particles& particles) {
-  particles.find_slots();
+  particles.find_known_slots();
   const auto& records = particles.records;
   if (!springs_.empty()) {
-    springs_.lay_out(records.data(), particles.slots.room(), records.size(), particles.slots_by_id_index());
+    springs_.lay_out(records.data(), particles.slots.room(), records.size(), particles.known_slots_by_id_index());
   }
   if (!pinned_.none()) find_pinned(particles);
 }
@@ -89,11 +95,12 @@ const typename AppliedForces<Real>::Pairs& AppliedForces<Real>::apply(const Part
     applied_.push_back({Cause::springs, springs_.forces()});
   }
   if (!fields_.empty()) {
-    fields_.apply(records, count, particles.slots_by_id_index());
+    if (fields_.needs_places()) particles.find_known_slots();
+    fields_.apply(records, count, particles.known_slots_by_id_index());
     applied_.push_back({Cause::field, fields_.forces()});
   }
   if (!attraction_.empty()) {
-    attraction_.apply(records, count, particles.count(), particles.ids);
+    attraction_.apply(records, particles.slots, particles.count(), particles.ids);
     applied_.push_back({Cause::attraction, attraction_.forces()});
   }
   if (!external_.empty()) applied_.push_back({Cause::external, external_.column(particles)});
@@ -119,9 +126,27 @@ void AppliedForces<Real>::finish(std::size_t first, std::size_t last, const Reco
 
 template <class Real>
 void AppliedForces<Real>::measure(const Particles& particles, MeasurementSums& sums) {
-  springs_.measure(particles.records.data(), particles.slots_by_id_index(), sums);
+  springs_.measure(particles.records.data(), particles.known_slots_by_id_index(), sums);
   if (attraction_.empty()) return;
-  sums.add_attraction(attraction_.energy(particles.records, particles.slots.end(), particles.count(), particles.ids));
+  sums.add_attraction(attraction_.energy(particles.records, particles.slots, particles.count(), particles.ids));
+}
+
+template <class Real>
+void AppliedForces<Real>::want_partners(const Particles& particles, std::vector<std::uint32_t>& id_indices) const {
+  if (springs_.empty() && !fields_.needs_places()) return;
+  particles.find_slots();
+  const std::vector<std::uint32_t>& slot_of = particles.slots_by_id_index();
+  const auto want = [&](std::uint32_t id_index) {
+    if (slot_of[id_index] == Particles::kNoSlot) id_indices.push_back(id_index);
+  };
+  for (std::size_t i = 0; i < particles.slots.end(); ++i) {
+    if (is_vacant(particles.records[i])) continue;
+    const std::uint32_t own = id_index_of(particles.records[i].id_index);
+    springs_.for_each_partner(own, want);
+    fields_.for_each_corner(own, want);
+  }
+  std::sort(id_indices.begin(), id_indices.end());
+  id_indices.erase(std::unique(id_indices.begin(), id_indices.end()), id_indices.end());
 }
 
 template <class Real>

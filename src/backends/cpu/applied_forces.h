@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -57,8 +58,24 @@ class AppliedForces {
   /// After a new layout of all particles: finds the particles of springs and cloths, and those that are pinned.
   void bind(const Particles& particles);
 
+  /// Other particles of the same ids are here: finds those that are pinned.
+  void bind_pinned(const Particles& particles);
+  /// There are more ids now; no spring and no cloth has the new ones.
+  void grow(std::size_t id_indices) {
+    springs_.grow(id_indices);
+    fields_.grow(id_indices);
+  }
+
   /// A new particle is in `slot`, with the last id index. No spring ties it, but it may be fixed.
   void add(const Particles& particles, std::size_t slot, bool fixed);
+
+  /// Whether the structure pins the particle of an id index, here or on another rank. Takes a search.
+  bool pins(std::uint32_t id_index) const {
+    return std::find(pinned_id_indices_.begin(), pinned_id_indices_.end(), id_index) != pinned_id_indices_.end();
+  }
+
+  /// Adds the id indices that the forces on the particles here need to know, and that are not among these slots.
+  void want_partners(const Particles& particles, std::vector<std::uint32_t>& id_indices) const;
 
   bool needs_layout() const { return !springs_.empty() || fields_.needs_places() || !pinned_.none(); }
 
@@ -88,7 +105,7 @@ class AppliedForces {
   void add_spring_energy(const Particles& particles, std::size_t i, std::span<const std::uint32_t> among,
                          ExactSum& sum) const {
     if (springs_.empty()) return;
-    springs_.add_energy(particles.records.data(), particles.slots_by_id_index(),
+    springs_.add_energy(particles.records.data(), particles.known_slots_by_id_index(),
                         id_index_of(particles.records[i].id_index), among, sum);
   }
 

@@ -23,11 +23,12 @@ void AttractionForces<Real>::configure(const Scene& scene, const AttractionLoops
 }
 
 template <class Real>
-void AttractionForces<Real>::apply(const LargeVector<Record>& records, std::size_t count, std::size_t alive,
+void AttractionForces<Real>::apply(const LargeVector<Record>& records, const ParticleSlots& slots, std::size_t alive,
                                    const IdTable& ids) {
-  gather(records, count, alive);
+  const std::size_t count = slots.end();
+  gather(records, slots, alive);
   force_.assign(records.size(), {Real(0), Real(0), Real(0)});
-  sums_.accelerations(points_, ids, force_.data());
+  sums_.accelerations(points_, count, ids, force_.data());
   const double per_unit = units_.mass / (units_.length * units_.length);
   parallel_ranges(count, kRange, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
@@ -37,32 +38,39 @@ void AttractionForces<Real>::apply(const LargeVector<Record>& records, std::size
 }
 
 template <class Real>
-double AttractionForces<Real>::energy(const LargeVector<Record>& records, std::size_t count, std::size_t alive,
-                                      const IdTable& ids) {
-  gather(records, count, alive);
+ExactSum AttractionForces<Real>::energy(const LargeVector<Record>& records, const ParticleSlots& slots,
+                                        std::size_t alive, const IdTable& ids) {
+  const std::size_t count = slots.end();
+  gather(records, slots, alive);
   std::vector<double> potential(count, 0);
-  sums_.potentials(points_, ids, potential.data());
+  sums_.potentials(points_, count, ids, potential.data());
   const double per_unit = units_.mass / units_.length;
   ExactSum energy;
   for (std::size_t i = 0; i < count; ++i) {
     energy.add(0.5 * (weight_[material_of(records[i])] * per_unit) * potential[i]);
   }
-  return energy.value();
+  return energy;
 }
 
 template <class Real>
-void AttractionForces<Real>::gather(const LargeVector<Record>& records, std::size_t count, std::size_t alive) {
-  points_.resize(alive);
-  if (alive == count) {
-    parallel_ranges(count, kRange, [&](std::size_t first, std::size_t last) {
+void AttractionForces<Real>::gather(const LargeVector<Record>& records, const ParticleSlots& slots, std::size_t alive) {
+  points_.resize(alive + (slots.ghost_end() - slots.first_ghost()));
+  std::size_t at = 0;
+  const auto add = [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      if (!is_vacant(records[i])) points_[at++] = point_of(records, i);
+    }
+  };
+  if (alive == slots.end()) {
+    at = alive;
+    parallel_ranges(alive, kRange, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) points_[i] = point_of(records, i);
     });
-    return;
+  } else {
+    add(0, slots.end());
   }
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!is_vacant(records[i])) points_[at++] = point_of(records, i);
-  }
+  add(slots.first_ghost(), slots.ghost_end());
+  points_.resize(at);
 }
 
 template class AttractionForces<float>;

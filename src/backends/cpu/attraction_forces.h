@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "hooke/backends/cpu/attraction_sums.h"
+#include "hooke/backends/cpu/particle_slots.h"
+#include "hooke/base/exact_sum.h"
 #include "hooke/base/huge_pages.h"
 #include "hooke/core/scene.h"
 #include "hooke/passes/id_table.h"
@@ -23,21 +25,22 @@ class AttractionForces {
 
   bool empty() const { return !attracts_; }
 
-  /// Sums the forces on the first `count` records, of which `alive` are not vacant.
-  void apply(const LargeVector<Record>& records, std::size_t count, std::size_t alive, const IdTable& ids);
+  /// Sums the forces on the particles, of which there are `alive`, by them and by the ghosts.
+  void apply(const LargeVector<Record>& records, const ParticleSlots& slots, std::size_t alive, const IdTable& ids);
 
   /// N, in the order of the records; one for each record, unused records included.
   const Vec3<Real>* forces() const { return force_.data(); }
 
-  /// Potential energy of all pairs, J.
-  double energy(const LargeVector<Record>& records, std::size_t count, std::size_t alive, const IdTable& ids);
+  /// Half of the potential energy of each particle, J: of all pairs, where there are no ghosts.
+  ExactSum energy(const LargeVector<Record>& records, const ParticleSlots& slots, std::size_t alive,
+                  const IdTable& ids);
 
  private:
   static constexpr std::size_t kRange = 4096;
 
   static std::size_t material_of(const Record& p) { return static_cast<std::size_t>(p.material); }
 
-  void gather(const LargeVector<Record>& records, std::size_t count, std::size_t alive);
+  void gather(const LargeVector<Record>& records, const ParticleSlots& slots, std::size_t alive);
 
   AttractionPoint<Real> point_of(const LargeVector<Record>& records, std::size_t i) const {
     const Record& p = records[i];

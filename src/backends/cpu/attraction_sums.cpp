@@ -33,7 +33,7 @@ void load_targets(std::span<const AttractionPoint<Real>> points, AttractionTarge
 
 template <class Real>
 template <class Take>
-void AttractionSums<Real>::sum_directly(std::span<AttractionPoint<Real>> points, const IdTable& ids,
+void AttractionSums<Real>::sum_directly(std::span<AttractionPoint<Real>> points, std::size_t end, const IdTable& ids,
                                         typename AttractionLoops<Real>::Function by_particles, const Take& take) {
   constexpr std::size_t kMost = AttractionTargets<Real>::kMost;
   std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.id_index < b.id_index; });
@@ -45,6 +45,12 @@ void AttractionSums<Real>::sum_directly(std::span<AttractionPoint<Real>> points,
     if (i == 0 || block(i) != block(i - 1)) block_starts.push_back(i);
   }
   block_starts.push_back(points.size());
+  // The sources are copied: now those that are pulled come first, still in order.
+  const auto is_pulled = [end](const AttractionPoint<Real>& p) { return p.index < end; };
+  if (!std::all_of(points.begin(), points.end(), is_pulled)) {
+    points = points.first(
+        static_cast<std::size_t>(std::stable_partition(points.begin(), points.end(), is_pulled) - points.begin()));
+  }
   parallel_ranges(points.size(), kMost, [&](std::size_t first, std::size_t last) {
     AttractionTargets<Real> targets;
     for (std::size_t from = first; from < last; from += kMost) {
@@ -202,7 +208,7 @@ std::vector<double> AttractionSums<Real>::estimate_pulls(std::span<const std::ui
 
 template <class Real>
 template <class Take>
-void AttractionSums<Real>::sum_by_tree(std::span<AttractionPoint<Real>> points,
+void AttractionSums<Real>::sum_by_tree(std::span<AttractionPoint<Real>> points, std::size_t end,
                                        typename AttractionLoops<Real>::Function by_particles,
                                        typename AttractionLoops<Real>::Function by_cells, const Take& take) {
   tree_.build(points);
@@ -215,9 +221,12 @@ void AttractionSums<Real>::sum_by_tree(std::span<AttractionPoint<Real>> points,
     for (std::size_t g = first; g < last; ++g) {
       const auto& node = tree_.nodes()[groups[g]];
       const auto own = tree_.points().subspan(node.first, node.last - node.first);
+      if (std::none_of(own.begin(), own.end(), [end](const auto& p) { return p.index < end; })) continue;
       load_targets(own, targets);
       walk.run(tree_.box(groups[g]), allowed * std::sqrt(pulls2[g]));
-      for (std::size_t i = 0; i < own.size(); ++i) take(own[i].index, targets, i);
+      for (std::size_t i = 0; i < own.size(); ++i) {
+        if (own[i].index < end) take(own[i].index, targets, i);
+      }
     }
   });
 }
@@ -234,26 +243,28 @@ void AttractionSums<Real>::configure(const Attraction& attraction, double soften
 }
 
 template <class Real>
-void AttractionSums<Real>::accelerations(std::span<AttractionPoint<Real>> points, const IdTable& ids, Vec3<Real>* a) {
+void AttractionSums<Real>::accelerations(std::span<AttractionPoint<Real>> points, std::size_t end, const IdTable& ids,
+                                         Vec3<Real>* a) {
   const auto take = [a](std::size_t index, const AttractionTargets<Real>& t, std::size_t i) {
     a[index] = {t.ax[i], t.ay[i], t.az[i]};
   };
   if (attracts_by_tree(attraction_, points.size())) {
-    sum_by_tree(points, loops_.pull_by_particles, loops_.pull_by_cells, take);
+    sum_by_tree(points, end, loops_.pull_by_particles, loops_.pull_by_cells, take);
   } else {
-    sum_directly(points, ids, loops_.pull_by_particles, take);
+    sum_directly(points, end, ids, loops_.pull_by_particles, take);
   }
 }
 
 template <class Real>
-void AttractionSums<Real>::potentials(std::span<AttractionPoint<Real>> points, const IdTable& ids, double* potential) {
+void AttractionSums<Real>::potentials(std::span<AttractionPoint<Real>> points, std::size_t end, const IdTable& ids,
+                                      double* potential) {
   const auto take = [potential](std::size_t index, const AttractionTargets<Real>& t, std::size_t i) {
     potential[index] = static_cast<double>(t.potential[i]);
   };
   if (attracts_by_tree(attraction_, points.size())) {
-    sum_by_tree(points, loops_.potential_of_particles, loops_.potential_of_cells, take);
+    sum_by_tree(points, end, loops_.potential_of_particles, loops_.potential_of_cells, take);
   } else {
-    sum_directly(points, ids, loops_.potential_of_particles, take);
+    sum_directly(points, end, ids, loops_.potential_of_particles, take);
   }
 }
 

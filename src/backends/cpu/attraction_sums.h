@@ -21,20 +21,22 @@ class AttractionSums {
   /// `softening2` > 0, a length squared.
   void configure(const Attraction& attraction, double softening2, const AttractionLoops<Real>& loops);
 
-  /// a[p.index] = the pull on p, a mass over a length squared. Reorders `points`; `ids` has the ids by id index.
-  void accelerations(std::span<AttractionPoint<Real>> points, const IdTable& ids, Vec3<Real>* a);
+  /// a[p.index] = the pull on p, a mass over a length squared, for the points of an index below `end`. Reorders
+  /// `points`; `ids` has the ids by id index.
+  void accelerations(std::span<AttractionPoint<Real>> points, std::size_t end, const IdTable& ids, Vec3<Real>* a);
 
   /// potential[p.index] = the potential of all other particles at p, a mass over a length, < 0.
-  void potentials(std::span<AttractionPoint<Real>> points, const IdTable& ids, double* potential);
+  void potentials(std::span<AttractionPoint<Real>> points, std::size_t end, const IdTable& ids, double* potential);
 
  private:
   class Walk;
 
   template <class Take>
-  void sum_directly(std::span<AttractionPoint<Real>> points, const IdTable& ids,
+  void sum_directly(std::span<AttractionPoint<Real>> points, std::size_t end, const IdTable& ids,
                     typename AttractionLoops<Real>::Function by_particles, const Take& take);
   template <class Take>
-  void sum_by_tree(std::span<AttractionPoint<Real>> points, typename AttractionLoops<Real>::Function by_particles,
+  void sum_by_tree(std::span<AttractionPoint<Real>> points, std::size_t end,
+                   typename AttractionLoops<Real>::Function by_particles,
                    typename AttractionLoops<Real>::Function by_cells, const Take& take);
   std::vector<double> estimate_pulls(std::span<const std::uint32_t> groups) const;
 

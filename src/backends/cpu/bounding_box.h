@@ -14,10 +14,11 @@
 
 namespace hooke {
 
-/// Sets `box` to the box (m) around the first `count` particles, Box3d::none() where there are none. Returns the first
-/// particle whose position is not finite or too far out.
-template <class Real>
-Condition bounding_box(const ParticleRecord<Real>* records, std::size_t count, const IdTable& ids, Box3d& box) {
+/// Sets `box` to the box (m) around those of the first `count` particles that `counts`, Box3d::none() without any.
+/// Returns the first particle whose position is not finite or too far out.
+template <class Real, class Counts>
+Condition bounding_box(const ParticleRecord<Real>* records, std::size_t count, const IdTable& ids, const Counts& counts,
+                       Box3d& box) {
   constexpr std::size_t kGrain = 1024;
   box = Box3d::none();
   Condition condition;
@@ -27,7 +28,7 @@ Condition bounding_box(const ParticleRecord<Real>* records, std::size_t count, c
     Condition found;
     for (std::size_t i = first; i < last; ++i) {
       const ParticleRecord<Real>& p = records[i];
-      if (is_vacant(p)) continue;
+      if (is_vacant(p) || !counts(p)) continue;
       for (int axis = 0; axis < 3; ++axis) {
         const Real x = component(p.x, axis);
         if (!(std::abs(x) < static_cast<Real>(kFurthest))) {

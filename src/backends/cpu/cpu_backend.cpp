@@ -27,8 +27,16 @@ void CpuBackend<Real>::configure(const Scene& scene) {
 template <class Real>
 void CpuBackend<Real>::take(const ParticleSet& particles, std::size_t births) {
   particles_.place(particles, births);
+  forget_layout();
+}
+
+template <class Real>
+void CpuBackend<Real>::forget_layout() {
   list_.invalidate();
   leaving_ = {};
+  copied_.clear();
+  ghost_slots_.clear();
+  leaving_ghosts_.clear();
   applied_.bind(particles_);
 }
 

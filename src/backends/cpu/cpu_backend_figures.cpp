@@ -13,11 +13,12 @@ namespace hooke {
 template <class Real>
 Expected<MeasurementSums> CpuBackend<Real>::measure(const Instant& now) {
   place_at(now);
-  if (neighbours_stale()) {
+  if (const bool stale = neighbours_stale(); stale && !is_part_) {  // ranks build together, before
     if (const Condition found = build_neighbours(); !found.good()) {
       return fail(Error::Kind::run_failed, formatted("particle {}", found.particle), "is at no finite position");
     }
   }
+  threads_.run([&] { particles_.find_known_slots(); });
   MeasurementSums total;
   for_ranges(particles_.slots.end(), kTile, [&](std::size_t first, std::size_t last) {
     const ContactScan<Real> scan = contact_scan();

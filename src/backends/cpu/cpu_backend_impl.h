@@ -19,6 +19,7 @@
 #include "hooke/base/threads.h"
 #include "hooke/core/backend.h"
 #include "hooke/core/placed_colliders.h"
+#include "hooke/core/shared_particles.h"
 #include "hooke/core/sums.h"
 #include "hooke/neighbours/neighbour_list.h"
 #include "hooke/passes/contact_scan.h"
@@ -30,10 +31,10 @@ namespace hooke {
 
 /// The step of one precision: which part does what, in which order. The parts are in the files that this one includes.
 /// Members are defined by subject: cpu_backend.cpp (scene and particles), cpu_backend_motion.cpp (motion and
-/// neighbours), cpu_backend_pass.cpp (forces), cpu_backend_population.cpp (births and removals) and
-/// cpu_backend_figures.cpp (measurements).
+/// neighbours), cpu_backend_pass.cpp (forces), cpu_backend_population.cpp (births and removals),
+/// cpu_backend_figures.cpp (measurements) and cpu_backend_ranks.cpp (ghosts).
 template <class Real>
-class CpuBackend final : public Backend {
+class CpuBackend final : public Backend, private SharedParticles {
   using Record = ParticleRecord<Real>;
   static constexpr std::size_t kLanes = NeighbourList::kLanes;
   static constexpr std::size_t kSlices = NeighbourList::kSlices;
@@ -55,7 +56,11 @@ class CpuBackend final : public Backend {
   void break_springs(const std::vector<std::uint64_t>& broken) override { applied_.springs().break_springs(broken); }
   std::vector<std::uint64_t> broken_springs() const override { return applied_.springs().broken(); }
 
-  void assign(const ParticleSet& particles) override { take(particles); }
+  void assign(const ParticleSet& particles) override {
+    is_part_ = false;
+    list_.share(false);
+    take(particles);
+  }
   void download(const ParticleColumns<double>& out) const override {
     threads_.run([&] { particles_.download(out); });
   }
@@ -72,7 +77,8 @@ class CpuBackend final : public Backend {
   RemovalSums remove_sunk() override;
 
   void half_kick_and_drift() override;
-  void finish_motion(RemovalSums& left) override;
+  void follow_motion() override;
+  void remove_departed(RemovalSums& left) override;
   bool neighbours_stale() override;
   Condition build_neighbours() override;
   void apply_forces(const Instant& now, StepReport& report) override;
@@ -83,6 +89,7 @@ class CpuBackend final : public Backend {
   Expected<MeasurementSums> measure(const Instant& now) override;
   NeighbourStatistics neighbour_statistics() const override;
   StageTimes stage_times() const override { return times_; }
+  SharedParticles* shared() override { return this; }
 
  private:
   bool verlet() const { return particles_.verlet(); }
@@ -93,13 +100,13 @@ class CpuBackend final : public Backend {
   }
 
   void take(const ParticleSet& particles, std::size_t births = 0);
+  void forget_layout();
   void make_room(std::size_t births);
 
   // Neighbours -------------------------------------------------------------------------------------------------------
 
   Condition sort_by_cell();
   void list_neighbours();
-  void follow_motion();
 
   // Springs, fields, attraction and pinned particles
   // -------------------------------------------------------------------
@@ -147,6 +154,52 @@ class CpuBackend final : public Backend {
   void add_elastic(std::vector<std::uint32_t>& slots, ExactSum& sum);
   bool rebuild_under(std::vector<std::uint32_t>& slots);
 
+  // One of several ranks
+  // -----------------------------------------------------------------------------------------------
+
+  using Traveller = typename ParticleState<Real>::Traveller;
+
+  void assign_part(const ParticleSet& own, std::span<const std::uint64_t> all) override;
+  void sample(std::vector<Vec3d>& points) const override;
+  void move_out(const Decomposition& space, int here, std::vector<Parcel>& out) override;
+  void move_in(std::span<const Parcel> in) override;
+  double largest_radius() const override;
+  GhostWidth next_width() override;
+  std::vector<std::uint32_t> wanted() const override;
+  bool wants_all() const override { return scene_.attraction.has_value(); }
+  void copy_out(const GhostZones& zones, std::span<const WantedParticles> wanted, std::vector<Parcel>& out) override;
+  bool has_springs() const override { return scene_.structure != nullptr; }
+  std::vector<std::uint32_t> take_torn() override { return applied_.springs().take_torn(); }
+  void tear(std::span<const std::uint32_t> springs) override {
+    for (const std::uint32_t spring : springs) applied_.springs().tear(spring);
+  }
+  void take_ghosts(std::span<const Parcel> in) override;
+  std::uint64_t own_count() const override { return particles_.count(); }
+  std::size_t copy_bytes() const override;
+  std::size_t packed_bytes() const override;
+  std::size_t copied_count() const override { return copied_.size(); }
+  std::size_t ghost_count() const override { return ghost_slots_.size(); }
+  void pack(std::span<std::byte> out) const override;
+  void unpack(std::span<const std::byte> in) override;
+  FrameDisplacements displacements() const override;
+  std::int64_t list_excess() const override { return list_.excess(); }
+  bool has_outliers() const override { return !list_.outliers().empty(); }
+  bool has_lost_outlier(const GhostZones& zones, const FrameDisplacements& all) const override;
+  bool has_departures() const override;
+
+  RemovalSums insert_part(const ParticleSet& newborn, const Decomposition& space, int here) override;
+  bool has_cohesion() const override { return rules_.widest_range() > 0; }
+  void add_elastic_of(std::span<const std::uint64_t> ids, ExactSum& sum) override;
+  std::size_t id_count() const override { return particles_.ids.size(); }
+
+  std::vector<std::uint32_t> ghosts_of(std::span<const std::uint64_t> ids) const;
+  Box3d own_box_of(const GhostZones& zones) const;
+  void follow_ghosts();
+  void find_departures() override;
+  bool has_open_face() const;
+  static void renumber(std::vector<std::uint32_t>& slots, std::size_t first, std::span<const std::uint32_t> order);
+  void sort_ghosts_by_cell();
+
   std::string isa_name_;
   Loops<Real> loops_;
   mutable Threads threads_;
@@ -158,11 +211,15 @@ class CpuBackend final : public Backend {
   PlacedColliders<Real> colliders_;  // at the last instant
 
   ParticleState<Real> particles_;
-  Departures leaving_;  // through open faces, until finish_motion()
+  Departures leaving_;  // through open faces, until remove_departed()
 
   PlacedSinks sinks_;
   AppliedForces<Real> applied_;
   VerletList<Real> list_;
+  bool is_part_ = false;  // this is one of several ranks
+  bool is_built_ = false;  // its list is of the particles that it has now
+  std::vector<std::uint32_t> copied_, ghost_slots_;  // slots, in the order of messages
+  std::vector<std::uint32_t> leaving_ghosts_;  // slots, ascending: whose particles leave now
   std::uint64_t missed_contacts_ = 0;
   StageTimes times_;
 };

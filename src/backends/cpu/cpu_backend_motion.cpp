@@ -37,8 +37,7 @@ void CpuBackend<Real>::half_kick_and_drift() {
 }
 
 template <class Real>
-void CpuBackend<Real>::finish_motion(RemovalSums& left) {
-  follow_motion();
+void CpuBackend<Real>::remove_departed(RemovalSums& left) {
   left.add(let_go(leaving_));
   leaving_ = {};
 }
@@ -55,9 +54,14 @@ Condition CpuBackend<Real>::build_neighbours() {
   threads_.run([&] {
     condition = sort_by_cell();
     if (!condition.good()) return;
+    if (is_part_) sort_ghosts_by_cell();
     lay_out_structure();
     list_neighbours();
   });
+  if (!is_part_) return condition;
+  is_built_ = condition.good();
+  leaving_ = {};  // their slots have changed: find_departures()
+  leaving_ghosts_.clear();
   return condition;
 }
 
@@ -65,17 +69,40 @@ template <class Real>
 Condition CpuBackend<Real>::sort_by_cell() {
   const Stopwatch sorting(times_.sort);
   Box3d box;
-  const Condition condition =
-      bounding_box(particles_.records.data(), particles_.slots.interacting_end(), particles_.ids, box);
+  Condition condition = bounding_box(
+      particles_.records.data(), particles_.slots.interacting_end(), particles_.ids, [](const Record&) { return true; },
+      box);
+  if (is_part_) {
+    Box3d of_ghosts;
+    const std::size_t first = particles_.slots.first_ghost();
+    condition = Condition::first(
+        condition, bounding_box(
+                       particles_.records.data() + first, particles_.slots.ghost_end() - first, particles_.ids,
+                       [&](const Record& p) { return particles_.material_of(p).interacts; }, of_ghosts));
+    box.add(of_ghosts);
+  }
   if (!condition.good()) return condition;
+  const bool empty = box.is_none();
   for (int axis = 0; axis < 3; ++axis) {
-    if (particles_.count() > particles_.noninteracting_count() && !rules_.view().periodic[axis]) continue;
+    if (!empty && !rules_.view().periodic[axis]) continue;
     component(box.min, axis) = component(rules_.view().min, axis);
     component(box.max, axis) = component(rules_.view().max, axis);
   }
-  particles_.reorder(
-      list_.sort(particles_.records.data(), particles_.slots.interacting_end(), box, particles_.scratch()));
+  const std::span<const std::uint32_t> order =
+      list_.sort(particles_.records.data(), particles_.slots.interacting_end(), box, particles_.scratch());
+  particles_.reorder(order);
+  renumber(copied_, 0, order);
   return {};
+}
+
+template <class Real>
+void CpuBackend<Real>::sort_ghosts_by_cell() {
+  const Stopwatch sorting(times_.sort);
+  const std::size_t first = particles_.slots.first_ghost();
+  const std::span<const std::uint32_t> order =
+      list_.sort_ghosts(particles_.records.data(), first, particles_.slots.ghost_end());
+  particles_.reorder_ghosts(order);
+  renumber(ghost_slots_, first, order);
 }
 
 template <class Real>
@@ -91,6 +118,7 @@ void CpuBackend<Real>::list_neighbours() {
 template <class Real>
 void CpuBackend<Real>::follow_motion() {
   const Stopwatch following(times_.motion);
+  if (is_part_) follow_ghosts();
   threads_.run([&] { list_.moved(particles_.records.data()); });
   if (check_list_ && list_.is_valid()) missed_contacts_ += list_.count_missed(particles_.records.data());
 }
@@ -109,7 +137,9 @@ template bool CpuBackend<float>::neighbours_stale();
 template bool CpuBackend<double>::neighbours_stale();
 template Condition CpuBackend<float>::build_neighbours();
 template Condition CpuBackend<double>::build_neighbours();
-template void CpuBackend<float>::finish_motion(RemovalSums& left);
-template void CpuBackend<double>::finish_motion(RemovalSums& left);
+template void CpuBackend<float>::follow_motion();
+template void CpuBackend<double>::follow_motion();
+template void CpuBackend<float>::remove_departed(RemovalSums& left);
+template void CpuBackend<double>::remove_departed(RemovalSums& left);
 
 }  // namespace hooke

@@ -88,6 +88,7 @@ Removal CpuBackend<Real>::remove(std::span<const std::uint64_t> ids) {
     }
     collect(removed, part);
   });
+  if (is_part_) leaving_ghosts_ = ghosts_of(ids);
   removal.sums = let_go(removed);
   return removal;
 }
@@ -103,6 +104,10 @@ RemovalSums CpuBackend<Real>::remove_sunk() {
     }
     collect(sunk, part);
   });
+  for (std::size_t i = particles_.slots.first_ghost(); i < particles_.slots.ghost_end(); ++i) {
+    const Record& p = particles_.records[i];
+    if (!is_vacant(p) && sinks_.take(vec_cast<double>(p.x))) leaving_ghosts_.push_back(static_cast<std::uint32_t>(i));
+  }
   return let_go(sunk);
 }
 
@@ -144,10 +149,13 @@ void CpuBackend<Real>::collect(Departures& total, const Departures& part) const 
 // Makes the slots of leaving particles vacant, and returns what the particles carry.
 template <class Real>
 RemovalSums CpuBackend<Real>::let_go(Departures& leaving) {
-  if (leaving.slots.empty()) return {};
-  add_elastic(leaving.slots, leaving.sums.elastic);
-  for (const std::uint32_t slot : leaving.slots) particles_.remove(slot);
-  particles_.recount();
+  if (!leaving.slots.empty()) {
+    add_elastic(leaving.slots, leaving.sums.elastic);
+    for (const std::uint32_t slot : leaving.slots) particles_.remove(slot);
+    particles_.recount();
+  }
+  for (const std::uint32_t slot : leaving_ghosts_) particles_.remove_ghost(slot);
+  leaving_ghosts_.clear();
   return leaving.sums;
 }
 
@@ -157,15 +165,20 @@ template <class Real>
 void CpuBackend<Real>::add_elastic(std::vector<std::uint32_t>& slots, ExactSum& sum) {
   const auto is_listed = [&](std::uint32_t slot) { return !particles_.slots.is_noninteracting(slot); };
   if (applied_.springs().empty() && std::none_of(slots.begin(), slots.end(), is_listed)) return;
-  if (neighbours_stale() && !rebuild_under(slots)) return;
+  // Ranks build together: each has a list of where its particles are now, or has failed.
+  const bool stale = neighbours_stale();
+  if (is_part_ ? !is_built_ : stale && !rebuild_under(slots)) return;
+  if (!applied_.springs().empty()) threads_.run([&] { particles_.find_known_slots(); });
   std::sort(slots.begin(), slots.end());
+  std::vector<std::uint32_t> among = slots;
+  among.insert(among.end(), leaving_ghosts_.begin(), leaving_ghosts_.end());  // behind all own ones, ascending
   for_ranges(slots.size(), 64, [&](std::size_t first, std::size_t last) {
     const ContactScan<Real> scan = contact_scan();
     ExactSum part;
     for (std::size_t k = first; k < last; ++k) {
       const std::size_t i = slots[k];
-      add_contact_energy(scan, i, rows_of(i / kTile, i % kTile / kLanes), slots, part);
-      applied_.add_spring_energy(particles_, i, slots, part);
+      add_contact_energy(scan, i, rows_of(i / kTile, i % kTile / kLanes), among, part);
+      applied_.add_spring_energy(particles_, i, among, part);
     }
     const std::lock_guard lock(mutex_);
     sum.add(part);

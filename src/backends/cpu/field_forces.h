@@ -35,6 +35,15 @@ class FieldForces {
   /// There are more ids now, with id indices below `id_indices`; the new ones belong to no triangle.
   void grow(std::size_t id_indices) { triangles_.grow(id_indices); }
 
+  /// visit(id index) for all corners of the triangles that a particle is a corner of.
+  template <class Visit>
+  void for_each_corner(std::uint32_t id_index, const Visit& visit) const {
+    if (triangles_.empty()) return;
+    for (std::uint32_t k = triangles_.first()[id_index]; k < triangles_.first()[id_index + 1]; ++k) {
+      for (const std::uint32_t corner : triangles_.all()[triangles_.own()[k]].id_index) visit(corner);
+    }
+  }
+
   void set_time(double seconds) { time_ = seconds; }
 
   /// Sums the forces on the first `count` records; `slot_of` is the slot of each id index (needs_places()).

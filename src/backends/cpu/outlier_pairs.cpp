@@ -14,12 +14,14 @@ bool OutlierPairs<Real>::is_listed(std::size_t i, std::size_t p) const {
   return is_in_lane(rows, i % kLanes, record_offset<Real>(static_cast<std::uint32_t>(p)));
 }
 
-// If one of two particles lacks the other, the other lacks it, too.
+// If one of two particles lacks the other, the other lacks it, too. Ghosts have no rows.
 template <class Real>
 void OutlierPairs<Real>::note_missing(std::size_t i, std::size_t p, std::vector<MissingEntry>& missing) const {
-  if (is_listed(i, p) || exclusions_.hold(id_indices_[i], id_indices_[p])) return;
+  if (is_ghost(i)) std::swap(i, p);
+  if (is_ghost(i) || is_listed(i, p) || exclusions_.hold(id_indices_[i], id_indices_[p])) return;
   const std::lock_guard lock(mutex_);
   for (const auto& [of, other] : {std::pair{i, p}, std::pair{p, i}}) {
+    if (is_ghost(of)) continue;
     missing.push_back(
         {static_cast<std::uint32_t>(of), id_indices_[other], record_offset<Real>(static_cast<std::uint32_t>(other))});
   }
@@ -30,11 +32,14 @@ template <class Real>
 void OutlierPairs<Real>::find_around(std::uint32_t i, const SearchCentre& centre,
                                      std::span<const std::uint16_t> outlying,
                                      std::vector<MissingEntry>& missing) const {
-  cells_.for_points_near(centre.at, centre.range + interaction_radius(i) + margin(), [&](std::size_t k) {
-    const std::size_t p = slots_.slot_of(k);
+  const double range = centre.range + interaction_radius(i) + margin();
+  const auto look_at = [&](std::size_t p) {
     const bool other_is_outlier = (outlying[p / kLanes] >> p % kLanes & 1U) != 0;
     if (!other_is_outlier && touch(i, p)) note_missing(i, p, missing);
-  });
+  };
+  cells_.for_points_near(centre.at, range, [&](std::size_t k) { look_at(slots_.slot_of(k)); });
+  if (ghosts_.cells == nullptr || is_ghost(i)) return;
+  ghosts_.cells->for_points_near(centre.at, range, [&](std::size_t k) { look_at(ghosts_.first + k); });
 }
 
 // Pairs of two outliers. Outliers are sorted into rows along x, as wide as two can touch. Each is compared with the

@@ -30,11 +30,13 @@ class OutlierPairs {
   using MissingEntry = PatchedRows::MissingEntry;
 
  public:
-  OutlierPairs(const PassRules<Real>& rules, const Record* records, const CellList& cells, const WindowOrder& slots,
-               const std::uint32_t* id_indices, const NeighbourList& list, const Exclusions& exclusions)
+  OutlierPairs(const PassRules<Real>& rules, const Record* records, const CellList& cells, const GhostPoints& ghosts,
+               const WindowOrder& slots, const std::uint32_t* id_indices, const NeighbourList& list,
+               const Exclusions& exclusions)
       : rules_(rules),
         records_(records),
         cells_(cells),
+        ghosts_(ghosts),
         slots_(slots),
         id_indices_(id_indices),
         list_(list),
@@ -133,6 +135,7 @@ class OutlierPairs {
     return dot(d, d) < static_cast<Real>(reach) * static_cast<Real>(reach);
   }
 
+  bool is_ghost(std::size_t i) const { return ghosts_.cells != nullptr && i >= ghosts_.first; }
   bool is_listed(std::size_t i, std::size_t p) const;
   void note_missing(std::size_t i, std::size_t p, std::vector<MissingEntry>& missing) const;
 
@@ -149,6 +152,7 @@ class OutlierPairs {
   const PassRules<Real>& rules_;
   const Record* records_;
   const CellList& cells_;
+  const GhostPoints ghosts_;
   const WindowOrder& slots_;
   const std::uint32_t* id_indices_;
   const NeighbourList& list_;

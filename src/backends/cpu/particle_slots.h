@@ -14,7 +14,8 @@ namespace hooke {
 
 /// Where in memory particles lie. First the listed particles, which touch others, in the order of the neighbour list,
 /// with room after them for births. Then, from a whole tile on, the noninteracting particles, which touch none: they
-/// are in no list and never sorted, and a newborn takes the slot of a particle that is gone. Vacant slots hold vacant
+/// are in no list and never sorted, and a newborn takes the slot of a particle that is gone. Behind them all lie
+/// ghosts, copies of other ranks' particles, which are in the list as neighbours only. Vacant slots hold vacant
 /// records.
 class ParticleSlots {
  public:
@@ -31,6 +32,12 @@ class ParticleSlots {
     fixed_ = fixed;
     spare_.clear();
     left_.clear();
+    lay_out_ghosts(0);
+  }
+  /// Lays out so many ghosts; end() and room() leave them out.
+  void lay_out_ghosts(std::size_t ghosts) {
+    first_ghost_ = whole(room(), kWindow);
+    ghost_end_ = first_ghost_ + ghosts;
   }
 
   std::size_t interacting_end() const { return interacting_end_; }  ///< one past the last listed slot in use
@@ -45,6 +52,9 @@ class ParticleSlots {
   std::size_t end() const {
     return noninteracting_end_ > first_noninteracting_ ? noninteracting_end_ : interacting_end_;
   }
+  bool has_ghosts() const { return ghost_end_ > first_ghost_; }
+  std::size_t first_ghost() const { return first_ghost_; }
+  std::size_t ghost_end() const { return ghost_end_; }
   bool is_noninteracting(std::size_t slot) const { return slot >= first_noninteracting_; }
 
   bool has_room(std::size_t listed, std::size_t noninteracting) const {
@@ -96,6 +106,7 @@ class ParticleSlots {
   std::size_t listed_tiles() const { return whole(interacting_end_, kTile) / kTile; }
 
   std::size_t interacting_end_ = 0, first_noninteracting_ = 0, noninteracting_end_ = 0, noninteracting_room_ = 0;
+  std::size_t first_ghost_ = 0, ghost_end_ = 0;
   bool fixed_ = false;
   std::vector<std::uint32_t> spare_, left_;  // vacant noninteracting slots: free, and free after recycle()
 };

@@ -17,27 +17,119 @@ template <class Real>
 void ParticleState<Real>::place(const ParticleSet& particles, std::size_t births) {
   HOOKE_ASSERT(are_particles_of(particles, *scene_), particles.size(), scene_->materials.size());
   ids = IdTable(particles.id, !scene_->emitters.empty());
+  count_anew(particles);
+  lay_out(particles, room_for_births(true) + births, room_for_births(false) + births);
+}
+
+template <class Real>
+void ParticleState<Real>::place_part(const ParticleSet& particles, std::span<const std::uint64_t> all) {
+  HOOKE_ASSERT(are_particles_of(particles, *scene_), particles.size(), scene_->materials.size());
+  ids = IdTable(std::vector<std::uint64_t>(all.begin(), all.end()));
+  count_anew(particles);
+  lay_out(particles, room_for_arrivals(count_ - noninteracting_count_), room_for_arrivals(noninteracting_count_));
+}
+
+template <class Real>
+void ParticleState<Real>::count_anew(const ParticleSet& particles) {
   count_of_.assign(scene_->materials.size(), 0);
   for (const std::uint16_t m : particles.material) ++count_of_[m];
   recount();
+}
+
+// Puts the particles in order of their ids, with so much room for more.
+template <class Real>
+void ParticleState<Real>::lay_out(const ParticleSet& particles, std::size_t more_interacting,
+                                  std::size_t more_noninteracting) {
   ++changes_;
-  slot_of_id_index_.clear();
+  forget_slots();
   const bool tied = scene_->structure != nullptr;  // the structure refers to slots, until the next layout
-  slots.lay_out(count_ - noninteracting_count_, room_for_births(true) + births, noninteracting_count_,
-                room_for_births(false) + births, tied);
-  records.resize(slots.room() + ParticleSlots::kLanes);  // a pack more, for searches to read; the last is the filler
-  next.resize(records.size());
+  slots.lay_out(count_ - noninteracting_count_, more_interacting, noninteracting_count_, more_noninteracting, tied);
+  size_buffers();
   acceleration.assign(verlet() ? records.size() : 0, {Real(0), Real(0), Real(0)});
+  const bool all_are_here = ids.size() == particles.size();
   std::size_t next_interacting = 0, next_noninteracting = slots.first_noninteracting();
   for (std::size_t k = 0; k < particles.size(); ++k) {
     const std::size_t slot =
         scene_->materials[particles.material[k]].interacts ? next_interacting++ : next_noninteracting++;
-    const std::size_t id_index = scene_->emitters.empty() ? k : ids.find(particles.id[k]);
-    put(slot, id_index, particles, k);
+    put(slot, all_are_here ? k : ids.find(particles.id[k]), particles, k);
     if (verlet() && !particles.acceleration.empty()) acceleration[slot] = vec_cast<Real>(particles.acceleration[k]);
   }
   fill_unused(records);
   fill_unused(next);
+}
+
+// Room for all slots, a pack more for searches to read, and the filler, the last.
+template <class Real>
+void ParticleState<Real>::size_buffers() {
+  records.resize(std::max(slots.room(), slots.ghost_end()) + ParticleSlots::kLanes);
+  next.resize(records.size());
+}
+
+// Others' particles
+// -----------------------------------------------------------------------------------------------------
+
+template <class Real>
+bool ParticleState<Real>::take_in(std::span<const Traveller> arrivals) {
+  std::size_t noninteracting = 0;
+  for (const Traveller& arrival : arrivals) noninteracting += material_of(arrival.record).interacts ? 0 : 1;
+  const bool crowded = !slots.has_room(arrivals.size() - noninteracting, noninteracting);
+  if (crowded) make_room(arrivals.size() - noninteracting, noninteracting);
+  // Tables that are known stay so.
+  for (std::vector<std::uint32_t>* table : {&slot_of_id_index_, &known_slot_of_id_index_}) {
+    if (!table->empty()) table->resize(ids.size(), kNoSlot);
+  }
+  for (const Traveller& arrival : arrivals) {
+    const std::size_t slot = material_of(arrival.record).interacts ? slots.take_interacting(slots.interacting_end())
+                                                                   : slots.take_noninteracting();
+    records[slot] = arrival.record;
+    if (verlet()) acceleration[slot] = arrival.acceleration;
+    ++count_of_[static_cast<std::size_t>(arrival.record.material)];
+    for (std::vector<std::uint32_t>* table : {&slot_of_id_index_, &known_slot_of_id_index_}) {
+      if (!table->empty()) (*table)[id_index_of(arrival.record.id_index)] = static_cast<std::uint32_t>(slot);
+    }
+  }
+  ++changes_;
+  recount();
+  return crowded;
+}
+
+// Moves all particles to a layout with room for so many more.
+template <class Real>
+void ParticleState<Real>::make_room(std::size_t interacting, std::size_t noninteracting) {
+  std::vector<Traveller> there;
+  for (std::size_t i = 0; i < slots.end(); ++i) {
+    if (!is_vacant(records[i])) there.push_back(traveller(i));
+  }
+  const std::size_t listed = count_ - noninteracting_count_;
+  slots.lay_out(0, listed + interacting + room_for_arrivals(listed + interacting), 0,
+                noninteracting_count_ + noninteracting + room_for_arrivals(noninteracting_count_ + noninteracting),
+                scene_->structure != nullptr);
+  size_buffers();
+  if (verlet()) acceleration.resize(records.size());
+  fill_unused(records);
+  fill_unused(next);
+  count_of_.assign(count_of_.size(), 0);
+  forget_slots();
+  take_in(there);
+}
+
+template <class Real>
+void ParticleState<Real>::put_ghosts(std::span<const Record> ghosts) {
+  slots.lay_out_ghosts(ghosts.size());
+  known_slot_of_id_index_.clear();
+  if (records.size() < slots.ghost_end() + ParticleSlots::kLanes) size_buffers();
+  std::copy(ghosts.begin(), ghosts.end(), records.begin() + static_cast<std::ptrdiff_t>(slots.first_ghost()));
+  fill_unused(records);
+  end_scratch();
+}
+
+template <class Real>
+void ParticleState<Real>::reorder_ghosts(std::span<const std::uint32_t> order) {
+  known_slot_of_id_index_.clear();
+  const Record* const before = records.data() + slots.first_ghost();
+  Record* const after = next.data() + slots.first_ghost();
+  for (std::size_t k = 0; k < order.size(); ++k) after[k] = before[order[k]];
+  std::copy(after, after + order.size(), records.data() + slots.first_ghost());
 }
 
 template <class Real>
@@ -82,8 +174,9 @@ void ParticleState<Real>::reorder(std::span<const std::uint32_t> order) {
   HOOKE_ASSERT(order.size() >= count_ - noninteracting_count_, order.size(), count_, noninteracting_count_);
   slots.set_interacting(count_ - noninteracting_count_);
   ++changes_;
-  slot_of_id_index_.clear();
+  forget_slots();
   permute(records, next, order);
+  copy_ghosts(next, records);
   fill_unused(records);
   if (verlet()) {
     LargeVector<Vec3<Real>> scratch(acceleration.size());
@@ -125,6 +218,17 @@ void ParticleState<Real>::find_slots() const {
       if (!is_vacant(records[i])) slot_of_id_index_[id_index_of(records[i].id_index)] = static_cast<std::uint32_t>(i);
     }
   });
+}
+
+template <class Real>
+void ParticleState<Real>::find_known_slots() const {
+  find_slots();
+  if (!slots.has_ghosts() || known_slot_of_id_index_.size() == ids.size()) return;
+  known_slot_of_id_index_ = slot_of_id_index_;
+  for (std::size_t i = slots.first_ghost(); i < slots.ghost_end(); ++i) {
+    if (!is_vacant(records[i]))
+      known_slot_of_id_index_[id_index_of(records[i].id_index)] = static_cast<std::uint32_t>(i);
+  }
 }
 
 template <class Real>
@@ -191,9 +295,15 @@ std::uint64_t ParticleState<Real>::hash() const {
 
 template <class Real>
 void ParticleState<Real>::put(std::size_t slot, std::size_t id_index, const ParticleSet& particles, std::size_t k) {
-  records[slot] = {vec_cast<Real>(particles.position[k]), static_cast<Real>(particles.material[k]),
-                   vec_cast<Real>(particles.velocity[k]), sort_key<Real>(static_cast<std::uint32_t>(id_index))};
-  wrap_periodic(rules_->view(), records[slot].x);  // a coordinate may have been rounded up to the upper face
+  records[slot] = record_of(particles, k, id_index);
+}
+
+template <class Real>
+auto ParticleState<Real>::record_of(const ParticleSet& particles, std::size_t k, std::size_t id_index) const -> Record {
+  Record record{vec_cast<Real>(particles.position[k]), static_cast<Real>(particles.material[k]),
+                vec_cast<Real>(particles.velocity[k]), sort_key<Real>(static_cast<std::uint32_t>(id_index))};
+  wrap_periodic(rules_->view(), record.x);  // a coordinate may have been rounded up to the upper face
+  return record;
 }
 
 template <class Real>
@@ -203,8 +313,15 @@ void ParticleState<Real>::fill_unused(LargeVector<Record>& all) const {
               vacant_record<Real>(Real(0)));
   };
   fill(slots.interacting_end(), slots.first_noninteracting());
-  fill(slots.noninteracting_end(), all.size() - 1);
+  fill(slots.noninteracting_end(), slots.first_ghost());
+  fill(slots.ghost_end(), all.size() - 1);
   all.back() = filler_record<Real>();
+}
+
+template <class Real>
+void ParticleState<Real>::copy_ghosts(const LargeVector<Record>& from, LargeVector<Record>& to) const {
+  const auto first = static_cast<std::ptrdiff_t>(slots.first_ghost());
+  std::copy(from.begin() + first, from.begin() + static_cast<std::ptrdiff_t>(slots.ghost_end()), to.begin() + first);
 }
 
 template <class Real>

@@ -41,17 +41,23 @@ class ParticleState {
   const Material& material_of(const Record& p) const { return scene_->materials[static_cast<std::size_t>(p.material)]; }
 
   std::size_t count() const { return count_; }  ///< particles
+  std::uint64_t count_of(std::size_t material) const { return count_of_[material]; }
   std::size_t noninteracting_count() const { return noninteracting_count_; }  ///< particles that touch none
   const ExactSum& mass() const { return mass_; }  ///< of all, kg
 
   /// Replaces all particles by these, of the scene, laid out in order of their ids, with room for births, for `births`
   /// at least.
   void place(const ParticleSet& particles, std::size_t births = 0);
+  /// The same for a part of the scene's particles; `all`: the ids of all of them.
+  void place_part(const ParticleSet& particles, std::span<const std::uint64_t> all);
 
   /// The buffer of the next state, as working memory; call end_scratch() before the next pass. reorder() works in it,
   /// too.
   std::span<std::byte> scratch() { return std::as_writable_bytes(std::span(next)); }
-  void end_scratch() { fill_unused(next); }
+  void end_scratch() {
+    fill_unused(next);
+    copy_ghosts(records, next);
+  }
 
   /// Backend::download().
   template <class Out>
@@ -68,17 +74,47 @@ class ParticleState {
   /// Counts how often particles have left their slots.
   std::uint64_t changes() const { return changes_; }
 
+  /// Particles have left whose slots must not be found any more.
+  void forget_slots() {
+    slot_of_id_index_.clear();
+    known_slot_of_id_index_.clear();
+  }
+
   static constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};
   /// Finds the slot of each id. A pass over all particles where a layout or a sort has moved them; else nothing.
   void find_slots() const;
   /// The slots, by id index, as of find_slots() and of particles added since; kNoSlot where there was no particle. The
   /// slot of a particle removed since is vacant, or another particle's.
   const std::vector<std::uint32_t>& slots_by_id_index() const { return slot_of_id_index_; }
+  /// The same with the slots of ghosts, after find_known_slots().
+  void find_known_slots() const;
+  const std::vector<std::uint32_t>& known_slots_by_id_index() const {
+    return slots.has_ghosts() ? known_slot_of_id_index_ : slot_of_id_index_;
+  }
   /// The slot of a particle by its id, after find_slots(); kNoSlot where there is none.
   std::size_t slot_of(std::uint64_t id) const;
 
   /// Gives the particle in a slot another position (m) and velocity (m/s).
   void set(std::size_t slot, const Vec3d& position, const Vec3d& velocity);
+
+  /// A particle on its way to another rank, of the same ids.
+  struct Traveller {
+    Record record;
+    Vec3<Real> acceleration{Real(0), Real(0), Real(0)};
+  };
+  Record record_of(const ParticleSet& particles, std::size_t k, std::size_t id_index) const;
+  Traveller traveller(std::size_t slot) const {
+    return verlet() ? Traveller{records[slot], acceleration[slot]} : Traveller{records[slot]};
+  }
+  /// Takes up particles from other ranks; recounts. Returns whether others have moved to make room: then there are no
+  /// ghosts.
+  bool take_in(std::span<const Traveller> arrivals);
+  /// Replaces all ghosts, which lie in this order from slots.first_ghost() on, and are of both buffers.
+  void put_ghosts(std::span<const Record> ghosts);
+  /// Makes a ghost's slot vacant in both buffers.
+  void remove_ghost(std::size_t slot) { records[slot] = next[slot] = vacant_record<Real>(records[slot].id_index); }
+  /// Moves ghost order[k] to place k.
+  void reorder_ghosts(std::span<const std::uint32_t> order);
 
   /// Puts the k-th newborn into a slot that was taken for it; call recount() after the last. Returns its id index.
   std::size_t add(std::size_t slot, const ParticleSet& newborn, std::size_t k);
@@ -95,7 +131,13 @@ class ParticleState {
     return slot != kNoSlot && !is_vacant(records[slot]) && id_index_of(records[slot].id_index) == id_index;
   }
   void put(std::size_t slot, std::size_t id_index, const ParticleSet& particles, std::size_t k);
+  void count_anew(const ParticleSet& particles);
+  void lay_out(const ParticleSet& particles, std::size_t more_interacting, std::size_t more_noninteracting);
+  void size_buffers();
+  static std::size_t room_for_arrivals(std::size_t beside) { return beside / 16 + kTile; }
+  void make_room(std::size_t interacting, std::size_t noninteracting);
   void fill_unused(LargeVector<Record>& all) const;
+  void copy_ghosts(const LargeVector<Record>& from, LargeVector<Record>& to) const;
 
   template <class T>
   void permute(LargeVector<T>& column, LargeVector<T>& scratch, std::span<const std::uint32_t> order) const;
@@ -107,6 +149,7 @@ class ParticleState {
   std::uint64_t changes_ = 0;
   ExactSum mass_;  // kg
   mutable std::vector<std::uint32_t> slot_of_id_index_;  // by find_slots(); empty where slots have changed since
+  mutable std::vector<std::uint32_t> known_slot_of_id_index_;  // by find_known_slots(); likewise, or ghosts have
 };
 
 extern template class ParticleState<float>;

@@ -111,7 +111,7 @@ void SpringLists<Real>::measure(const Record* records, const std::vector<std::ui
     std::uint64_t count = 0;
     for (std::size_t id_index = first; id_index < last; ++id_index) {
       for_each_side(records, slot_of, id_index, [&](const SpringSide& side, std::size_t i, std::size_t p) {
-        if (side.partner < id_index) return;
+        if (side.partner < id_index || i >= count_) return;
         ++count;
         part.add(table_.energy_of(side.spring, records[i], records[p]));
       });
@@ -134,6 +134,7 @@ void SpringLists<Real>::add_energy(const Record* records, const std::vector<std:
 }
 
 // Removes the springs that tore from a slice's rows. Each of a spring's two ends does so; the lower one counts it.
+// Where that is a ghost, another rank does.
 template <class Real>
 void SpringLists<Real>::finish_torn(const Record* records, std::size_t g, SpringSums& sums) {
   for (std::uint32_t r = first_row_[g]; r < first_row_[g + 1]; ++r) {
@@ -145,10 +146,13 @@ void SpringLists<Real>::finish_torn(const Record* records, std::size_t g, Spring
       const Record& other = records[partner];
       const std::uint32_t id_index = id_index_of(own.id_index);
       const SpringSide& side = table_.sides()[table_.first_side()[id_index] + (r - first_row_[g])];
-      if (side.partner < id_index) continue;
-      ++sums.broken;
-      sums.broken_energy.add(table_.energy_of(side.spring, own, other));
+      if (side.partner < id_index && partner < count_) continue;
+      if (side.partner > id_index) {
+        ++sums.broken;
+        sums.broken_energy.add(table_.energy_of(side.spring, own, other));
+      }
       const std::lock_guard lock(mutex_);
+      torn_.push_back(side.spring);
       if (table_.tear(side.spring, id_index, side.partner))
         released_.emplace_back(static_cast<std::uint32_t>(g * kLanes + lane), partner);
     }

@@ -46,11 +46,22 @@ class SpringLists {
   /// There are more particles now; no spring ties the new ones.
   void grow(std::size_t id_indices) { table_.grow(id_indices); }
 
+  /// visit(id index) for the other ends of the springs that tie a particle.
+  template <class Visit>
+  void for_each_partner(std::uint32_t id_index, const Visit& visit) const {
+    table_.for_each_side(id_index, [&](const SpringSide& side) { visit(side.partner); });
+  }
+
+  /// Springs that tore since the last call, in any order; and springs that have torn elsewhere.
+  std::vector<std::uint32_t> take_torn() { return std::exchange(torn_, {}); }
+  void tear(std::uint32_t spring) { table_.tear(spring); }
+
   /// Pairs that springs keep from touching.
   const Exclusions& exclusions() const { return table_.exclusions(); }
 
-  /// Lays the springs out for `count` particles in their present order; `slot_of` is the slot of each id index, kVacant
-  /// where a particle is gone. The last of `size` records fills short rows.
+  /// Lays the springs out for the first `count` particles in their present order; others that they tie are known too:
+  /// `slot_of` is the slot of each id index, kVacant where a particle is gone. The last of `size` records fills short
+  /// rows.
   void lay_out(const Record* records, std::size_t count, std::size_t size, const std::vector<std::uint32_t>& slot_of);
 
   /// Forces on every particle, N: the column that apply() fills.
@@ -79,6 +90,7 @@ class SpringLists {
   SpringPass<Real> pass_;
   SpringTable<Real> table_;
 
+  std::vector<std::uint32_t> torn_;  // since take_torn()
   std::vector<std::pair<std::uint32_t, std::uint32_t>> released_;  // by the last apply(): indices of both particles
 
   std::size_t count_ = 0;  // particles laid out

@@ -36,6 +36,23 @@ std::span<const std::uint32_t> VerletList<Real>::sort(const Record* records, std
 }
 
 template <class Real>
+std::span<const std::uint32_t> VerletList<Real>::sort_ghosts(const Record* records, std::size_t first,
+                                                             std::size_t end) {
+  const auto key = key_of(ghost_cells_, records + first);
+  lay_out_cells(ghost_cells_, skin_, end - first);
+  ghost_cells_.sort(
+      end - first,
+      [&](std::size_t i) {
+        const bool touches = rules_->interacts(static_cast<std::size_t>(records[first + i].material));
+        return touches ? key(i) : ghost_cells_.key_end();
+      },
+      ghost_order_);
+  first_ghost_ = first;
+  ghost_end_ = first + ghost_cells_.point_count();
+  return ghost_order_;
+}
+
+template <class Real>
 void VerletList<Real>::build(const Record* records, std::size_t count, std::size_t end, std::size_t size,
                              std::span<std::byte> scratch) {
   HOOKE_ASSERT(std::max(count, end) < size, count, end, size);
@@ -43,12 +60,13 @@ void VerletList<Real>::build(const Record* records, std::size_t count, std::size
   count_ = count;
   end_ = std::max(count, end);
   filler_ = record_offset<Real>(static_cast<std::uint32_t>(size - 1));
-  const std::size_t room = (end_ + kLanes - 1) / kLanes * kLanes;
+  const std::size_t room = (known_end() + kLanes - 1) / kLanes * kLanes;
   position_at_build_.resize(room);
   std::vector<std::uint32_t>& id_indices = order_;  // the order of the sort is no longer needed
   id_indices.reserve(room);  // a growing vector would take twice that
   id_indices.resize(room);
-  const SearchColumns columns(scratch, count + kLanes, rules_->largest_touching() > rules_->smallest_touching());
+  const std::size_t points = has_ghosts() ? ghost_end_ : count;
+  const SearchColumns columns(scratch, points + kLanes, rules_->largest_touching() > rules_->smallest_touching());
   parallel_ranges(count, NeighbourList::kTile, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       position_at_build_.put(i, records[i].x);
@@ -60,9 +78,10 @@ void VerletList<Real>::build(const Record* records, std::size_t count, std::size
       columns.radius[p] = static_cast<Real>(interaction_radius(records[slots_.slot_of(p)]));
     }
   });
-  build_neighbour_list(cells_, neighbour_rule(columns), search_, list_);
+  if (has_ghosts()) add_ghosts(records, columns);
+  build_neighbour_list(cells_, neighbour_rule(columns), search_, list_, ghost_points());
   strike_exclusions();
-  list_.add_empty_tiles((end_ + NeighbourList::kTile - 1) / NeighbourList::kTile);
+  list_.add_empty_tiles((known_end() + NeighbourList::kTile - 1) / NeighbourList::kTile);
 
   limits_.diameter = 2 * rules_->largest_interaction_radius();
   find_coarseness();
@@ -70,9 +89,9 @@ void VerletList<Real>::build(const Record* records, std::size_t count, std::size
   limits_.skin = std::max(0.0, 0.999 * skin_ - 2 * rules_->rounding() - coarseness_);
   std::copy(std::begin(rules_->view().periodic), std::end(rules_->view().periodic), limits_.periodic);
   // The order within a window does not matter.
-  motion_.lay_out({columns.x, columns.y, columns.z}, count, kWindow, limits_);
+  motion_.lay_out({columns.x, columns.y, columns.z}, points, kWindow, limits_);
   // Slots after the last particle are always far (buffer -1).
-  frames_.assign((end_ + kWindow - 1) / kWindow, Frame{{}, {}, Real(-1), {}});
+  frames_.assign((known_end() + kWindow - 1) / kWindow, Frame{{}, {}, Real(-1), {}});
   moved_.resize(frames_.size());
   outlying_.assign(room / kLanes, 0);
   patched_.clear(outlying_.size());
@@ -86,10 +105,40 @@ void VerletList<Real>::build(const Record* records, std::size_t count, std::size
   patched_.reserve(many);
   age_ = 0;
   spent_ = 0;
+  excess_ = 0;
   if (builds_ % kFollowTrial == 0) follow_helps_ = true;
   listed_ = true;
   ++builds_;
   follow(records);
+}
+
+// Puts ghosts into what a search reads. Columns between the particles and the ghosts are those of a ghost: no search
+// finds them, and reference frames need numbers.
+template <class Real>
+void VerletList<Real>::add_ghosts(const Record* records, const SearchColumns& columns) {
+  slots_.add_in_order(first_ghost_, ghost_end_);
+  for (std::size_t i = count_; i < ghost_end_; ++i) {
+    const Record& p = records[std::max(i, first_ghost_)];
+    position_at_build_.put(i, p.x);
+    order_[i] = id_index_of(p.id_index);
+    columns.x[i] = p.x.x;
+    columns.y[i] = p.x.y;
+    columns.z[i] = p.x.z;
+    columns.id_index[i] = order_[i];
+    if (columns.radius != nullptr) columns.radius[i] = static_cast<Real>(interaction_radius(p));
+  }
+}
+
+template <class Real>
+void VerletList<Real>::note_far_ghosts(const Record* records) {
+  if (!listed_ || !has_ghosts()) return;
+  for (std::size_t first = first_ghost_; first < ghost_end_; first += kLanes) {
+    unsigned far = 0;
+    for (std::size_t i = first; i < end_from(first, kLanes); ++i) {
+      if (!is_vacant(records[i]) && is_far(records[i], i)) far |= 1U << i % kLanes;
+    }
+    if (far != 0) note_far(first / kLanes, far);
+  }
 }
 
 template <class Real>
@@ -107,7 +156,10 @@ void VerletList<Real>::note_far(std::size_t slice, unsigned far) {
 
 template <class Real>
 void VerletList<Real>::moved(const Record* records) {
-  if (!listed_) return;
+  if (!listed_) {
+    if (is_shared_) ++age_;  // the same on all ranks
+    return;
+  }
   ++steps_;
   ++age_;
   if (rules_->view().periodic_kind == PeriodicKind::images && !outliers_.empty()) return invalidate();
@@ -120,7 +172,8 @@ void VerletList<Real>::moved(const Record* records) {
   const std::size_t cost = kOutlierCost * (outliers_.size() + released_.size());
   spent_ += cost;
   // The mean cost of a step, (count + spent) / age, is least where it meets the rising cost of a single step.
-  if (cost * age_ > count_ + spent_ || is_too_thick()) return invalidate();
+  excess_ = static_cast<std::int64_t>(cost * age_) - static_cast<std::int64_t>(count_ + spent_);
+  if ((excess_ > 0 && !is_shared_) || is_too_thick()) return invalidate();
   patch(records);
 }
 
@@ -128,8 +181,9 @@ template <class Real>
 std::uint64_t VerletList<Real>::count_missed(const Record* records) const {
   CellList cells;
   std::vector<std::uint32_t> order;
-  lay_out_cells(cells, 0, end_);
-  cells.sort(end_, key_of(cells, records), order);
+  lay_out_cells(cells, 0, known_end());
+  const auto key = key_of(cells, records);
+  cells.sort(known_end(), [&](std::size_t i) { return i < end_ || is_ghost(i) ? key(i) : cells.key_end(); }, order);
   const OutlierPairs<Real> pairs = outlier_pairs(records);
   std::atomic<std::uint64_t> missed{0};
   parallel_ranges(end_, kLanes, [&](std::size_t first, std::size_t last) {
@@ -225,7 +279,7 @@ void VerletList<Real>::follow(const Record* records) {
       [&](std::size_t w) {
         WindowMotion motion;
         Box3<Real> extent = Box3<Real>::none();
-        for (std::size_t i = w * kWindow; i < std::min((w + 1) * kWindow, count_); ++i) {
+        for (std::size_t i = w * kWindow; i < end_from(w * kWindow, kWindow); ++i) {
           if (is_vacant(records[i])) continue;
           const Vec3<Real> u = displacement(records[i], i, {Real(0), Real(0), Real(0)});
           extent.add(u);
@@ -240,7 +294,7 @@ void VerletList<Real>::follow(const Record* records) {
   steps_ = 0;
   since_followed_ = 0;
   outliers_.clear();
-  if (horizon_ < 0) return invalidate();
+  if (horizon_ < 0 && count_ > 0) return invalidate();
   parallel_ranges(outlying_.size(), kSlices, [&](std::size_t first, std::size_t last) {
     for (std::size_t g = first; g < last; ++g) {
       outlying_[g] = 0;
@@ -254,10 +308,10 @@ template <class Real>
 unsigned VerletList<Real>::outliers_of_slice(const Record* records, std::size_t g) const {
   const std::size_t window = g * kLanes / kWindow;
   const Frame& frame = frames_[window];
-  const bool born = g * kLanes >= first_free();
+  const bool born = g * kLanes >= first_free() && !is_ghost(g * kLanes);
   unsigned far = 0;
   if (!born && furthest2(moved_[window], frame.offset) <= frame.limit2(Real(0))) return far;
-  const std::size_t end = born ? (g + 1) * kLanes : std::min((g + 1) * kLanes, count_);
+  const std::size_t end = born ? std::min((g + 1) * kLanes, end_) : end_from(g * kLanes, kLanes);
   for (std::size_t i = g * kLanes; i < end; ++i) {
     if (!is_vacant(records[i]) && (born || is_off(records[i], i, frame, Real(0)))) far |= 1U << i % kLanes;
   }
@@ -273,7 +327,7 @@ auto VerletList<Real>::centre_of(const Record* records) const {
   const Vec3<Real> middle = motion_.middle(steps);
   const double anywhere = half + motion_.furthest_from_middle(static_cast<double>(steps_));
   return [=, this](std::size_t i) -> Centre {
-    if (i < count_) {
+    if (i < count_ || is_ghost(i)) {
       const Frame& frame = frames_[i / kWindow];
       const Vec3<Real> off = displacement(records[i], i, frame.at(steps));
       if (static_cast<double>(dot(off, off)) < mild * mild) {

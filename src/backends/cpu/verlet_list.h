@@ -48,7 +48,13 @@ class VerletList {
     search_ = search;
     skin_ratio_ = kFirstSkin;
     listed_ = false;
+    first_ghost_ = ghost_end_ = 0;
   }
+
+  /// One of several lists that are built at the same time, each when the sum of their excess() is above 0.
+  void share(bool shared) { is_shared_ = shared; }
+  /// By how much outliers now cost more than the list is worth, in units of the cost of listing one particle.
+  std::int64_t excess() const { return excess_; }
 
   /// Whether the list holds every pair that touches at the present positions.
   bool is_valid() const { return listed_; }
@@ -58,6 +64,19 @@ class VerletList {
   /// the particle that is to be the k-th. Works in `scratch`.
   std::span<const std::uint32_t> sort(const Record* records, std::size_t count, const Box3d& box,
                                       std::span<std::byte> scratch);
+
+  /// Chooses the skin of the next list, m; sort() does so, too, with the same result.
+  double next_skin() {
+    choose_skin();
+    return skin_;
+  }
+
+  /// Sorts ghosts, the particles `first` to `end` - 1, into cells of their own, after sort() and before build(); those
+  /// that touch no others come last. Returns the order: the index among them of the one that is to be the k-th.
+  std::span<const std::uint32_t> sort_ghosts(const Record* records, std::size_t first, std::size_t end);
+
+  /// Where no ghost is, m.
+  void set_own_box(const Box3d& box) { own_box_ = box; }
 
   /// Lists the neighbours of the first `count` particles, which lie in the order that sort() gave. The last of the
   /// `size` records fills short lanes. Slots from the next whole window up to `end` are room for later births. Works in
@@ -96,8 +115,9 @@ class VerletList {
   /// These pairs (indices) were kept apart and may touch from now on.
   void release(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
     for (const auto& [i, p] : pairs) {
-      released_.push_back({i, order_[p], record_offset<Real>(p)});
-      released_.push_back({p, order_[i], record_offset<Real>(i)});
+      if (!knows(i) || !knows(p)) continue;  // one that touches no others
+      if (!is_ghost(i)) released_.push_back({i, order_[p], record_offset<Real>(p)});
+      if (!is_ghost(p)) released_.push_back({p, order_[i], record_offset<Real>(i)});
       patching_due_ = true;
     }
   }
@@ -119,6 +139,15 @@ class VerletList {
   /// Notes the lanes of a slice that are further from their reference frame than it allows: `far` has one bit per lane.
   /// Any thread may call, but only one per slice.
   void note_far(std::size_t slice, unsigned far);
+  /// Notes the ghosts that are too far. Before moved().
+  void note_far_ghosts(const Record* records);
+  /// The box around the displacements of the reference frames since the list was built, m.
+  Box3d frame_displacements() const {
+    return listed_ ? motion_.frame_displacements(static_cast<double>(steps_)) : Box3d::none();
+  }
+  std::span<const std::uint32_t> outliers() const { return outliers_; }
+  /// How far a particle has moved since the list was built, m.
+  Vec3<Real> moved_by(const Record& p, std::size_t i) const { return displacement(p, i, {Real(0), Real(0), Real(0)}); }
   /// Whether particle i, moved by its next step, is further from its reference frame than that allows.
   bool is_far(const Record& p, std::size_t i) const { return is_off(p, i, frames_[i / kWindow], next_step()); }
   /// All particles have moved by a step, and new outliers are noted. is_valid() then tells whether the list holds.
@@ -186,6 +215,7 @@ class VerletList {
     }
   };
 
+  void add_ghosts(const Record* records, const SearchColumns& columns);
   NeighbourRule<Real> neighbour_rule(const SearchColumns& columns);
   void find_coarseness();
 
@@ -202,7 +232,20 @@ class VerletList {
   unsigned outliers_of_slice(const Record* records, std::size_t g) const;
 
   OutlierPairs<Real> outlier_pairs(const Record* records) const {
-    return {*rules_, records, cells_, slots_, order_.data(), list_, *exclusions_};
+    return {*rules_, records, cells_, ghost_points(), slots_, order_.data(), list_, *exclusions_};
+  }
+
+  bool has_ghosts() const { return ghost_end_ > first_ghost_; }
+  bool is_ghost(std::size_t i) const { return has_ghosts() && i >= first_ghost_; }
+  bool knows(std::size_t i) const { return i < std::max(count_, end_) || (is_ghost(i) && i < ghost_end_); }
+  // One past the last slot that the list knows.
+  std::size_t known_end() const { return has_ghosts() ? ghost_end_ : std::max(count_, end_); }
+  GhostPoints ghost_points() const {
+    return has_ghosts() ? GhostPoints{&ghost_cells_, first_ghost_, own_box_} : GhostPoints{};
+  }
+  // One past the last listed particle or ghost of the window, or a part of it, that begins at `first`.
+  std::size_t end_from(std::size_t first, std::size_t size) const {
+    return std::min(first + size, is_ghost(first) ? ghost_end_ : count_);
   }
 
   auto centre_of(const Record* records) const;
@@ -226,9 +269,12 @@ class VerletList {
 
   std::size_t count_ = 0;  // listed
   std::size_t end_ = 0;  // of the room for later births
+  std::size_t first_ghost_ = 0, ghost_end_ = 0;  // of those that touch others
+  Box3d own_box_ = Box3d::none();  // m, where no ghost is
   std::uint32_t filler_ = 0;  // entry that fills short lanes
-  CellList cells_;
+  CellList cells_, ghost_cells_;
   WindowOrder slots_;
+  std::vector<std::uint32_t> ghost_order_;
   std::vector<std::uint32_t> order_;  // while sorting: each one's former index; then: id indices
   NeighbourList list_;
   ColumnStore<Real> position_at_build_;  // m
@@ -250,6 +296,8 @@ class VerletList {
   std::mutex mutex_;  // guards outliers_
   std::int64_t steps_ = 0, horizon_ = 0;  // since the last follow(); how many it is good for
   bool follow_helps_ = true;  // reduces outliers, as far as is known
+  bool is_shared_ = false;
+  std::int64_t excess_ = 0;
   std::size_t age_ = 0;  // steps since the last build
   std::size_t since_followed_ = 0, spent_ = 0;  // on outliers, since follow() and since the last build
 };

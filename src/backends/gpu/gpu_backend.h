@@ -66,7 +66,8 @@ class GpuBackend final : public Backend {
   RemovalSums remove_sunk() override;
 
   void half_kick_and_drift() override;
-  void finish_motion(RemovalSums& left) override;
+  void follow_motion() override;
+  void remove_departed(RemovalSums& left) override;
   bool neighbours_stale() override { return (listed_count() > 0 && stale_) || applied_.needs_layout(); }
   Condition build_neighbours() override;
   void apply_forces(const Instant& now, StepReport& report) override { apply_forces_in_a_row({&now, 1}, report); }
@@ -197,7 +198,7 @@ class GpuBackend final : public Backend {
   DeviceBuffer<WarpMoves> moves_{device_};
   DeviceBuffer<std::uint32_t> suspects_{device_}, departed_{device_};
   SumWindows windows_;
-  std::uint32_t leaving_ = 0;  // particles in departed_, until finish_motion()
+  std::uint32_t leaving_ = 0;  // particles in departed_, until remove_departed()
 
   // Working memory of rare calls.
   mutable DeviceBuffer<std::uint32_t> asked_{device_}, asked_first_{device_};

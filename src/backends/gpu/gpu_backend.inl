@@ -279,11 +279,14 @@ void GpuBackend<Device, Real>::judge_motion(const StepRunner<Device>& step, std:
 }
 
 template <class Device, class Real>
-void GpuBackend<Device, Real>::finish_motion(RemovalSums& left) {
+void GpuBackend<Device, Real>::follow_motion() {
+  leaving_ = seen_.report.departed;
+  stale_ = stale_ || seen_.report.stale != 0;
+}
+
+template <class Device, class Real>
+void GpuBackend<Device, Real>::remove_departed(RemovalSums& left) {
   const Stopwatch following(times_.motion);
-  const DeviceReport& report = seen_.report;
-  leaving_ = report.departed;
-  stale_ = stale_ || report.stale != 0;
   if (leaving_ > 0) left.add(let_go(read_departed(), false));
 }
 

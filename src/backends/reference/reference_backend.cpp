@@ -133,10 +133,12 @@ class ReferenceBackend final : public Backend {
     }
   }
 
-  // Wraps periodic coordinates and removes particles outside open faces. Under velocity Verlet they have had their half
-  // kick.
-  void finish_motion(RemovalSums& left) override {
+  void follow_motion() override {
     for (Vec3d& x : p_.position) wrap_periodic(rules_.view(), x);
+  }
+
+  // Under velocity Verlet they have had their half kick.
+  void remove_departed(RemovalSums& left) override {
     left.add(remove_where([&](std::size_t i) { return is_outside_open_face(rules_.view(), p_.position[i]); }, false));
   }
 

@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace hooke {
+
+/// The cores that this rank has for its threads, at least one: those that it may run on, shared out evenly among the
+/// ranks of the same node that may run on them, too. All ranks call it together, after
+/// join_ranks().
+int own_cores();
+
+}  // namespace hooke

@@ -1,0 +1,489 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include "hooke/core/ranks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <type_traits>
+#include <utility>
+
+#include "hooke/base/assert.h"
+#include "hooke/base/bytes.h"
+#include "hooke/base/format.h"
+#include "hooke/base/process_usage.h"
+
+namespace hooke {
+namespace {
+
+constexpr int kLeader = 0;
+constexpr double kMostImbalance = 1.05;  // beyond what the last cut has reached, before boxes are cut anew
+constexpr double kFew = 64;              // particles that don't matter to the balance
+constexpr std::size_t kMostSamples = 1'000'000;
+
+// Adds the processor time of its scope to a sum. Where there are more ranks than cores, most of the time that passes in
+// a message is the other ranks' work.
+class Waiting {
+ public:
+  explicit Waiting(double& seconds) : seconds_(seconds), start_(thread_processor_seconds()) {}
+  ~Waiting() { seconds_ += thread_processor_seconds() - start_; }
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+
+ private:
+  double& seconds_;
+  double start_;
+};
+
+template <class T, class Body>
+Communicator::Add adding(const Body&) {
+  static_assert(std::is_trivially_copyable_v<T> && std::is_empty_v<Body>);
+  return [](const void* item, void* sum) { Body{}(*static_cast<const T*>(item), *static_cast<T*>(sum)); };
+}
+
+template <class T>
+std::vector<Parcel> to_all_others(const Communicator& communicator, const std::vector<T>& values) {
+  std::vector<Parcel> out;
+  for (int rank = 0; rank < communicator.size(); ++rank) {
+    if (rank == communicator.rank() || values.empty()) continue;
+    append_bytes(out.emplace_back(Parcel{rank, {}}).bytes, values.data(), values.size());
+  }
+  return out;
+}
+
+template <class T>
+std::vector<T> values_of(std::span<const std::byte> bytes) {
+  std::vector<T> values(bytes.size() / sizeof(T));
+  take_bytes(bytes, values.data(), values.size());
+  return values;
+}
+
+void append_particles(std::vector<std::byte>& to, const ParticleSet& from, std::span<const std::size_t> which) {
+  constexpr std::size_t kBytes = sizeof(std::uint64_t) + sizeof(std::uint16_t) + 3 * sizeof(Vec3d);
+  to.reserve(to.size() + which.size() * kBytes + sizeof(std::size_t) + 1);
+  append_bytes(to, which.size());
+  append_bytes(to, static_cast<std::uint8_t>(from.acceleration.empty() ? 0 : 1));
+  const auto column = [&](const auto& of) {
+    for (const std::size_t i : which) append_bytes(to, of[i]);
+  };
+  column(from.id);
+  column(from.material);
+  column(from.position);
+  column(from.velocity);
+  if (!from.acceleration.empty()) column(from.acceleration);
+}
+
+void take_particles(std::span<const std::byte> from, ParticleSet& to) {
+  std::size_t count = 0;
+  std::uint8_t accelerated = 0;
+  take_bytes(from, count);
+  take_bytes(from, accelerated);
+  const auto column = [&](auto& of) {
+    const std::size_t before = of.size();
+    of.resize(before + count);
+    take_bytes(from, of.data() + before, count);
+  };
+  column(to.id);
+  column(to.material);
+  column(to.position);
+  column(to.velocity);
+  if (accelerated != 0) column(to.acceleration);
+}
+
+}  // namespace
+
+// Decomposition -------------------------------------------------------------------------------------------------------
+
+int Decomposition::owner(const Vec3d& x) const {
+  for (int rank = 0; rank < static_cast<int>(boxes.size()); ++rank) {
+    if (owns(rank, x)) return rank;
+  }
+  return kNobody;
+}
+
+bool Decomposition::is_near(int rank, const Vec3d& x, double reach) const {
+  const Box3d& box = boxes[static_cast<std::size_t>(rank)];
+  for (int axis = 0; axis < 3; ++axis) {
+    double low = component(box.min, axis), high = component(box.max, axis);
+    const double at = component(x, axis);
+    if (domain.boundary[static_cast<std::size_t>(axis)] != Boundary::periodic) {
+      if (!(at >= low - reach && at <= high + reach)) return false;
+      continue;
+    }
+    low = std::max(low, component(domain.min, axis)) - reach;
+    high = std::min(high, component(domain.max, axis)) + reach;
+    const double period = component(domain.period(), axis);
+    const auto is_between = [&](double at_image) { return at_image >= low && at_image <= high; };
+    if (!is_between(at) && !is_between(at - period) && !is_between(at + period)) return false;
+  }
+  return true;
+}
+
+double FrameDisplacements::across() const {
+  if (none()) return 0;
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis) sum += (most[axis] + most[axis + 3]) * (most[axis] + most[axis + 3]);
+  return std::sqrt(sum);
+}
+
+// Ranks ---------------------------------------------------------------------------------------------------------------
+
+Ranks::Ranks(std::shared_ptr<Communicator> communicator) : communicator_(std::move(communicator)) {
+  if (communicator_ && communicator_->size() == 1) communicator_ = nullptr;
+}
+
+template <class T, class Body>
+void Ranks::combine(std::span<T> items, const Body& body, const Place& here) {
+  const Waiting waiting(statistics_.waiting);
+  expect_all(here);
+  communicator_->combine(items.data(), items.size(), sizeof(T), adding<T>(body));
+}
+template <class T, class Body>
+void Ranks::combine(T& item, const Body& body, const Place& here) {
+  combine(std::span<T>(&item, 1), body, here);
+}
+
+std::vector<Parcel> Ranks::exchange(std::vector<Parcel> out, const Place& here) {
+  const Waiting waiting(statistics_.waiting);
+  expect_all(here);
+  return communicator_->exchange(std::move(out));
+}
+
+// With assertions: ranks that come from different places say so. Without, they wait for each other for ever.
+void Ranks::expect_all([[maybe_unused]] const Place& here) {
+#if HOOKE_ASSERTIONS
+  struct Lines {
+    std::uint32_t least, most;
+  };
+  Lines lines{here.line(), here.line()};
+  communicator_->combine(&lines, 1, sizeof lines, adding<Lines>([](const Lines& a, Lines& sum) {
+    sum = {std::min(sum.least, a.least), std::max(sum.most, a.most)};
+  }));
+  if (lines.least == lines.most) return;
+  communicator_->abort(formatted("is at line {} of ranks.cpp, {}(), while other ranks are at lines {} to {}",
+                                 here.line(), here.function_name(), lines.least, lines.most));
+#endif
+}
+
+bool Ranks::neighbours_stale(Backend& backend) { return is_serial() ? backend.neighbours_stale() : stale_; }
+
+Condition Ranks::build_neighbours(Backend& backend) {
+  if (is_serial()) return backend.build_neighbours();
+  SharedParticles& shared = *backend.shared();
+  if (shared.has_springs()) share_torn(shared);
+  exchange_particles(shared);
+  renew_ghosts(shared);
+  const Condition found = first(backend.build_neighbours());
+  stale_ = !found.good();
+  return found;
+}
+
+Condition Ranks::follow_motion(Backend& backend, const Condition& here) {
+  if (is_serial()) {
+    backend.follow_motion();
+    return here;
+  }
+  refresh(*backend.shared());
+  backend.follow_motion();
+  return decide(backend, *backend.shared(), here);
+}
+
+Condition Ranks::first(const Condition& here) {
+  if (is_serial()) return here;
+  Condition all = here;
+  combine(all, [](const Condition& a, Condition& sum) { sum = Condition::first(sum, a); });
+  return all;
+}
+
+void Ranks::assign(Backend& backend, const Scene& scene, const ParticleSet& particles) {
+  if (is_serial()) return backend.assign(particles);
+  SharedParticles& shared = *backend.shared();
+  space_.domain = scene.domain;
+  std::vector<Vec3d> sample;
+  if (leads()) {
+    const std::size_t stride = particles.size() / kMostSamples + 1;
+    for (std::size_t i = 0; i < particles.size(); i += stride) sample.push_back(particles.position[i]);
+  }
+  space_.boxes = communicator_->cut(sample);
+  ++statistics_.cuts;
+  even_ = 1;
+  std::vector<std::byte> ids;
+  if (leads()) append_bytes(ids, particles.id.data(), particles.size());
+  communicator_->broadcast(ids);
+  std::vector<Parcel> out;
+  if (leads()) {
+    std::vector<std::vector<std::size_t>> of(space_.boxes.size());
+    int owner = kLeader;  // of the particle before: neighbours often have the same
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      if (!space_.owns(owner, particles.position[i])) owner = std::max(space_.owner(particles.position[i]), kLeader);
+      of[static_cast<std::size_t>(owner)].push_back(i);
+    }
+    for (std::size_t rank = 0; rank < of.size(); ++rank) {
+      append_particles(out.emplace_back(Parcel{static_cast<int>(rank), {}}).bytes, particles, of[rank]);
+      of[rank] = {};
+    }
+  }
+  ParticleSet own;
+  for (const Parcel& parcel : exchange(std::move(out))) take_particles(parcel.bytes, own);
+  shared.assign_part(own, values_of<std::uint64_t>(ids));
+  channel_ = nullptr;
+  stale_ = true;
+}
+
+void Ranks::cut(SharedParticles& shared) {
+  std::vector<Vec3d> points;
+  shared.sample(points);
+  space_.boxes = communicator_->cut(points);
+  ++statistics_.cuts;
+}
+
+// Everyone to the owner of its place; new boxes where these have become uneven, more than a cut can help.
+void Ranks::exchange_particles(SharedParticles& shared) {
+  const auto move = [&] {
+    std::vector<Parcel> out;
+    shared.move_out(space_, communicator_->rank(), out);
+    shared.move_in(exchange(std::move(out)));
+  };
+  // The largest share over the mean.
+  const auto imbalance = [&] {
+    struct Counts {
+      std::uint64_t all, most;
+    };
+    Counts counts{shared.own_count(), shared.own_count()};
+    combine(counts, [](const Counts& a, Counts& sum) {
+      sum.all += a.all;
+      sum.most = std::max(sum.most, a.most);
+    });
+    const double mean = static_cast<double>(counts.all) / communicator_->size();
+    return static_cast<double>(counts.most) / (mean + kFew);
+  };
+  move();
+  if (imbalance() <= kMostImbalance * even_) return;
+  cut(shared);
+  move();
+  even_ = std::max(1.0, imbalance());
+}
+
+// A spring tears on the ranks that own its ends; the others learn of it before they may own one.
+void Ranks::share_torn(SharedParticles& shared) {
+  const std::vector<std::uint32_t> here = shared.take_torn();
+  for (const Parcel& parcel : exchange(to_all_others(*communicator_, here)))
+    shared.tear(values_of<std::uint32_t>(parcel.bytes));
+}
+
+std::vector<WantedParticles> Ranks::exchange_wanted(const SharedParticles& shared) {
+  std::vector<WantedParticles> wanted;
+  for (const Parcel& parcel : exchange(to_all_others(*communicator_, shared.wanted())))
+    wanted.push_back({parcel.rank, values_of<std::uint32_t>(parcel.bytes)});
+  return wanted;
+}
+
+void Ranks::renew_ghosts(SharedParticles& shared) {
+  const auto ranks = static_cast<std::size_t>(communicator_->size());
+  largest_.assign(ranks, -1);
+  largest_[static_cast<std::size_t>(communicator_->rank())] = shared.largest_radius();
+  combine(std::span(largest_), [](const double& a, double& sum) { sum = std::max(sum, a); });
+  width_ = shared.next_width();
+  combine(width_.skin, [](const double& a, double& sum) { sum = std::max(sum, a); });
+  std::vector<Parcel> out;
+  shared.copy_out(zones(), shared.has_springs() ? exchange_wanted(shared) : std::vector<WantedParticles>(), out);
+  std::vector<Communicator::Route> to, from;
+  const std::size_t bytes = shared.packed_bytes();
+  out_.resize(shared.copied_count() * bytes);
+  std::size_t at = 0;
+  for (const Parcel& parcel : out) {
+    const std::size_t length = parcel.bytes.size() / shared.copy_bytes() * bytes;
+    to.push_back({parcel.rank, std::span(out_).subspan(at, length)});
+    at += length;
+  }
+  const std::vector<Parcel> in = exchange(std::move(out));
+  shared.take_ghosts(in);
+  in_.resize(shared.ghost_count() * bytes);
+  at = 0;
+  for (const Parcel& parcel : in) {
+    const std::size_t length = parcel.bytes.size() / shared.copy_bytes() * bytes;
+    from.push_back({parcel.rank, std::span(in_).subspan(at, length)});
+    at += length;
+  }
+  channel_ = communicator_->open(to, from);
+  partners_ = to.size();
+  ++statistics_.exchanges;
+  statistics_.ghosts += shared.ghost_count();
+}
+
+// Ghosts to where their particles are now.
+void Ranks::refresh(SharedParticles& shared) {
+  if (stale_) return;  // new ones come
+  shared.pack(out_);
+  {
+    const Waiting waiting(statistics_.waiting);
+    channel_->exchange();
+  }
+  shared.unpack(in_);
+  statistics_.bytes += out_.size();
+  statistics_.messages += partners_;
+}
+
+// Two particles that know nothing of each other were further apart than they can touch by a skin and a slack. They
+// don't touch while no two displacements differ by that. Frames differ by less than 0.99 slacks, and particles are
+// within half a skin of theirs, or are outliers, which are looked at one by one: those that are further from the middle
+// of all frames than half of both may touch something unknown in or near another rank's box, moved by that middle. Two
+// such outliers, too: boxes tile space, so that one of them is then in or near a box that is not its own.
+Condition Ranks::decide(Backend& backend, SharedParticles& shared, const Condition& here) {
+  struct Decision {
+    Condition found;
+    FrameDisplacements frames;
+    std::int64_t excess;
+    bool stale, leaving, outliers;
+  };
+  const bool stale_here = backend.neighbours_stale();
+  Decision all{here,       shared.displacements(),  shared.list_excess(),
+               stale_here, shared.has_departures(), shared.has_outliers()};
+  combine(all, [](const Decision& a, Decision& sum) {
+    sum.found = Condition::first(sum.found, a.found);
+    for (int k = 0; k < 6; ++k) sum.frames.most[k] = std::max(sum.frames.most[k], a.frames.most[k]);
+    sum.excess += a.excess;
+    sum.stale = sum.stale || a.stale;
+    sum.leaving = sum.leaving || a.leaving;
+    sum.outliers = sum.outliers || a.outliers;
+  });
+  stale_ = stale_ || all.stale || all.excess > 0 || !(all.frames.across() < 0.99 * width_.slack);
+  if (!stale_ && all.outliers) {
+    stale_ = shared.has_lost_outlier(zones(), all.frames);
+    combine(stale_, [](const bool& a, bool& sum) { sum = sum || a; });
+  }
+  // What leaves takes along the energy of its contacts, which only a good list tells.
+  if (stale_ && all.leaving) {
+    build_neighbours(backend);
+    shared.find_departures();
+  }
+  return all.found;
+}
+
+// Population
+// -----------------------------------------------------------------------------------------------------------
+
+// What is removed takes along the energy of its contacts, which only a good list tells. A list that is not good is due
+// in any case; what is wrong with it the next step reports.
+RemovalSums Ranks::remove_sunk(Backend& backend) {
+  if (!is_serial() && stale_) build_neighbours(backend);
+  return backend.remove_sunk();
+}
+
+Removal Ranks::remove(Backend& backend, std::span<const std::uint64_t> ids) {
+  if (is_serial() || ids.empty()) return backend.remove(ids);
+  if (stale_) build_neighbours(backend);
+  Removal removal = backend.remove(ids);
+  combine(std::span(removal.was_there), [](const std::uint8_t& a, std::uint8_t& sum) { sum = std::max(sum, a); });
+  return removal;
+}
+
+RemovalSums Ranks::insert(Backend& backend, const Scene& scene, const ParticleSet& newborn) {
+  if (is_serial()) return backend.insert(newborn);
+  if (newborn.empty()) return {};
+  SharedParticles& shared = *backend.shared();
+  std::uint64_t count = shared.own_count();
+  sum(count);
+  // Ids of removed particles stay in the tables until these are mostly theirs.
+  if (shared.id_count() + newborn.size() > 4 * count + 65536) {
+    ParticleSet all;
+    download(backend, scene.integrator, all);
+    gather(all);
+    assign(backend, scene, all);
+  }
+  RemovalSums born = shared.insert_part(newborn, space_, communicator_->rank());
+  const auto touches = [&](std::uint16_t m) { return scene.materials[m].interacts || shared.wants_all(); };
+  if (std::none_of(newborn.material.begin(), newborn.material.end(), touches)) {
+    bool lost = backend.neighbours_stale();  // particles had to move to make room
+    combine(lost, [](const bool& a, bool& sum) { sum = sum || a; });
+    stale_ = stale_ || lost;
+    return born;
+  }
+  stale_ = true;
+  if (!shared.has_cohesion()) return born;
+  // Newborn particles overlap no other, but cohesion may reach them.
+  if (build_neighbours(backend).good()) shared.add_elastic_of(newborn.id, born.elastic);
+  return born;
+}
+
+void Ranks::find_inside(const Backend& backend, const Box3d& box, std::vector<Occupant>& out) {
+  backend.find_inside(box, out);
+  if (is_serial()) return;
+  for (const Parcel& parcel : exchange(to_all_others(*communicator_, out))) {
+    const std::vector<Occupant> theirs = values_of<Occupant>(parcel.bytes);
+    out.insert(out.end(), theirs.begin(), theirs.end());
+  }
+}
+
+RankCosts Ranks::costs(std::uint64_t particles) {
+  RankCosts costs;
+  const auto figure = [](auto here) { return RankFigure{static_cast<double>(here), static_cast<double>(here)}; };
+  const double processor = processor_seconds();
+  costs.processor = figure(processor - statistics_.processor_before);
+  costs.waiting = figure(statistics_.waiting);
+  costs.ghosts = figure(statistics_.ghosts);
+  costs.messages = figure(statistics_.messages);
+  costs.bytes = figure(statistics_.bytes);
+  costs.particles = figure(particles);
+  costs.peak_bytes = figure(peak_resident_bytes());
+  costs.exchanges = statistics_.exchanges;
+  costs.cuts = statistics_.cuts;
+  statistics_ = {};
+  statistics_.processor_before = processor;
+  if (is_serial()) return costs;
+  combine(costs, [](const RankCosts& a, RankCosts& sum) {
+    sum.ranks += a.ranks;
+    for (RankFigure RankCosts::* of :
+         {&RankCosts::processor, &RankCosts::waiting, &RankCosts::ghosts, &RankCosts::messages, &RankCosts::bytes,
+          &RankCosts::particles, &RankCosts::peak_bytes}) {
+      (sum.*of).sum += (a.*of).sum;
+      (sum.*of).most = std::max((sum.*of).most, (a.*of).most);
+    }
+  });
+  return costs;
+}
+
+void Ranks::sum(LedgerSums& sums) {
+  if (is_serial()) return;
+  combine(sums, [](const LedgerSums& a, LedgerSums& sum) { sum.add(a); });
+}
+
+void Ranks::sum(MeasurementSums& sums) {
+  if (is_serial()) return;
+  std::vector<Parcel> out;
+  if (!leads()) sums.write(out.emplace_back(Parcel{kLeader, {}}).bytes);
+  for (const Parcel& parcel : exchange(std::move(out))) sums.add(parcel.bytes);
+}
+
+void Ranks::sum(std::uint64_t& count) {
+  if (is_serial()) return;
+  combine(count, [](const std::uint64_t& a, std::uint64_t& sum) { sum += a; });
+}
+
+void Ranks::unite(std::vector<std::uint64_t>& broken_springs) {
+  if (is_serial()) return;
+  std::vector<Parcel> out;
+  if (!leads()) append_bytes(out.emplace_back(Parcel{kLeader, {}}).bytes, broken_springs.data(), broken_springs.size());
+  for (const Parcel& parcel : exchange(std::move(out))) {
+    const std::vector<std::uint64_t> theirs = values_of<std::uint64_t>(parcel.bytes);
+    broken_springs.insert(broken_springs.end(), theirs.begin(), theirs.end());
+  }
+  std::sort(broken_springs.begin(), broken_springs.end());
+  broken_springs.erase(std::unique(broken_springs.begin(), broken_springs.end()), broken_springs.end());
+}
+
+void Ranks::gather(ParticleSet& particles) {
+  if (is_serial()) return;
+  std::vector<Parcel> out;
+  if (!leads()) {
+    std::vector<std::size_t> all(particles.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    append_particles(out.emplace_back(Parcel{kLeader, {}}).bytes, particles, all);
+    particles.clear();
+  }
+  for (const Parcel& parcel : exchange(std::move(out))) take_particles(parcel.bytes, particles);
+  particles.sort_by_id();
+}
+
+}  // namespace hooke

@@ -1,0 +1,267 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+// Scenes computed by several ranks, which are threads here: their bits, their errors, what is saved and refused.
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "busy_scenes.h"
+#include "hooke/core/emitters.h"
+#include "hooke/core/springs.h"
+#include "support/ranks.h"
+
+namespace hooke::test {
+namespace {
+
+class RanksOfBusyScenes : public BusyScenes {};
+
+TEST_P(RanksOfBusyScenes, HaveTheSameBits) {
+  Simulation one = simulate(scene_, particles_, engine(1));
+  ASSERT_TRUE(advance(one, 150));
+  for (const int ranks : {2, 3, 5, 8}) {
+    SCOPED_TRACE(ranks);
+    Engine checked = engine(ranks == 3 ? 2 : 1);
+    checked.check_list = true;
+    on_ranks(ranks, scene_, particles_, checked, [&](Simulation& many) {
+      ASSERT_TRUE(advance(many, 70));
+      ASSERT_TRUE(advance(many, 80));
+      EXPECT_EQ(many.neighbour_statistics().missed_contacts, 0U);
+      expect_same_bits(one, many);
+    });
+  }
+}
+
+// A state of any number of ranks goes on on any other.
+TEST_P(RanksOfBusyScenes, GoOnFromASavedState) {
+  Simulation one = simulate(scene_, particles_, engine(1));
+  ASSERT_TRUE(advance(one, 120));
+  SimulationState saved;
+  on_ranks(3, scene_, particles_, engine(1), [&](Simulation& three) {
+    ASSERT_TRUE(advance(three, 60));
+    saved = three.state();
+  });
+  for (const int ranks : {1, 2, 4}) {
+    SCOPED_TRACE(ranks);
+    resume_on_ranks(ranks, scene_, saved, engine(1), [&](Simulation& resumed) {
+      ASSERT_TRUE(advance(resumed, 60));
+      expect_same_bits(one, resumed);
+    });
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, RanksOfBusyScenes, all_busy_kinds(),
+                         [](const auto& instance) { return instance.param.name(); });
+
+TEST(Ranks, RefuseWhatTheyCantComputeYet) {
+  const Scene scene = open_scene();
+  const ParticleSet particles = lattice(scene, {4, 4, 4}, {-2, -2, -2}, 1.2, 0.01, 1);
+  run_ranks(2, [&](std::shared_ptr<Communicator> communicator) {
+    if (communicator->rank() > 0) return Simulation::follow(scene, make_backend(kGpuDouble), std::move(communicator));
+    const auto refused =
+        Simulation::create(scene, particles, make_backend(kGpuDouble), {.communicator = std::move(communicator)});
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().text().find("can't compute on several ranks yet"), std::string::npos)
+        << refused.error().text();
+  });
+  on_ranks(2, scene, particles, kCpuDouble, [](Simulation& simulation) {
+    EXPECT_FALSE(simulation.apply_impulse(1, {1, 0, 0}));
+    EXPECT_FALSE(simulation.remove_particles(std::vector<std::uint64_t>{1}));
+    EXPECT_TRUE(advance(simulation, 3)) << "it goes on";
+  });
+}
+
+TEST(Ranks, ReportTheErrorOfOneRank) {
+  Scene scene = open_scene();
+  scene.domain.boundary[1] = Boundary::spring;
+  scene.gravity = {0, -2e4, 0};  // they fall on the floor too fast
+  const ParticleSet particles = lattice(scene, {6, 6, 6}, {-8, -2, -8}, 2.5, 0.1, 1);
+  Simulation one = simulate(scene, particles, kCpuDouble);
+  const auto alone = one.step(1000);
+  ASSERT_FALSE(alone);
+  for (const int ranks : {2, 4}) {
+    on_ranks(ranks, scene, particles, kCpuDouble, [&](Simulation& many) {
+      const auto together = many.step(1000);
+      ASSERT_FALSE(together);
+      EXPECT_EQ(together.error().text(), alone.error().text());
+      EXPECT_EQ(many.step_count(), one.step_count());
+      EXPECT_FALSE(many.step(1)) << "it takes no more steps";
+    });
+  }
+}
+
+// More ranks than particles, nobody at all, everybody in one place, one large among many small.
+TEST(Ranks, MayHaveNothingToDo) {
+  Scene scene = open_scene();
+  scene.gravity = {0, -9.8, 0};
+  ParticleSet three;
+  for (int k = 0; k < 3; ++k) add(three, {1.1 * k, 0.3, 0}, {0.5 - k, 0, 0.1});
+  for (const ParticleSet& particles : {ParticleSet{}, three}) {
+    Simulation one = simulate(scene, particles, kCpuDouble);
+    ASSERT_TRUE(advance(one, 400));
+    on_ranks(8, scene, particles, kCpuDouble, [&](Simulation& many) {
+      ASSERT_TRUE(advance(many, 400));
+      EXPECT_EQ(many.state_hash(), one.state_hash());
+      EXPECT_EQ(many.ledger(), one.ledger());
+    });
+  }
+}
+
+// open_scene() with a material "spark" whose particles touch no others, and so many births of them a second.
+Scene scene_with_sparks(double rate) {
+  Scene scene = open_scene();
+  scene.materials.push_back(scene.materials[0]);
+  scene.materials.back().name = "spark";
+  scene.materials.back().interacts = false;
+  if (rate == 0) return scene;
+  Emitter source;
+  source.material = 1;
+  source.shape = BoxShape{{-3, 4, -3}, {3, 6, 3}};
+  source.rate = rate;
+  source.speed = {1, 2};
+  source.spread = 90;
+  scene.emitters = {source};
+  return scene;
+}
+
+std::shared_ptr<Structure> ties(const ParticleSet& particles, std::size_t apart, const Spring& like) {
+  const auto structure = std::make_shared<Structure>();
+  for (std::size_t i = 0; i + apart < particles.size(); i += 3) {
+    Spring spring = like;
+    spring.a = particles.id[i];
+    spring.b = particles.id[i + apart];
+    structure->springs.push_back(spring);
+  }
+  return structure;
+}
+
+void expect_same_bits_on_ranks(const Scene& scene, const ParticleSet& particles, std::int64_t steps) {
+  Simulation one = simulate(scene, particles, kCpuDouble);
+  ASSERT_TRUE(advance(one, steps / 2));
+  const double energy = measured(one).spring_energy;
+  ASSERT_TRUE(advance(one, steps - steps / 2));
+  for (const int ranks : {2, 3, 5}) {
+    SCOPED_TRACE(ranks);
+    on_ranks(ranks, scene, particles, kCpuDouble, [&](Simulation& many) {
+      ASSERT_TRUE(advance(many, steps / 2));
+      EXPECT_EQ(measured(many).spring_energy, energy);
+      ASSERT_TRUE(advance(many, steps - steps / 2));
+      expect_same_bits(one, many);
+      EXPECT_EQ(one.broken_springs(), many.broken_springs());
+    });
+  }
+}
+
+// Some of which are born on the way.
+TEST(Ranks, ComputeForcesBetweenParticlesThatTouchNoOthers) {
+  Scene scene = scene_with_sparks(300);
+  scene.attraction.emplace();
+  scene.attraction->constant = 2;
+  scene.attraction->softening = 0.3;
+  scene.time_step = 0.01;
+  const ParticleSet particles = cloud(scene, 300, {-6, -6, -6}, {6, 6, 6}, 1, 5);
+  scene.structure = ties(particles, 30, {0, 0, 2, 20, 0.5});
+  expect_same_bits_on_ranks(scene, particles, 100);
+}
+
+// So many that all others have to move to make room.
+TEST(Ranks, HaveRoomForManyBirths) {
+  for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet}) {
+    Scene scene = scene_with_sparks(200'000);
+    scene.integrator = integrator;
+    scene.gravity = {0, -10, 0};
+    ParticleSet particles = lattice(scene, {12, 8, 12}, {-6, -6, -6}, 1.01, 0.05, 1);
+    particles.material.assign(particles.size(), 0);
+    for (Vec3d& v : particles.velocity) v = {3, 0, 1};
+    expect_same_bits_on_ranks(scene, particles, 40);
+  }
+}
+
+TEST(Ranks, HaveSpringsWhileSparksComeAndGo) {
+  Scene scene = scene_with_sparks(8000);
+  scene.emitters[0].life = Range{0.004, 0.02};
+  scene.emitters[0].respawn = true;
+  ParticleSet particles = lattice(scene, {8, 8, 8}, {-4, -6, -4}, 1.2, 0.05, 1);
+  particles.material.assign(particles.size(), 0);
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    particles.velocity[i] = {static_cast<double>(i % 5) - 2, 0, static_cast<double>(i % 7) - 3};
+  scene.structure = ties(particles, 1, {0, 0, 1.2, 900, 1, 0.02, SpringMode::both, false});
+  expect_same_bits_on_ranks(scene, particles, 80);
+}
+
+TEST(Ranks, TearSpringsBetweenParticlesThatTouchNoOthers) {
+  Scene scene = scene_with_sparks(0);
+  ParticleSet particles = lattice(scene, {6, 6, 6}, {-4, -4, -4}, 1.2, 0.05, 1);
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    particles.material[i] = i % 5 == 0 ? 0 : 1;
+    particles.velocity[i] = {9 * (static_cast<double>(i % 5) - 2), 0, 5};
+  }
+  scene.structure = ties(particles, 1, {0, 0, 1.2, 900, 1, 0.05, SpringMode::both, false});
+  expect_same_bits_on_ranks(scene, particles, 80);
+  Simulation one = simulate(scene, particles, kCpuDouble);
+  ASSERT_TRUE(advance(one, 80));
+  EXPECT_GT(one.broken_springs().size(), 20U);
+}
+
+// Two balls from two ranks meet where a third rank has sparks alone.
+TEST(Ranks, SeeWhatMeetsInTheBoxOfAnother) {
+  const Scene scene = scene_with_sparks(0);
+  ParticleSet particles;
+  const auto block = [&](double x, std::uint16_t material) {
+    for (int k = 0; k < 1000; ++k)
+      add(particles, {x + 1.2 * (k / 100), 1.2 * (k / 10 % 10) - 5.4, 1.2 * (k % 10) - 5.4}, {0, 0, 0}, material);
+  };
+  block(-40, 0);
+  block(-5.4, 1);
+  block(28, 0);
+  add(particles, {-20, 0.1, 0}, {200, 0, 0});
+  add(particles, {20, -0.1, 0}, {-200, 0, 0});
+  expect_same_bits_on_ranks(scene, particles, 110);
+  Simulation one = simulate(scene, particles, kCpuDouble);
+  const double before = measured(one).kinetic_energy;
+  ASSERT_TRUE(advance(one, 110));
+  EXPECT_LT(measured(one).kinetic_energy, 0.99 * before) << "they have met";
+}
+
+TEST(Ranks, ShareAMixtureOfVeryDifferentRadii) {
+  Scene scene = open_scene();
+  scene.gravity = {0, -9.8, 0};
+  scene.domain.min = {-4, -4, -4};
+  scene.domain.max = {4, 6, 4};
+  scene.domain.boundary = {Boundary::spring, Boundary::spring, Boundary::periodic};
+  scene.materials = {{"dust", 0.1, 0.1, {600, 0.2, 0.8}, 0, ""}, {"ball", 1.0, 50, {60000, 2, 8}, 0, ""}};
+  ParticleSet particles = lattice(scene, {20, 20, 20}, {-3.9, -3.9, -3.9}, 0.21, 0.02, 3);
+  particles.material.assign(particles.size(), 0);
+  add(particles, {0, 4.5, 0}, {1, -9, 2}, 1);
+  Simulation one = simulate(scene, particles, kCpuSingle);
+  ASSERT_TRUE(advance(one, 300));
+  Engine checked = kCpuSingle;
+  checked.check_list = true;
+  for (const int ranks : {2, 4, 7}) {
+    SCOPED_TRACE(ranks);
+    on_ranks(ranks, scene, particles, checked, [&](Simulation& many) {
+      ASSERT_TRUE(advance(many, 300));
+      EXPECT_EQ(many.neighbour_statistics().missed_contacts, 0U);
+      expect_same_bits(one, many);
+    });
+  }
+}
+
+#if HOOKE_ASSERTIONS
+TEST(RanksDeathTest, ThatDisagreeSaySo) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_DEATH(run_ranks(2,
+                         [](std::shared_ptr<Communicator> communicator) {
+                           const int rank = communicator->rank();
+                           Ranks ranks(std::move(communicator));
+                           std::uint64_t one = 1;
+                           rank == 0 ? ranks.sum(one) : (void)ranks.first({});
+                         }),
+               "is at line [0-9]+ of ranks.cpp.* while other ranks are at lines");
+}
+#endif
+
+}  // namespace
+}  // namespace hooke::test

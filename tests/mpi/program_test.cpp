@@ -1,0 +1,287 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstddef>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "cli/program.h"
+#include "support/bundled_scenes.h"
+
+namespace hooke::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+using Words = std::vector<std::string>;
+
+std::size_t times(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++count;
+  return count;
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream words(line);
+  for (std::string cell; std::getline(words, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+// A table without one column: how often a list was built, which ranks decide together.
+std::string without_rebuilds(const std::string& series) {
+  std::istringstream lines(series);
+  std::string line, kept;
+  std::getline(lines, line);
+  const Words heading = cells_of(line);
+  const auto rebuilds = std::find(heading.begin(), heading.end(), "rebuilds") - heading.begin();
+  EXPECT_LT(static_cast<std::size_t>(rebuilds), heading.size()) << line;
+  do {
+    const Words cells = cells_of(line);
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      if (static_cast<std::ptrdiff_t>(k) != rebuilds) kept += cells[k] + ',';
+    }
+    kept += '\n';
+  } while (std::getline(lines, line));
+  return kept;
+}
+
+// The program, started by mpirun on this machine.
+class Ranks : public ProgramTest {
+ protected:
+  void SetUp() override {
+    const std::string mpirun = HOOKE_MPIRUN;
+    if (mpirun.empty()) GTEST_SKIP() << "this build has no MPI (HOOKE_MPI)";
+    if (!std::filesystem::exists(mpirun)) GTEST_SKIP() << mpirun << " is not there";
+    // Also as root in a container, on fewer cores than ranks, beside other tests.
+    for (const char* name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM",
+                             "OMPI_MCA_rmaps_base_oversubscribe", "OMPI_MCA_mpi_yield_when_idle"}) {
+      setenv(name, "1", 1);
+    }
+    setenv("OMPI_MCA_hwloc_base_binding_policy", "none", 1);
+    write("s.json", pool_scene(12, "symplectic-euler", "single"));
+  }
+
+  static Words command(int ranks, const Words& arguments) {
+    Words words{"-q", "-np", std::to_string(ranks), program_file()};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return words;
+  }
+  Program start_on(int ranks, const Words& arguments) const {
+    return start_other(HOOKE_MPIRUN, command(ranks, arguments));
+  }
+  Outcome on(int ranks, const Words& arguments) const { return start_on(ranks, arguments).wait(); }
+  void ok_on(int ranks, const Words& arguments) const {
+    const Outcome outcome = on(ranks, arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+  }
+
+  // The report without what differs from run to run, and with the number of ranks.
+  nlohmann::json figures(const std::string& run) const {
+    nlohmann::json report = nlohmann::json::parse(read(run + "/report.json"));
+    for (const char* key : {"seconds", "stages", "steps_per_second", "particle_steps_per_second", "peak_bytes",
+                            "program_bytes", "ranks", "threads", "costs", "slots_per_particle", "neighbour_rebuilds"}) {
+      report.erase(key);
+    }
+    return report;
+  }
+  void expect_equal_runs(const std::string& a, const std::string& b) const {
+    EXPECT_EQ(state_hash(a), state_hash(b));
+    EXPECT_EQ(figures(a), figures(b));
+    EXPECT_EQ(without_rebuilds(read(a + "/series.csv")), without_rebuilds(read(b + "/series.csv")));
+    for (const std::string file : {"/scene.json", "/particles.vtkhdf", "/checkpoint.h5"})
+      EXPECT_TRUE(read(a + file) == read(b + file)) << a << ", " << b << ": " << file;
+  }
+
+  // Status 2, so many errors, each once, and no folder.
+  void expect_refusal(const Outcome& outcome, std::size_t errors, const std::string& part) const {
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_EQ(times(outcome.err, "error: "), errors) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(part));
+    EXPECT_FALSE(exists("out"));
+  }
+};
+
+// Runs on ranks -------------------------------------------------------------------------------------------------------
+
+TEST_F(Ranks, AnyNumberGivesTheSameFiles) {
+  for (const char* integrator : {"symplectic-euler", "velocity-verlet"}) {
+    for (const char* precision : {"single", "double"}) {
+      write("s.json", pool_scene(12, integrator, precision));
+      hooke_ok({"run", "s.json", "-o", "alone", "--overwrite"});
+      for (const int ranks : {1, 2, 3, 4}) {
+        SCOPED_TRACE(std::string(integrator) + ", " + precision + ", ranks " + std::to_string(ranks));
+        ok_on(ranks, {"run", "s.json", "-o", "ranks", "--overwrite"});
+        expect_equal_runs("ranks", "alone");
+        EXPECT_EQ(nlohmann::json::parse(read("ranks/report.json")).at("ranks"), ranks);
+      }
+    }
+  }
+}
+
+TEST_F(Ranks, ARunGoesOnWithAnotherNumberOfThem) {
+  hooke_ok({"run", "s.json", "-o", "whole"});
+  for (const auto& [first, second] : {std::pair{3, 2}, {2, 4}, {1, 3}, {2, 1}}) {
+    SCOPED_TRACE(std::to_string(first) + " ranks, then " + std::to_string(second));
+    ok_on(first, {"run", "s.json", "-o", "part", "--overwrite", "--steps", "30"});
+    ok_on(second, {"run", "s.json", "-o", "part", "--resume", "part/checkpoint.h5"});
+    EXPECT_EQ(state_hash("part"), state_hash("whole"));
+    EXPECT_TRUE(read("part/checkpoint.h5") == read("whole/checkpoint.h5"));
+    EXPECT_EQ(without_rebuilds(read("part/series.csv")), without_rebuilds(read("whole/series.csv")));
+  }
+}
+
+TEST_F(Ranks, ComputeSpringsBirthsAndAttraction) {
+  for (const char* name : {"cloth", "fountain", "galaxy"}) {
+    SCOPED_TRACE(name);
+    const std::string scene = (bundled_folder() / (std::string(name) + ".json")).string();
+    hooke_ok({"run", scene, "-o", "alone", "--overwrite", "--steps", "12"});
+    ok_on(2, {"run", scene, "-o", "ranks", "--overwrite", "--steps", "12"});
+    expect_equal_runs("ranks", "alone");
+  }
+}
+
+TEST_F(Ranks, EachHasItsThreads) {
+  hooke_ok({"run", "s.json", "-o", "alone"});
+  ok_on(2, {"run", "s.json", "-o", "ranks", "--threads", "3"});
+  expect_equal_runs("ranks", "alone");
+  const auto report = nlohmann::json::parse(read("ranks/report.json"));
+  EXPECT_EQ(report.at("ranks"), 2);
+  EXPECT_EQ(report.at("threads"), 6);
+}
+
+TEST_F(Ranks, MayHaveDifferentInstructionSets) {
+  hooke_ok({"run", "s.json", "-o", "alone"});
+  const Outcome mixed = start_other(HOOKE_MPIRUN, {"-q", "-np", "1", program_file(), "run", "s.json", "-o", "ranks",
+                                                   ":", "-np", "1", "-x", "HOOKE_ISA=portable", program_file()})
+                            .wait();
+  EXPECT_EQ(mixed.status, 0) << mixed.err;
+  EXPECT_EQ(state_hash("ranks"), state_hash("alone"));
+}
+
+TEST_F(Ranks, BenchHasTheBitsOfOne) {
+  const Words arguments{"bench", "s.json", "--steps", "20", "--warmup", "10", "--json"};
+  const auto alone = nlohmann::json::parse(hooke_ok(arguments));
+  const Outcome outcome = on(3, arguments);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto ranks = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(ranks.at("state_hash"), alone.at("state_hash"));
+  EXPECT_EQ(ranks.at("energy"), alone.at("energy"));
+  EXPECT_EQ(ranks.at("ranks"), 3);
+  EXPECT_EQ(alone.at("ranks"), 1);
+}
+
+TEST_F(Ranks, OfFewParticlesAreWarnedOf) {
+  const Outcome outcome = on(2, {"run", "s.json", "--steps", "2", "-o", "ranks"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(times(outcome.err, "fewer ranks"), 1U) << outcome.err;
+  EXPECT_THAT(hooke({"run", "s.json", "--steps", "2", "-o", "alone"}).err, Not(HasSubstr("ranks")));
+}
+
+TEST_F(Ranks, ASignalThatMpirunHandsOnStopsAllAndLeavesACheckpoint) {
+  hooke_ok({"run", "s.json", "-o", "whole", "--steps", "2000"});
+  Program program = start_on(2, {"run", "s.json", "-o", "part", "--steps", "2000"});
+  EXPECT_TRUE(wait_until([this] { return exists("part/checkpoint.h5"); }));
+  program.send_to_itself(SIGUSR1);
+  const Outcome stopped = program.wait();
+  EXPECT_EQ(stopped.status, 130) << stopped.err;
+  EXPECT_EQ(times(stopped.err, "--resume"), 1U) << stopped.err;
+  ok_on(2, {"run", "s.json", "-o", "part", "--steps", "2000", "--resume", "part/checkpoint.h5"});
+  EXPECT_EQ(state_hash("part"), state_hash("whole"));
+}
+
+TEST_F(Ranks, OneThatIsKilledEndsAllAndLeavesACheckpoint) {
+  hooke_ok({"run", "s.json", "-o", "whole", "--steps", "1500"});
+  for (const std::size_t killed : {0U, 2U}) {
+    SCOPED_TRACE(killed);
+    const std::string part = "part-" + std::to_string(killed), checkpoint = part + "/checkpoint.h5";
+    Program program = start_on(3, {"run", "s.json", "-o", part, "--steps", "1500"});
+    EXPECT_TRUE(wait_until([&] { return exists(checkpoint); }));
+    const std::vector<pid_t> ranks = program.children();
+    ASSERT_EQ(ranks.size(), 3U);
+    const auto start = std::chrono::steady_clock::now();
+    kill(ranks[killed], SIGKILL);
+    EXPECT_NE(program.wait().status, 0);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+    ok_on(2, {"run", "s.json", "-o", part, "--steps", "1500", "--resume", checkpoint});
+    EXPECT_EQ(state_hash(part), state_hash("whole"));
+  }
+}
+
+TEST_F(Ranks, ARunThatGoesBadIsReportedOnce) {
+  const Words arguments{
+      "run", "s.json", "-o", "bad", "--overwrite", "--set", "time.step=0.1", "--set", "materials.water.damping=0"};
+  const Outcome alone = hooke(arguments);
+  ASSERT_EQ(alone.status, 3) << alone.err;
+  const Outcome ranks = on(3, arguments);
+  EXPECT_EQ(ranks.status, 3);
+  EXPECT_EQ(times(ranks.err, "error: step"), times(alone.err, "error: step")) << ranks.err;
+  EXPECT_EQ(alone.err.substr(alone.err.find("error: step")), ranks.err.substr(ranks.err.find("error: step")));
+}
+
+// Where rank 0 needs no others
+// ------------------------------------------------------------------------------------------
+
+TEST_F(Ranks, OneSpeaksForAll) {
+  const Outcome version = on(3, {"--version"});
+  EXPECT_EQ(version.status, 0) << version.err;
+  EXPECT_EQ(times(version.out, "hooke "), 1U) << version.out;
+  const Outcome check = on(2, {"check", "s.json"});
+  EXPECT_EQ(check.status, 0) << check.err;
+  EXPECT_EQ(times(check.out, "1,728"), 1U) << check.out;
+}
+
+TEST_F(Ranks, WrongUsageEndsAll) {
+  const Outcome wrong = on(3, {"nonsense"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_EQ(times(wrong.err, "nonsense"), 1U) << wrong.err;
+  const Outcome nothing = on(2, {});
+  EXPECT_EQ(nothing.status, 2);
+  EXPECT_EQ(times(nothing.out, "Usage: hooke"), 1U) << nothing.out;
+}
+
+// Refusals
+// --------------------------------------------------------------------------------------------------------------
+
+TEST_F(Ranks, ABrokenSceneIsReportedOnce) {
+  write("broken.json", "{ \"hooke\": 1, \"materials\": { ");
+  expect_refusal(on(3, {"run", "broken.json", "-o", "out"}), 1, "broken.json");
+  expect_refusal(on(3, {"run", "s.json", "-o", "out", "--set", "nonsense=1"}), 1, "nonsense");
+  expect_refusal(on(2, {"run", "nowhere.json", "-o", "out"}), 1, "nowhere.json");
+}
+
+TEST_F(Ranks, ABrokenCheckpointIsReportedOnce) {
+  write("broken.h5", "nothing");
+  expect_refusal(on(2, {"run", "s.json", "-o", "out", "--resume", "broken.h5"}), 1, "broken.h5");
+}
+
+TEST_F(Ranks, WhatTheyCannotDoYetIsRefusedByName) {
+  for (const char* device : {"cuda", "reference"})
+    expect_refusal(on(2, {"run", "s.json", "-o", "out", "--device", device}), 1, device);
+  expect_refusal(on(2, {"view", "s.json"}), 1, "window");
+}
+
+TEST_F(Ranks, OneThatIsNotReadyIsNamed) {
+  const Outcome outcome = start_other(HOOKE_MPIRUN, {"-q", "-np", "2", program_file(), "run", "s.json", "-o", "out",
+                                                     ":", "-np", "1", "-x", "HOOKE_ISA=nonsense", program_file()})
+                              .wait();
+  expect_refusal(outcome, 1, "rank 2: instruction set");
+}
+
+TEST_F(Ranks, ThatMpiDoesNotKnowAreRefused) {
+  const Words environment{"OMPI_COMM_WORLD_RANK=0", "OMPI_COMM_WORLD_SIZE=4"};
+  expect_refusal(hooke({"run", "s.json", "-o", "out"}, environment), 1, "4 ranks were started");
+}
+
+}  // namespace
+}  // namespace hooke::test
