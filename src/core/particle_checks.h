@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "hooke/base/expected.h"
+#include "hooke/base/vec3.h"
+#include "hooke/core/particles.h"
+#include "hooke/core/scene.h"
+
+namespace hooke {
+
+/// Findings of one kind are told up to so many: a set of a million bad particles makes its point sooner.
+inline constexpr std::size_t kMostFindings = 20;
+
+/// Whether all components are finite, and still are when rounded to float where `single` asks that.
+bool is_finite(const Vec3d& a, bool single);
+
+std::string shown(const Vec3d& a);  ///< "(1, 2, 3)"
+
+/// What is wrong with one particle that is about to enter `scene` (m, m/s); empty where nothing is.
+std::string particle_fault(const Scene& scene, std::size_t material, const Vec3d& x, const Vec3d& v);
+
+/// What is wrong with a set of particles of `scene`; empty where nothing is. Those that are `restored` have
+/// accelerations under velocity Verlet, and may stand outside of the domain.
+std::vector<Finding> check_particles(const Scene& scene, const ParticleSet& particles, bool restored);
+
+}  // namespace hooke
