@@ -4,21 +4,16 @@
 #include "hooke/core/simulation.h"
 
 #include <algorithm>
-#include <cmath>
-#include <new>
 #include <utility>
 
 #include "hooke/base/ascending.h"
 #include "hooke/base/assert.h"
-#include "hooke/base/bytes.h"
 #include "hooke/base/floating_point.h"
 #include "hooke/base/format.h"
 #include "hooke/base/hash.h"
 #include "hooke/base/printable.h"
 #include "hooke/core/particle_checks.h"
-#include "hooke/core/snapshot_pool.h"
-#include "hooke/core/step.h"
-#include "hooke/core/structure_message.h"
+#include "hooke/core/simulation_impl.h"
 
 namespace hooke {
 namespace {
@@ -37,356 +32,21 @@ void copy_columns(const ParticleSet& from, const ParticleColumns<Real>& to) {
   vectors(from.acceleration, to.acceleration);
 }
 
-Error out_of_memory(std::int64_t step) {
-  return {Error::Kind::run_failed, {{formatted("step {}", step), "out of memory"}}};
+// The particles of a simulation into the caller's columns.
+template <class Real, class Impl>
+Expected<void> copy_particles_of(Impl& s, const ParticleColumns<Real>& out) {
+  const FloatingPointGuard guard;
+  return s.guarded([&]() -> Expected<void> {
+    if (s.ranks.is_serial()) {
+      s.backend->download(out);
+    } else {
+      copy_columns(s.snapshot()->particles, out);
+    }
+    return {};
+  });
 }
 
 }  // namespace
-
-struct Simulation::Impl {
-  explicit Impl(std::shared_ptr<Communicator> communicator) : ranks(std::move(communicator)) {}
-  ~Impl() { lead(Order::end); }
-
-  Scene scene;
-  std::unique_ptr<Backend> backend;
-  Ranks ranks;
-  RunState run;
-  double initial_energy = 0, initial_elastic = 0;
-  Vec3d initial_momentum{0, 0, 0};
-
-  // The particles on the host: copied on the first access after a change, null before.
-  std::shared_ptr<const Snapshot> host;
-  SnapshotPool pool;
-  StageTimes stage_times;  // of steps
-
-  bool failed = false;
-  Error failure;
-
-  // What rank 0 has the others do (follow()), each time that it does so itself.
-  enum class Order : std::uint8_t { start, step, count, hash, ledger, measure, gather, broken, neighbours, costs, end };
-  struct StartOrder {
-    std::int64_t step;
-    std::uint64_t next_id;
-    double kick;  // LedgerSums::kick
-    bool take_accelerations;
-  };
-  template <class... Details>
-  void lead(Order order, const Details&... details) {
-    if (ranks.is_serial() || !ranks.leads()) return;
-    std::vector<std::byte> bytes;
-    append_bytes(bytes, order);
-    (append_bytes(bytes, details), ...);
-    ranks.communicator().broadcast(bytes);
-  }
-
-  // What several ranks can't do yet.
-  Expected<void> check_ranks() const {
-    if (ranks.is_serial() || backend->shared() != nullptr) return {};
-    return fail(Error::Kind::bad_input, backend->info().device, "this device can't compute on several ranks yet");
-  }
-  // For what changes single particles, materials and motions, of which the other ranks would not know.
-  Expected<void> check_alone() const {
-    if (ranks.is_serial()) return {};
-    return fail(Error::Kind::bad_input, "simulation", "can't be changed while several ranks compute it");
-  }
-
-  bool single() const { return scene.precision == Precision::single_precision; }
-  double mass_of(std::size_t material) const { return scene.materials[material].mass; }
-
-  const std::shared_ptr<const Snapshot>& snapshot() {
-    if (host) return host;
-    const std::shared_ptr<Snapshot> now = pool.take();
-    now->step = run.step;
-    now->time = static_cast<double>(run.step) * scene.time_step;
-    gather(now->particles);
-    return host = now;
-  }
-
-  // Rank 0 gets all particles.
-  void gather(ParticleSet& particles) {
-    lead(Order::gather);
-    download(*backend, scene.integrator, particles);
-    ranks.gather(particles);
-  }
-
-  // Runs what changes or asks the back end. If memory runs out or a device fails, the back end's state is unknown: the
-  // simulation fails.
-  template <class Body>
-  auto guarded(const Body& body) -> decltype(body()) {
-    if (failed) return fail(failure);
-    try {
-      return body();
-    } catch (const std::bad_alloc&) {
-      failed = true;
-      failure = out_of_memory(run.step);
-      if (!ranks.is_serial()) ranks.communicator().abort(failure.text());
-      return fail(failure);
-    } catch (const DeviceFailure& of_device) {
-      return device_failed(of_device);
-    }
-  }
-
-  Unexpected device_failed(const DeviceFailure& of_device) {
-    failed = true;
-    failure = Error{Error::Kind::run_failed, {{backend->info().device, of_device.what()}}};
-    return fail(failure);
-  }
-
-  Expected<ParticleAt> find(std::uint64_t id) const {
-    if (const auto found = backend->find(id)) return *found;
-    return fail(Error::Kind::bad_input, formatted("particle {}", id), "there is none of this id");
-  }
-
-  void edit(const ParticleAt& before, const ParticleAt& after) {
-    host.reset();
-    backend->edit({&after, 1});
-    const auto stored = backend->find(after.id);  // in the back end's precision
-    initial_momentum += mass_of(before.material) * (stored->velocity - before.velocity);
-  }
-
-  template <class Real>
-  Expected<void> copy_particles(const ParticleColumns<Real>& out) {
-    const FloatingPointGuard guard;
-    return guarded([&]() -> Expected<void> {
-      if (ranks.is_serial()) {
-        backend->download(out);
-      } else {
-        copy_columns(snapshot()->particles, out);
-      }
-      return {};
-    });
-  }
-
-  Expected<void> check(const Condition& condition) {
-    if (condition.good()) return {};
-    failed = true;
-    failure = Error{Error::Kind::run_failed,
-                    {{formatted("step {} (t = {:.6g} s)", run.step, static_cast<double>(run.step) * scene.time_step),
-                      describe(condition)}}};
-    return fail(failure);
-  }
-
-  std::string describe(const Condition& condition) {
-    const double speed = std::abs(condition.speed), moved = speed * scene.time_step;
-    const bool part = condition.speed < 0;
-    switch (condition.kind) {
-      case Condition::Kind::good:
-        break;
-      case Condition::Kind::not_finite:
-        return formatted("particle {} is no longer at a finite position; {}", condition.particle, likely_cause());
-      case Condition::Kind::grid_overflow:
-        return formatted("particle {} is too far away for the cell grid; {}", condition.particle, likely_cause());
-      case Condition::Kind::pair_too_fast:
-        return formatted("particles {} and {} {} at {:.6g} m/s, {:.3g} m in one step: {}; {}", condition.particle,
-                         condition.partner, part ? "part" : "approach", speed, moved,
-                         part ? "they have passed through each other" : "more than the smaller radius", likely_cause());
-      case Condition::Kind::wall_too_fast:
-        return formatted("particle {} approaches a wall at {:.6g} m/s, {:.3g} m in one step: more than its radius; {}",
-                         condition.particle, speed, moved, likely_cause());
-      case Condition::Kind::collider_too_fast:
-        return formatted("particle {} and collider \"{}\" {} at {:.6g} m/s, {:.3g} m in one step: {}; {}",
-                         condition.particle, printable(scene.colliders[condition.partner].name),
-                         part ? "part" : "approach", speed, moved,
-                         part ? "it has passed through" : "more than the particle's radius", likely_cause());
-    }
-    return {};
-  }
-
-  std::string likely_cause() {
-    ParticleSet now;
-    if (scene.structure) {
-      download(*backend, scene.integrator, now);
-      ranks.gather(now);  // all ranks have found the same condition
-    }
-    if (!ranks.leads()) return {};
-    const StableStep stable = stable_step(scene, now);
-    if (std::string unstable = unstable_step(scene, stable); !unstable.empty()) return "time.step " + unstable;
-    return formatted(
-        "time.step {:.6g} s is below the stable step {:.6g} s, so look at the start (overlaps, speeds) or "
-        "take a smaller step",
-        scene.time_step, stable.seconds);
-  }
-
-  // A back end in double precision, like the reference, takes every scene; one in single must not be given a scene that
-  // asks for double.
-  Expected<void> check_precision() const {
-    if (scene.precision == Precision::single_precision || backend->info().precision == scene.precision) return {};
-    return fail(Error::Kind::bad_input, "precision",
-                "the scene asks for double, the back end computes in single precision");
-  }
-
-  // Hands all particles to the back end. Under velocity Verlet those that are new get their first accelerations.
-  Expected<void> start(const ParticleSet& particles, bool are_new, const std::vector<std::uint64_t>& broken_springs) {
-    if (auto right = check_precision(); !right) return right;
-    if (auto can = check_ranks(); !can) return can;
-    const bool take_accelerations = !particles.empty() && are_new;
-    lead_start(take_accelerations, broken_springs);
-    return start_here(particles, take_accelerations, broken_springs);
-  }
-
-  void lead_start(bool take_accelerations, const std::vector<std::uint64_t>& broken_springs) {
-    if (ranks.is_serial() || !ranks.leads()) return;
-    const EmissionState emission = run.emission.state();
-    std::vector<std::byte> details;
-    append_column(details, emission.emitters);
-    append_column(details, emission.mortals);
-    append_column(details, broken_springs);
-    if (scene.structure) append_structure(details, *scene.structure);
-    lead(Order::start, StartOrder{run.step, run.next_id, run.ledger.kick, take_accelerations}, details);
-  }
-  void follow_start(std::span<const std::byte> from) {
-    StartOrder start{};
-    take_bytes(from, start);
-    EmissionState emission;
-    take_column(from, emission.emitters);
-    take_column(from, emission.mortals);
-    std::vector<std::uint64_t> broken_springs;
-    take_column(from, broken_springs);
-    scene.structure = from.empty() ? nullptr : std::make_shared<Structure>(take_structure(from));
-    run.emission.restore(std::move(emission));
-    run.step = start.step;
-    run.next_id = start.next_id;
-    run.ledger = {};
-    run.ledger.kick = start.kick;
-    failed = false;
-    (void)start_here({}, start.take_accelerations, broken_springs);
-  }
-
-  Expected<void> start_here(const ParticleSet& particles, bool take_accelerations,
-                            const std::vector<std::uint64_t>& broken_springs) {
-    host.reset();
-    try {
-      backend->configure(scene);
-      run.emission.configure(scene);
-      backend->break_springs(broken_springs);
-      place_colliders(run, scene, run.step);
-      ranks.assign(*backend, scene, particles);
-      if (!take_accelerations) return {};
-      return check(start_particles(scene, *backend, ranks, run));
-    } catch (const std::bad_alloc& memory) {
-      const std::string why = memory.what();  // a GPU says how much it lacks
-      failed = true;
-      failure = Error{Error::Kind::bad_input,
-                      {{"particles", formatted("{} particles do not fit into memory{}", particles.size(),
-                                               why == std::bad_alloc().what() ? "" : " (" + why + ")")}}};
-      if (!ranks.is_serial()) ranks.communicator().abort(failure.text());
-      return fail(failure);
-    } catch (const DeviceFailure& of_device) {
-      return device_failed(of_device);
-    }
-  }
-
-  Expected<void> take_steps(std::int64_t count) {
-    lead(Order::step, count);
-    return guarded([&]() -> Expected<void> {
-      if (count == 0) return {};
-      host.reset();
-      for (const std::int64_t last = run.step + count; run.step < last;) {
-        if (auto taken = check(take_step(scene, *backend, ranks, run, last - run.step)); !taken) return taken;
-      }
-      // Particles that the last step has lost are reported before the state can be saved.
-      return check(update_neighbours(*backend, ranks));
-    });
-  }
-
-  std::uint64_t particle_count() {
-    lead(Order::count);
-    std::uint64_t count = backend->particle_count();
-    ranks.sum(count);
-    return count;
-  }
-  std::vector<std::uint64_t> broken_springs() {
-    lead(Order::broken);
-    std::vector<std::uint64_t> broken = backend->broken_springs();
-    ranks.unite(broken);
-    return broken;
-  }
-  RankCosts rank_costs() {
-    lead(Order::costs);
-    return ranks.costs(backend->particle_count());
-  }
-  NeighbourStatistics neighbour_statistics() {
-    lead(Order::neighbours);
-    NeighbourStatistics statistics = backend->neighbour_statistics();
-    ranks.sum(statistics.missed_contacts);
-    return statistics;
-  }
-  std::uint64_t particles_hash() {
-    lead(Order::hash);
-    std::uint64_t hash = backend->particles_hash();
-    ranks.sum(hash);
-    return hash;
-  }
-  LedgerSums ledger() {
-    lead(Order::ledger);
-    LedgerSums sums = run.ledger;
-    ranks.sum(sums);
-    return sums;
-  }
-  Expected<Measurements> measure() {
-    lead(Order::measure);
-    return guarded([&]() -> Expected<Measurements> {
-      const Instant now = place_colliders(run, scene, run.step);
-      if (!ranks.is_serial()) {
-        if (auto listed = check(update_neighbours(*backend, ranks)); !listed) return fail(listed.error());
-      }
-      auto sums = backend->measure(now);
-      if (!sums) return fail(sums.error());
-      ranks.sum(*sums);
-      return sums->result(scene.colliders.size());
-    });
-  }
-
-  // Ranks above 0: does what rank 0 orders, until it ends. A failure is that of all ranks, and rank 0 reports it.
-  void follow() {
-    for (;;) {
-      std::vector<std::byte> bytes;
-      ranks.communicator().broadcast(bytes);
-      std::span<const std::byte> from = bytes;
-      Order order{};
-      take_bytes(from, order);
-      switch (order) {
-        case Order::start:
-          follow_start(from);
-          break;
-        case Order::step: {
-          std::int64_t count = 0;
-          take_bytes(from, count);
-          (void)take_steps(count);
-          break;
-        }
-        case Order::count:
-          (void)particle_count();
-          break;
-        case Order::hash:
-          (void)particles_hash();
-          break;
-        case Order::ledger:
-          (void)ledger();
-          break;
-        case Order::measure:
-          (void)measure();
-          break;
-        case Order::gather: {
-          ParticleSet own;
-          gather(own);
-          break;
-        }
-        case Order::costs:
-          (void)rank_costs();
-          break;
-        case Order::broken:
-          (void)broken_springs();
-          break;
-        case Order::neighbours:
-          (void)neighbour_statistics();
-          break;
-        case Order::end:
-          return;
-      }
-    }
-  }
-};
 
 Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Simulation::~Simulation() = default;
@@ -467,10 +127,10 @@ const StageTimes& Simulation::stage_times() const { return impl_->stage_times; }
 
 std::shared_ptr<const Snapshot> Simulation::snapshot() const { return impl_->snapshot(); }
 Expected<void> Simulation::copy_particles(const ParticleColumns<double>& out) const {
-  return impl_->copy_particles(out);
+  return copy_particles_of(*impl_, out);
 }
 Expected<void> Simulation::copy_particles(const ParticleColumns<float>& out) const {
-  return impl_->copy_particles(out);
+  return copy_particles_of(*impl_, out);
 }
 const ParticleSet& Simulation::particles() const { return impl_->snapshot()->particles; }
 std::span<const std::uint64_t> Simulation::ids() const { return particles().id; }

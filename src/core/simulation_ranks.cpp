@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+
+// What the ranks that compute a simulation do together: rank 0 orders, the others follow.
+
+#include "hooke/core/simulation_impl.h"
+#include "hooke/core/step.h"
+#include "hooke/core/structure_message.h"
+
+namespace hooke {
+
+Expected<void> Simulation::Impl::check_ranks() const {
+  if (ranks.is_serial() || backend->shared() != nullptr) return {};
+  return fail(Error::Kind::bad_input, backend->info().device, "this device can't compute on several ranks yet");
+}
+
+Expected<void> Simulation::Impl::check_alone() const {
+  if (ranks.is_serial()) return {};
+  return fail(Error::Kind::bad_input, "simulation", "can't be changed while several ranks compute it");
+}
+
+void Simulation::Impl::lead_start(bool take_accelerations, const std::vector<std::uint64_t>& broken_springs) {
+  if (ranks.is_serial() || !ranks.leads()) return;
+  const EmissionState emission = run.emission.state();
+  std::vector<std::byte> details;
+  append_column(details, emission.emitters);
+  append_column(details, emission.mortals);
+  append_column(details, broken_springs);
+  if (scene.structure) append_structure(details, *scene.structure);
+  lead(Order::start, StartOrder{run.step, run.next_id, run.ledger.kick, take_accelerations}, details);
+}
+
+void Simulation::Impl::follow_start(std::span<const std::byte> from) {
+  StartOrder start{};
+  take_bytes(from, start);
+  EmissionState emission;
+  take_column(from, emission.emitters);
+  take_column(from, emission.mortals);
+  std::vector<std::uint64_t> broken_springs;
+  take_column(from, broken_springs);
+  scene.structure = from.empty() ? nullptr : std::make_shared<Structure>(take_structure(from));
+  run.emission.restore(std::move(emission));
+  run.step = start.step;
+  run.next_id = start.next_id;
+  run.ledger = {};
+  run.ledger.kick = start.kick;
+  failed = false;
+  (void)start_here({}, start.take_accelerations, broken_springs);
+}
+
+void Simulation::Impl::gather(ParticleSet& particles) {
+  lead(Order::gather);
+  download(*backend, scene.integrator, particles);
+  ranks.gather(particles);
+}
+
+std::uint64_t Simulation::Impl::particle_count() {
+  lead(Order::count);
+  std::uint64_t count = backend->particle_count();
+  ranks.sum(count);
+  return count;
+}
+
+std::vector<std::uint64_t> Simulation::Impl::broken_springs() {
+  lead(Order::broken);
+  std::vector<std::uint64_t> broken = backend->broken_springs();
+  ranks.unite(broken);
+  return broken;
+}
+
+RankCosts Simulation::Impl::rank_costs() {
+  lead(Order::costs);
+  return ranks.costs(backend->particle_count());
+}
+
+NeighbourStatistics Simulation::Impl::neighbour_statistics() {
+  lead(Order::neighbours);
+  NeighbourStatistics statistics = backend->neighbour_statistics();
+  ranks.sum(statistics.missed_contacts);
+  return statistics;
+}
+
+std::uint64_t Simulation::Impl::particles_hash() {
+  lead(Order::hash);
+  std::uint64_t hash = backend->particles_hash();
+  ranks.sum(hash);
+  return hash;
+}
+
+LedgerSums Simulation::Impl::ledger() {
+  lead(Order::ledger);
+  LedgerSums sums = run.ledger;
+  ranks.sum(sums);
+  return sums;
+}
+
+Expected<Measurements> Simulation::Impl::measure() {
+  lead(Order::measure);
+  return guarded([&]() -> Expected<Measurements> {
+    const Instant now = place_colliders(run, scene, run.step);
+    if (!ranks.is_serial()) {
+      if (auto listed = check(update_neighbours(*backend, ranks)); !listed) return fail(listed.error());
+    }
+    auto sums = backend->measure(now);
+    if (!sums) return fail(sums.error());
+    ranks.sum(*sums);
+    return sums->result(scene.colliders.size());
+  });
+}
+
+void Simulation::Impl::follow() {
+  for (;;) {
+    std::vector<std::byte> bytes;
+    ranks.communicator().broadcast(bytes);
+    std::span<const std::byte> from = bytes;
+    Order order{};
+    take_bytes(from, order);
+    switch (order) {
+      case Order::start:
+        follow_start(from);
+        break;
+      case Order::step: {
+        std::int64_t count = 0;
+        take_bytes(from, count);
+        (void)take_steps(count);
+        break;
+      }
+      case Order::count:
+        (void)particle_count();
+        break;
+      case Order::hash:
+        (void)particles_hash();
+        break;
+      case Order::ledger:
+        (void)ledger();
+        break;
+      case Order::measure:
+        (void)measure();
+        break;
+      case Order::gather: {
+        ParticleSet own;
+        gather(own);
+        break;
+      }
+      case Order::costs:
+        (void)rank_costs();
+        break;
+      case Order::broken:
+        (void)broken_springs();
+        break;
+      case Order::neighbours:
+        (void)neighbour_statistics();
+        break;
+      case Order::end:
+        return;
+    }
+  }
+}
+
+}  // namespace hooke
