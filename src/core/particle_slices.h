@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The Hooke authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "hooke/base/expected.h"
+#include "hooke/base/hash.h"
+#include "hooke/core/particles.h"
+
+namespace hooke {
+
+/// Particles that follow each other in ascending order of id: columns of one length. Accelerations may be left out.
+struct ParticleSlice {
+  std::span<const std::uint64_t> id;
+  std::span<const std::uint16_t> material;
+  std::span<const Vec3d> position;      ///< m
+  std::span<const Vec3d> velocity;      ///< m/s
+  std::span<const Vec3d> acceleration;  ///< m/s^2
+
+  ParticleSlice() = default;
+  ParticleSlice(const ParticleSet& set, std::size_t first, std::size_t count)
+      : id(std::span(set.id).subspan(first, count)),
+        material(std::span(set.material).subspan(first, count)),
+        position(std::span(set.position).subspan(first, count)),
+        velocity(std::span(set.velocity).subspan(first, count)) {
+    if (!set.acceleration.empty()) acceleration = std::span(set.acceleration).subspan(first, count);
+  }
+
+  std::size_t size() const { return id.size(); }
+
+  /// A sum over its particles, modulo 2^64, that differs where their ids or materials do: the sum over all slices of
+  /// a set is the set's, in whatever way it is cut.
+  std::uint64_t identity() const {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < size(); ++i) sum += combine64(mix64(id[i]), material[i]);
+    return sum;
+  }
+};
+
+/// Particles, in ascending order of id, for those who take them a slice at a time because they could not hold all of
+/// them: files, and rank 0 of several.
+class ParticleSlices {
+ public:
+  using Take = std::function<void(const ParticleSlice&)>;
+
+  virtual ~ParticleSlices() = default;
+  virtual std::uint64_t size() const = 0;
+  virtual std::uint64_t identity() const = 0;  ///< ParticleSlice::identity() of all
+  virtual bool has_accelerations() const = 0;
+  /// Calls `take`, which does not throw, with `rows` (> 0) particles at a time, the last time with those left. May be
+  /// called again. An error, of a file for example, ends it early.
+  virtual Expected<void> visit(std::size_t rows, const Take& take) const = 0;
+};
+
+/// Those of a set, which must outlive this.
+class SlicesOfSet final : public ParticleSlices {
+ public:
+  explicit SlicesOfSet(const ParticleSet& set) : set_(set) {}
+
+  std::uint64_t size() const override { return set_.size(); }
+  std::uint64_t identity() const override { return ParticleSlice(set_, 0, set_.size()).identity(); }
+  bool has_accelerations() const override { return !set_.acceleration.empty(); }
+  Expected<void> visit(std::size_t rows, const Take& take) const override {
+    for (std::size_t first = 0; first < set_.size(); first += rows) {
+      take(ParticleSlice(set_, first, std::min(rows, set_.size() - first)));
+    }
+    return {};
+  }
+
+ private:
+  const ParticleSet& set_;
+};
+
+}  // namespace hooke
