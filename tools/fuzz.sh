@@ -34,6 +34,7 @@ names=("$@")
 if ((${#names[@]} == 0)); then
   for program in "$programs"/fuzz_*; do names+=("$(basename "$program" | sed s/fuzz_//)"); done
 fi
+export LSAN_OPTIONS=suppressions=tests/fuzz/leaks.supp:print_suppressions=0
 failed=()
 for name in "${names[@]}"; do
   corpus=build-fuzz/corpus/$name

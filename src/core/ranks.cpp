@@ -74,6 +74,18 @@ void append_particles(std::vector<std::byte>& to, const ParticleSet& from, std::
   if (!from.acceleration.empty()) column(from.acceleration);
 }
 
+// The same of all that follow each other.
+void append_particles(std::vector<std::byte>& to, const ParticleSlice& from) {
+  append_bytes(to, from.size());
+  append_bytes(to, static_cast<std::uint8_t>(from.acceleration.empty() ? 0 : 1));
+  const auto column = [&](const auto& of) { append_bytes(to, of.data(), of.size()); };
+  column(from.id);
+  column(from.material);
+  column(from.position);
+  column(from.velocity);
+  column(from.acceleration);
+}
+
 void take_particles(std::span<const std::byte> from, ParticleSet& to) {
   std::size_t count = 0;
   std::uint8_t accelerated = 0;
@@ -473,17 +485,78 @@ void Ranks::unite(std::vector<std::uint64_t>& broken_springs) {
   broken_springs.erase(std::unique(broken_springs.begin(), broken_springs.end()), broken_springs.end());
 }
 
+void Ranks::sum(SlicesHeader& header) {
+  if (is_serial()) return;
+  combine(header, [](const SlicesHeader& a, SlicesHeader& sum) {
+    sum.count += a.count;
+    sum.identity += a.identity;
+    sum.accelerated = sum.accelerated || a.accelerated;
+  });
+}
+
 void Ranks::gather(ParticleSet& particles) {
   if (is_serial()) return;
   std::vector<Parcel> out;
   if (!leads()) {
-    std::vector<std::size_t> all(particles.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    append_particles(out.emplace_back(Parcel{kLeader, {}}).bytes, particles, all);
+    append_particles(out.emplace_back(Parcel{kLeader, {}}).bytes, ParticleSlice(particles, 0, particles.size()));
     particles.clear();
   }
   for (const Parcel& parcel : exchange(std::move(out))) take_particles(parcel.bytes, particles);
   particles.sort_by_id();
+}
+
+// The ids at which slices of so many of all ranks' particles start, and one that is above all. Found by bisection: how
+// many ids are below a number, all ranks know together.
+std::vector<std::uint64_t> Ranks::slice_starts(std::span<const std::uint64_t> own_ids, std::size_t rows) {
+  const auto below = [&](std::uint64_t id) {
+    return static_cast<std::uint64_t>(std::lower_bound(own_ids.begin(), own_ids.end(), id) - own_ids.begin());
+  };
+  struct Ids {
+    std::uint64_t count, end;  // how many; above all of them
+  };
+  Ids all{own_ids.size(), own_ids.empty() ? 0 : own_ids.back() + 1};
+  combine(all, [](const Ids& a, Ids& sum) { sum = {sum.count + a.count, std::max(sum.end, a.end)}; });
+  const auto slices = static_cast<std::size_t>((all.count + rows - 1) / rows);
+  std::vector<std::uint64_t> starts(slices, 0), least(slices, 0), most(slices, all.end), counts(slices);
+  for (std::uint64_t width = all.end; width > 0; width /= 2) {
+    for (std::size_t k = 0; k < slices; ++k) counts[k] = below(least[k] + (most[k] - least[k]) / 2);
+    combine(std::span(counts), [](const std::uint64_t& a, std::uint64_t& sum) { sum += a; });
+    for (std::size_t k = 0; k < slices; ++k) {
+      const std::uint64_t middle = least[k] + (most[k] - least[k]) / 2;
+      if (least[k] == most[k]) continue;
+      if (counts[k] >= k * rows) {
+        most[k] = middle;
+      } else {
+        least[k] = middle + 1;
+      }
+    }
+  }
+  starts = std::move(most);
+  starts.push_back(all.end);
+  return starts;
+}
+
+void Ranks::visit(const ParticleSet& own, std::size_t rows, const ParticleSlices::Take& take) {
+  const std::vector<std::uint64_t> starts = slice_starts(own.id, rows);
+  const auto first_from = [&](std::uint64_t id) {
+    return static_cast<std::size_t>(std::lower_bound(own.id.begin(), own.id.end(), id) - own.id.begin());
+  };
+  ParticleSet slice;
+  for (std::size_t k = 0; k + 1 < starts.size(); ++k) {
+    const std::size_t first = first_from(starts[k]);
+    const ParticleSlice here(own, first, first_from(starts[k + 1]) - first);
+    std::vector<std::byte> bytes;
+    append_particles(bytes, here);
+    std::vector<Parcel> out;
+    if (!leads()) out.push_back({kLeader, std::move(bytes)});
+    const std::vector<Parcel> in = exchange(std::move(out));
+    if (!leads()) continue;
+    slice.clear();
+    take_particles(bytes, slice);
+    for (const Parcel& parcel : in) take_particles(parcel.bytes, slice);
+    slice.sort_by_id();
+    take(ParticleSlice(slice, 0, slice.size()));
+  }
 }
 
 }  // namespace hooke

@@ -12,6 +12,7 @@
 #include "hooke/core/backend.h"
 #include "hooke/core/communicator.h"
 #include "hooke/core/ledger_sums.h"
+#include "hooke/core/particle_slices.h"
 #include "hooke/core/shared_particles.h"
 
 namespace hooke {
@@ -32,6 +33,13 @@ struct RankCosts {
   RankFigure peak_bytes;        ///< largest resident memory of the processes so far
   std::uint64_t exchanges = 0;  ///< times that all ranks got new ghosts
   std::uint64_t cuts = 0;       ///< times that the ranks' boxes were cut
+};
+
+/// What all ranks' particles are together.
+struct SlicesHeader {
+  std::uint64_t count = 0;
+  std::uint64_t identity = 0;  ///< ParticleSlice::identity() of all
+  bool accelerated = false;    ///< whether they have accelerations
 };
 
 /// What the ranks that compute one scene do together. Each rank's back end holds the particles in the rank's box and
@@ -80,6 +88,10 @@ class Ranks {
   void unite(std::vector<std::uint64_t>& broken_springs);
   /// Rank 0 gets all ranks' particles, in ascending order of id.
   void gather(ParticleSet& particles);
+  /// The same slice by slice, `rows` (> 0) of them at a time: rank 0 calls `take`. `own`: this rank's particles, in
+  /// ascending order of id.
+  void visit(const ParticleSet& own, std::size_t rows, const ParticleSlices::Take& take);
+  void sum(SlicesHeader& header);
 
   /// What all ranks' share of the work has cost since the last call: rank 0 gets it.
   RankCosts costs(std::uint64_t particles);
@@ -104,6 +116,7 @@ class Ranks {
   void expect_all(const Place& here);
   void refresh(SharedParticles& shared);
   void cut(SharedParticles& shared);
+  std::vector<std::uint64_t> slice_starts(std::span<const std::uint64_t> own_ids, std::size_t rows);
   void exchange_particles(SharedParticles& shared);
   void share_torn(SharedParticles& shared);
   std::vector<WantedParticles> exchange_wanted(const SharedParticles& shared);

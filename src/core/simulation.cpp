@@ -126,6 +126,7 @@ RankCosts Simulation::rank_costs() { return impl_->rank_costs(); }
 const StageTimes& Simulation::stage_times() const { return impl_->stage_times; }
 
 std::shared_ptr<const Snapshot> Simulation::snapshot() const { return impl_->snapshot(); }
+std::unique_ptr<const ParticleSlices> Simulation::slices() const { return impl_->slices(); }
 Expected<void> Simulation::copy_particles(const ParticleColumns<double>& out) const {
   return copy_particles_of(*impl_, out);
 }
@@ -158,7 +159,7 @@ Expected<std::vector<std::uint64_t>> Simulation::add_particles(std::span<const N
       added.position.push_back(p.position);
       added.velocity.push_back(p.velocity);
     }
-    s.host.reset();
+    s.forget_copies();
     s.backend->insert(added);
     s.run.next_id += added.size();
     for (const NewParticle& p : particles) s.initial_momentum += s.mass_of(p.material) * p.velocity;
@@ -177,7 +178,7 @@ Expected<void> Simulation::remove_particles(std::span<const std::uint64_t> ids) 
     for (const std::uint64_t id : gone) {
       if (const auto there = s.find(id); !there) return fail(there.error());
     }
-    s.host.reset();
+    s.forget_copies();
     s.initial_momentum -= s.backend->remove(gone).sums.momentum.value();
     return {};
   });
@@ -322,10 +323,24 @@ Expected<void> Simulation::set_collider_motion(const std::string& name, const Mo
 }
 
 SimulationState Simulation::state() const {
+  SimulationState state = state_besides_particles();
+  state.particles = particles();
+  return state;
+}
+
+SimulationState Simulation::state_besides_particles() const {
   const FloatingPointGuard guard;
   Impl& s = *impl_;
-  return {particles(),      s.run.step,       s.run.next_id,     s.ledger(),         s.scene.structure,
-          broken_springs(), s.initial_energy, s.initial_elastic, s.initial_momentum, s.run.emission.state()};
+  return {{},
+          s.run.step,
+          s.run.next_id,
+          s.ledger(),
+          s.scene.structure,
+          s.broken_springs(),
+          s.initial_energy,
+          s.initial_elastic,
+          s.initial_momentum,
+          s.run.emission.state()};
 }
 
 Expected<void> Simulation::restore(SimulationState state) {

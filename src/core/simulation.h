@@ -13,6 +13,7 @@
 #include "hooke/core/communicator.h"
 #include "hooke/core/emission.h"
 #include "hooke/core/ledger_sums.h"
+#include "hooke/core/particle_slices.h"
 #include "hooke/core/particles.h"
 #include "hooke/core/ranks.h"
 #include "hooke/core/scene.h"
@@ -101,6 +102,10 @@ class Simulation {
   /// you like, on any thread. The first call after a change copies the particles from the back end.
   std::shared_ptr<const Snapshot> snapshot() const;
 
+  /// The present particles slice by slice: where several ranks compute, none of them ever holds all. Valid until the
+  /// next call that steps or changes something.
+  std::unique_ptr<const ParticleSlices> slices() const;
+
   /// Of snapshot(), by ascending id. Valid until the next call that steps or changes something.
   const ParticleSet& particles() const;
   std::span<const std::uint64_t> ids() const;
@@ -143,6 +148,8 @@ class Simulation {
 
   /// The complete state; restore() goes back to one, and the same bits follow.
   SimulationState state() const;
+  /// state() without the particles, for callers of slices().
+  SimulationState state_besides_particles() const;
   Expected<void> restore(SimulationState state);
 
   /// 64 bits that are equal only where every id, position and velocity, the clock and the id counter are

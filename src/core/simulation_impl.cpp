@@ -42,7 +42,7 @@ Expected<ParticleAt> Simulation::Impl::find(std::uint64_t id) const {
 }
 
 void Simulation::Impl::edit(const ParticleAt& before, const ParticleAt& after) {
-  host.reset();
+  forget_copies();
   backend->edit({&after, 1});
   const auto stored = backend->find(after.id);  // in the back end's precision
   initial_momentum += mass_of(before.material) * (stored->velocity - before.velocity);
@@ -115,7 +115,7 @@ Expected<void> Simulation::Impl::start(const ParticleSet& particles, bool are_ne
 
 Expected<void> Simulation::Impl::start_here(const ParticleSet& particles, bool take_accelerations,
                                             const std::vector<std::uint64_t>& broken_springs) {
-  host.reset();
+  forget_copies();
   try {
     backend->configure(scene);
     run.emission.configure(scene);
@@ -141,7 +141,7 @@ Expected<void> Simulation::Impl::take_steps(std::int64_t count) {
   lead(Order::step, count);
   return guarded([&]() -> Expected<void> {
     if (count == 0) return {};
-    host.reset();
+    forget_copies();
     for (const std::int64_t last = run.step + count; run.step < last;) {
       if (auto taken = check(take_step(scene, *backend, ranks, run, last - run.step)); !taken) return taken;
     }

@@ -33,6 +33,8 @@ struct Simulation::Impl {
   // The particles on the host: copied on the first access after a change, null before.
   std::shared_ptr<const Snapshot> host;
   SnapshotPool pool;
+  // On several ranks: this rank's particles, for slices(); null before.
+  std::shared_ptr<const ParticleSet> own_part;
   StageTimes stage_times;  // of steps
 
   bool failed = false;
@@ -43,6 +45,11 @@ struct Simulation::Impl {
 
   // On every rank --------------------------------------------------------------------------------------------------
 
+  // The particles have changed.
+  void forget_copies() {
+    host.reset();
+    own_part.reset();
+  }
   const std::shared_ptr<const Snapshot>& snapshot();
   Expected<ParticleAt> find(std::uint64_t id) const;
   void edit(const ParticleAt& before, const ParticleAt& after);
@@ -84,7 +91,21 @@ struct Simulation::Impl {
   Expected<void> check_alone() const;
 
   // What rank 0 has the others do (follow()), each time that it does so itself.
-  enum class Order : std::uint8_t { start, step, count, hash, ledger, measure, gather, broken, neighbours, costs, end };
+  enum class Order : std::uint8_t {
+    start,
+    step,
+    count,
+    hash,
+    ledger,
+    measure,
+    gather,
+    slices,
+    visit,
+    broken,
+    neighbours,
+    costs,
+    end
+  };
   struct StartOrder {
     std::int64_t step;
     std::uint64_t next_id;
@@ -106,6 +127,11 @@ struct Simulation::Impl {
 
   // Of all ranks, for rank 0.
   void gather(ParticleSet& particles);
+  class SlicesOfRanks;
+  class SlicesOfSnapshot;
+  std::unique_ptr<const ParticleSlices> slices();
+  SlicesHeader begin_slices();
+  void visit(std::size_t rows, const ParticleSlices::Take& take);
   std::uint64_t particle_count();
   std::vector<std::uint64_t> broken_springs();
   RankCosts rank_costs();

@@ -3,11 +3,54 @@
 
 // What the ranks that compute a simulation do together: rank 0 orders, the others follow.
 
+#include "hooke/base/assert.h"
 #include "hooke/core/simulation_impl.h"
 #include "hooke/core/step.h"
 #include "hooke/core/structure_message.h"
 
 namespace hooke {
+// Of a simulation that several ranks compute.
+class Simulation::Impl::SlicesOfRanks final : public ParticleSlices {
+ public:
+  explicit SlicesOfRanks(Impl& simulation) : simulation_(simulation), header_(simulation.begin_slices()) {}
+
+  std::uint64_t size() const override { return header_.count; }
+  std::uint64_t identity() const override { return header_.identity; }
+  bool has_accelerations() const override { return header_.accelerated; }
+  Expected<void> visit(std::size_t rows, const Take& take) const override {
+    return simulation_.guarded([&]() -> Expected<void> {
+      HOOKE_ASSERT(simulation_.own_part != nullptr);  // else the simulation has changed
+      simulation_.visit(rows, take);
+      return {};
+    });
+  }
+
+ private:
+  Impl& simulation_;
+  SlicesHeader header_;
+};
+
+// Of the snapshot of one rank.
+class Simulation::Impl::SlicesOfSnapshot final : public ParticleSlices {
+ public:
+  explicit SlicesOfSnapshot(std::shared_ptr<const Snapshot> snapshot)
+      : snapshot_(std::move(snapshot)),
+        slices_(snapshot_->particles) {}
+
+  std::uint64_t size() const override { return slices_.size(); }
+  std::uint64_t identity() const override { return slices_.identity(); }
+  bool has_accelerations() const override { return slices_.has_accelerations(); }
+  Expected<void> visit(std::size_t rows, const Take& take) const override { return slices_.visit(rows, take); }
+
+ private:
+  std::shared_ptr<const Snapshot> snapshot_;
+  SlicesOfSet slices_;
+};
+
+std::unique_ptr<const ParticleSlices> Simulation::Impl::slices() {
+  if (ranks.is_serial() || host) return std::make_unique<SlicesOfSnapshot>(snapshot());
+  return std::make_unique<SlicesOfRanks>(*this);
+}
 
 Expected<void> Simulation::Impl::check_ranks() const {
   if (ranks.is_serial() || backend->shared() != nullptr) return {};
@@ -52,6 +95,24 @@ void Simulation::Impl::gather(ParticleSet& particles) {
   lead(Order::gather);
   download(*backend, scene.integrator, particles);
   ranks.gather(particles);
+}
+
+// Each rank keeps its own particles until they change.
+SlicesHeader Simulation::Impl::begin_slices() {
+  lead(Order::slices);
+  if (!own_part) {
+    auto own = std::make_shared<ParticleSet>();
+    download(*backend, scene.integrator, *own);
+    own_part = std::move(own);
+  }
+  SlicesHeader header{own_part->size(), SlicesOfSet(*own_part).identity(), !own_part->acceleration.empty()};
+  ranks.sum(header);
+  return header;
+}
+
+void Simulation::Impl::visit(std::size_t rows, const ParticleSlices::Take& take) {
+  lead(Order::visit, rows);
+  ranks.visit(*own_part, rows, take);
 }
 
 std::uint64_t Simulation::Impl::particle_count() {
@@ -140,6 +201,15 @@ void Simulation::Impl::follow() {
       case Order::gather: {
         ParticleSet own;
         gather(own);
+        break;
+      }
+      case Order::slices:
+        (void)begin_slices();
+        break;
+      case Order::visit: {
+        std::size_t rows = 0;
+        take_bytes(from, rows);
+        visit(rows, {});
         break;
       }
       case Order::costs:

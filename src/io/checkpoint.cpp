@@ -2,31 +2,27 @@
 // SPDX-License-Identifier: MIT
 #include "hooke/io/checkpoint.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cerrno>
 #include <numeric>
 
 #include "hooke/base/floating_point.h"
-#include "hooke/base/hash.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/hdf5.h"
 #include "hooke/io/population_tables.h"
 #include "hooke/io/run_folder.h"
 #include "hooke/io/run_info_json.h"
+#include "hooke/io/seal.h"
+#include "hooke/io/slices.h"
 #include "hooke/io/structure_tables.h"
 
 namespace hooke::io {
 
 namespace {
 
-constexpr std::int64_t kFormat = 4;
+constexpr std::int64_t kFormat = 5;
 constexpr const char* kType = "hooke checkpoint";
 constexpr const char* kTablesDiffer = "is a damaged checkpoint: its tables don't fit together";
-
-static_assert(sizeof(Vec3d) == 3 * sizeof(double));
 
 /// The numbers of a state besides its particles and step, in the order of the file; `visit` may read or set them.
 template <class State, class Visit>
@@ -70,70 +66,6 @@ Numbers numbers_of(const SimulationState& state) {
   return numbers;
 }
 
-/// The last bytes of a checkpoint; HDF5 reads nothing behind its own end. The seal shows, before HDF5 reads the file,
-/// whether it was cut short or changed; HDF5 would not notice a changed bit in an array.
-struct Seal {
-  std::uint64_t magic = 0x314b4843454b4f48;  // "HOKECHK1", little endian
-  std::uint64_t checksum = 0;                // of all bytes before the seal
-
-  friend bool operator==(const Seal&, const Seal&) = default;
-};
-
-/// Makes the seal for the first `size` bytes of a file. Throws Failure.
-Seal make_seal(int fd, std::uint64_t size, const std::filesystem::path& path) {
-  constexpr std::size_t kBlockBytes = std::size_t{1} << 20U;
-  std::vector<std::uint64_t> words(kBlockBytes / sizeof(std::uint64_t) + 1);
-  Seal seal;
-  seal.checksum = size;
-  for (std::uint64_t at = 0; at < size; at += kBlockBytes) {
-    const auto n = static_cast<std::size_t>(std::min<std::uint64_t>(size - at, kBlockBytes));
-    words[n / sizeof words[0]] = 0;  // zero padding of the last word
-    if (const int error = read_at(fd, words.data(), n, at)) {
-      throw Failure(Error::Kind::io, path, "can't be read: " + system_message(error));
-    }
-    const std::size_t count = (n + sizeof words[0] - 1) / sizeof words[0];
-    for (std::size_t i = 0; i < count; ++i) seal.checksum = combine64(seal.checksum, words[i]);
-  }
-  return seal;
-}
-
-void append_seal(const std::filesystem::path& path) {
-  const Descriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
-  const std::uint64_t size = size_of(file.get(), path);
-  const Seal seal = make_seal(file.get(), size, path);
-  if (const int error = write_at(file.get(), &seal, sizeof seal, size)) {
-    throw Failure(Error::Kind::io, path, "can't be written: " + system_message(error));
-  }
-}
-
-/// The seal at the end of a file; its magic is wrong where there is no seal.
-Seal read_seal(int fd, std::uint64_t size, const std::filesystem::path& path) {
-  Seal seal{0, 0};
-  if (size <= sizeof seal) return seal;
-  if (const int error = read_at(fd, &seal, sizeof seal, size - sizeof seal)) {
-    throw Failure(Error::Kind::io, path, "can't be read: " + system_message(error));
-  }
-  return seal;
-}
-
-void check_seal(const std::filesystem::path& path) {
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!file) throw Failure(Error::Kind::bad_input, path, "can't be opened: " + system_message(errno));
-  const std::uint64_t size = size_of(file.get(), path);
-  if (size == 0) throw Failure(Error::Kind::bad_input, path, "is empty");
-  const Seal seal = read_seal(file.get(), size, path);
-  if (seal.magic != Seal{}.magic) {
-    throw Failure(Error::Kind::bad_input, path, "is no checkpoint of Hooke's, or is cut short");
-  }
-  if (seal != make_seal(file.get(), size - sizeof seal, path)) {
-    throw Failure(Error::Kind::bad_input, path, "is a damaged checkpoint: its checksum is wrong");
-  }
-}
-
-void write_vectors(hid_t file, const char* name, const std::vector<Vec3d>& values) {
-  hdf5::write_array(file, name, values.empty() ? nullptr : &values.front().x, values.size(), 3);
-}
-
 std::vector<Vec3d> read_vectors(hid_t file, const char* name) {
   const std::vector<double> values = hdf5::read_array<double>(file, name, 3);
   std::vector<Vec3d> vectors(values.size() / 3);
@@ -141,9 +73,25 @@ std::vector<Vec3d> read_vectors(hid_t file, const char* name) {
   return vectors;
 }
 
-void write_content(hdf5::File& file, const SimulationState& state, const RunInfo& info) {
+void write_particles(hid_t root, const ParticleSlices& particles) {
+  const std::uint64_t n = particles.size(), accelerated = particles.has_accelerations() ? n : 0;
+  hdf5::Array id = hdf5::Array::create<std::uint64_t>(root, "id", n);
+  hdf5::Array material = hdf5::Array::create<std::uint16_t>(root, "material", n);
+  hdf5::Array position = hdf5::Array::create<double>(root, "position", n, 3);
+  hdf5::Array velocity = hdf5::Array::create<double>(root, "velocity", n, 3);
+  hdf5::Array acceleration = hdf5::Array::create<double>(root, "acceleration", accelerated, 3);
+  visit_slices(particles, kSliceRows, [&](const ParticleSlice& p) {
+    id.append(p.id.data(), p.size());
+    material.append(p.material.data(), p.size());
+    position.append(components(p.position), p.size());
+    velocity.append(components(p.velocity), p.size());
+    acceleration.append(components(p.acceleration), p.acceleration.size());
+  });
+}
+
+void write_content(hdf5::File& file, const SimulationState& state, const ParticleSlices& particles,
+                   const RunInfo& info) {
   const Numbers numbers = numbers_of(state);
-  const ParticleSet& p = state.particles;
   const hid_t root = file.id();
   hdf5::write_text_attribute(root, "type", kType);
   hdf5::write_integer_attribute(root, "format", {kFormat}, true);
@@ -152,11 +100,7 @@ void write_content(hdf5::File& file, const SimulationState& state, const RunInfo
   hdf5::write_array(root, "reals", numbers.reals.data(), numbers.reals.size());
   hdf5::write_array(root, "sums", numbers.parts.data(), numbers.parts.size());
   hdf5::write_array(root, "sum_parts", numbers.part_count.data(), numbers.part_count.size());
-  hdf5::write_array(root, "id", p.id.data(), p.size());
-  hdf5::write_array(root, "material", p.material.data(), p.size());
-  write_vectors(root, "position", p.position);
-  write_vectors(root, "velocity", p.velocity);
-  write_vectors(root, "acceleration", p.acceleration);
+  write_particles(root, particles);
   write_structure(root, state);
   write_population(root, state);
 }
@@ -220,6 +164,11 @@ Checkpoint read_content(const std::filesystem::path& path) {
 }  // namespace
 
 Expected<void> write_checkpoint(const std::filesystem::path& path, const SimulationState& state, const RunInfo& info) {
+  return write_checkpoint(path, state, SlicesOfSet(state.particles), info);
+}
+
+Expected<void> write_checkpoint(const std::filesystem::path& path, const SimulationState& state,
+                                const ParticleSlices& particles, const RunInfo& info) {
   const FloatingPointGuard floating_point;  // exact sums need rounding to nearest
   return guarded(path, [&] {
     const std::filesystem::path target = output_file_of(path);
@@ -227,7 +176,7 @@ Expected<void> write_checkpoint(const std::filesystem::path& path, const Simulat
     try {
       const auto held = hdf5::lock();
       hdf5::File file(unfinished, JournaledFile::Mode::create);
-      write_content(file, state, info);
+      write_content(file, state, particles, info);
       file.close();
       append_seal(unfinished);
     } catch (const Failure& failure) {
@@ -241,11 +190,7 @@ Expected<void> write_checkpoint(const std::filesystem::path& path, const Simulat
 }
 
 Expected<bool> is_checkpoint(const std::filesystem::path& path) {
-  return guarded(path, [&] {
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-    if (!file) throw Failure(Error::Kind::io, path, "can't be read: " + system_message(errno));
-    return read_seal(file.get(), size_of(file.get(), path), path).magic == Seal{}.magic;
-  });
+  return guarded(path, [&] { return has_seal(path); });
 }
 
 Expected<Checkpoint> read_checkpoint(const std::filesystem::path& path) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hooke/base/expected.h"
+#include "hooke/core/particle_slices.h"
 #include "hooke/core/simulation.h"
 #include "hooke/io/snapshot.h"
 
@@ -20,6 +21,10 @@ struct Checkpoint {
 /// Writes a checkpoint file (HDF5): first beside `file`, synced to the disk, then renamed, so that the old or the new
 /// file is there at any moment, complete. On Error::Kind::io the old file stays.
 Expected<void> write_checkpoint(const std::filesystem::path& file, const SimulationState& state, const RunInfo& info);
+
+/// The same with these particles in place of the state's.
+Expected<void> write_checkpoint(const std::filesystem::path& file, const SimulationState& state,
+                                const ParticleSlices& particles, const RunInfo& info);
 
 /// Reads a checkpoint bit for bit. `file` may also be a run folder that holds one. A file that is missing, foreign,
 /// damaged or of a later format is an Error::Kind::bad_input that says which.

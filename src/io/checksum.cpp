@@ -7,31 +7,34 @@
 #include "hooke/base/hash.h"
 
 namespace hooke::io {
-namespace {
+
+SnapshotChecksum::SnapshotChecksum(std::int64_t step, double time, std::uint64_t particles, Precision precision)
+    : precision_(precision),
+      sum_(combine64(combine64(particles, static_cast<std::uint64_t>(step)), std::bit_cast<std::uint64_t>(time))) {}
+
+void SnapshotChecksum::add(const ParticleSlice& particles) {
+  if (precision_ == Precision::single_precision) {
+    add_as<float>(particles);
+  } else {
+    add_as<double>(particles);
+  }
+}
 
 template <class Real>
-std::uint64_t checksum_as(const Snapshot& snapshot) {
-  const ParticleSet& p = snapshot.particles;
-  std::uint64_t sum = combine64(p.size(), static_cast<std::uint64_t>(snapshot.step));
-  const auto add = [&sum](double x) {
+void SnapshotChecksum::add_as(const ParticleSlice& p) {
+  std::uint64_t sum = sum_;
+  const auto add_real = [&sum](double x) {
     sum = combine64(sum, std::bit_cast<std::uint64_t>(static_cast<double>(static_cast<Real>(x))));
   };
-  sum = combine64(sum, std::bit_cast<std::uint64_t>(snapshot.time));
   for (std::size_t i = 0; i < p.size(); ++i) {
     sum = combine64(combine64(sum, p.id[i]), p.material[i]);
     for (const Vec3d& a : {p.position[i], p.velocity[i]}) {
-      add(a.x);
-      add(a.y);
-      add(a.z);
+      add_real(a.x);
+      add_real(a.y);
+      add_real(a.z);
     }
   }
-  return sum;
-}
-
-}  // namespace
-
-std::uint64_t checksum(const Snapshot& snapshot, Precision precision) {
-  return precision == Precision::single_precision ? checksum_as<float>(snapshot) : checksum_as<double>(snapshot);
+  sum_ = sum;
 }
 
 std::uint64_t checksum(std::string_view text) {

@@ -135,6 +135,7 @@ File::File(const std::filesystem::path& path, JournaledFile::Mode mode)
     check_reads();
     throw Failure(Error::Kind::bad_input, path, "is damaged, cut short, or no HDF5 file");
   }
+  bytes_->allow_growth();
 }
 
 File::~File() {
@@ -445,17 +446,25 @@ std::string read_text(hid_t parent, const char* name) {
   return text;
 }
 
-template <class T>
-void write_array(hid_t parent, const char* name, const T* values, hsize_t rows, hsize_t width) {
+Array::Array(hid_t parent, const char* name, hid_t type, hsize_t rows, hsize_t width) : rows_(rows), width_(width) {
   const hsize_t size[2] = {rows, width};
   const Handle space(H5Screate_simple(width == 1 ? 1 : 2, size, nullptr));
   const Handle properties = without_times(H5P_DATASET_CREATE);
-  const Handle dataset(
-      H5Dcreate2(parent, name, file_type<T>(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT));
-  if (dataset.get() < 0 ||
-      (rows > 0 && H5Dwrite(dataset.get(), memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)) {
-    fail_at(parent, std::string("can't make ") + name);
-  }
+  dataset_ = Handle(check(H5Dcreate2(parent, name, type, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+                          parent, std::string("can't make ") + name));
+}
+
+void Array::append(hid_t type, const void* values, hsize_t count) {
+  HOOKE_ASSERT(count <= rows_ - written_, count, rows_, written_);
+  with_rows(dataset_.get(), written_, count, width_, [&](hid_t memory, hid_t file) {
+    return H5Dwrite(dataset_.get(), type, memory, file, H5P_DEFAULT, values);
+  });
+  written_ += count;
+}
+
+template <class T>
+void write_array(hid_t parent, const char* name, const T* values, hsize_t rows, hsize_t width) {
+  Array::create<T>(parent, name, rows, width).append(values, rows);
 }
 
 template <class T>

@@ -79,6 +79,7 @@ class Column {
   static Column create(hid_t parent, const char* name, hid_t type, hsize_t width, hsize_t chunk_rows, bool compressed);
 
   hsize_t rows() const { return rows_; }
+  hsize_t chunk_rows() const { return chunk_rows_; }
   /// The first row at or after `rows` that starts a chunk.
   hsize_t next_chunk(hsize_t rows) const;
   void resize(hsize_t rows);
@@ -134,7 +135,28 @@ void set_integer_attribute(hid_t object, const char* name, std::int64_t value);
 void write_text(hid_t parent, const char* name, const std::string& text);
 std::string read_text(hid_t parent, const char* name);
 
-/// A whole array, contiguous and uncompressed: rows of `width` numbers.
+/// A new array, contiguous and uncompressed: rows of `width` numbers, which are written from the first on.
+class Array {
+ public:
+  template <class T>
+  static Array create(hid_t parent, const char* name, hsize_t rows, hsize_t width = 1) {
+    return Array(parent, name, file_type<T>(), rows, width);
+  }
+  template <class T>
+  void append(const T* values, hsize_t count) {
+    append(memory_type<T>(), values, count);
+  }
+
+ private:
+  Array(hid_t parent, const char* name, hid_t type, hsize_t rows, hsize_t width);
+  void append(hid_t type, const void* values, hsize_t count);
+
+  Handle dataset_;
+  hsize_t rows_, width_;
+  hsize_t written_ = 0;
+};
+
+/// A whole array of this kind.
 template <class T>
 void write_array(hid_t parent, const char* name, const T* values, hsize_t rows, hsize_t width = 1);
 template <class T>

@@ -49,8 +49,11 @@ herr_t query(const H5FD_t*, unsigned long* flags) {
 haddr_t get_eoa(const H5FD_t* file, H5FD_mem_t) { return bytes_of(file).end(); }
 haddr_t get_eof(const H5FD_t* file, H5FD_mem_t) { return bytes_of(file).size(); }
 
+// While it opens a file, HDF5 takes memory for whatever a damaged file claims to have behind its end.
 herr_t set_eoa(H5FD_t* file, H5FD_mem_t, haddr_t end) {
-  bytes_of(file).set_end(end);
+  JournaledFile& bytes = bytes_of(file);
+  if (!bytes.may_grow() && end > bytes.size()) return -1;
+  bytes.set_end(end);
   return 0;
 }
 

@@ -46,6 +46,9 @@ class JournaledFile {
   void write(std::uint64_t offset, const void* data, std::size_t size);
   int write_error() const { return error_; }
 
+  /// Whether bytes behind size() may be taken into use: of a new file, and of one to update from allow_growth() on.
+  bool may_grow() const { return may_grow_; }
+  void allow_growth() { may_grow_ = writable(); }
   /// The number of bytes in use; the next commit commits these.
   void set_end(std::uint64_t end) { end_ = end; }
   std::uint64_t end() const { return end_; }
@@ -72,6 +75,7 @@ class JournaledFile {
 
   std::filesystem::path file_;
   Mode mode_;
+  bool may_grow_ = mode_ == Mode::create;
   Descriptor fd_;
   std::map<std::uint64_t, std::unique_ptr<Page>> pages_;  // changed pages before the committed end, by index
   std::uint64_t committed_pages_ = 0;

@@ -13,6 +13,7 @@
 #include "hooke/io/failure.h"
 #include "hooke/io/hdf5.h"
 #include "hooke/io/run_info_json.h"
+#include "hooke/io/slices.h"
 #include "hooke/io/vtkhdf_columns.h"
 
 namespace hooke::io {
@@ -36,31 +37,46 @@ void cut_to(hdf5::Column& column, hsize_t rows) {
 
 void put(hdf5::Column& column, std::int64_t value) { column.append(std::vector<std::int64_t>{value}); }
 
-/// Appends rows of whole numbers from the next chunk on; returns their first row.
-std::int64_t append_rows(hdf5::Column& column, hsize_t count, hid_t type, const void* data) {
+/// Appends rows of whole numbers from the next chunk on.
+void append_rows(hdf5::Column& column, hsize_t count, hid_t type, const void* data) {
   const hsize_t start = column.next_chunk(column.rows());
   column.resize(column.next_chunk(start + count));
   column.write(start, count, type, data);
-  return static_cast<std::int64_t>(start);
 }
 
-/// The same for numbers in the precision of the run; `values` are `count` rows.
+/// The row from which the next ones will be appended.
+std::int64_t next_row(const hdf5::Column& column) {
+  return static_cast<std::int64_t>(column.next_chunk(column.rows()));
+}
+
+/// Appends numbers in the precision of the run; `values` are `count` rows.
 template <class Real>
-std::int64_t append_reals(hdf5::Column& column, hsize_t count, std::span<const double> values) {
+void append_reals(hdf5::Column& column, hsize_t count, std::span<const double> values) {
   std::vector<Real> converted(values.size());
   std::transform(values.begin(), values.end(), converted.begin(), [](double x) { return static_cast<Real>(x); });
-  return static_cast<std::int64_t>(column.append_chunks(converted.data(), count));
+  column.append_chunks(converted.data(), count);
 }
 
-std::int64_t append_reals(hdf5::Column& column, hsize_t count, std::span<const double> values, Precision precision) {
-  return precision == Precision::single_precision ? append_reals<float>(column, count, values)
-                                                  : append_reals<double>(column, count, values);
+void append_reals(hdf5::Column& column, hsize_t count, std::span<const double> values, Precision precision) {
+  if (precision == Precision::single_precision) {
+    append_reals<float>(column, count, values);
+  } else {
+    append_reals<double>(column, count, values);
+  }
 }
 
-std::int64_t append_vectors(hdf5::Column& column, const std::vector<Vec3d>& values, Precision precision) {
-  static_assert(sizeof(Vec3d) == 3 * sizeof(double));
-  const double* first = values.empty() ? nullptr : &values.front().x;
-  return append_reals(column, values.size(), {first, 3 * values.size()}, precision);
+void append_vectors(hdf5::Column& column, std::span<const Vec3d> values, Precision precision) {
+  append_reals(column, values.size(), {components(values), 3 * values.size()}, precision);
+}
+
+/// Appends `count` rows of whole numbers that count up from `first`, no more than a slice of them at a time.
+void append_counting(hdf5::Column& column, std::int64_t first, std::int64_t count) {
+  std::vector<std::int64_t> numbers;
+  for (std::int64_t done = 0; done < count; done += static_cast<std::int64_t>(numbers.size())) {
+    numbers.resize(std::min(kSliceRows, static_cast<std::size_t>(count - done)));
+    std::iota(numbers.begin(), numbers.end(), first + done);
+    column.append(numbers);
+  }
 }
 
 std::size_t count_snapshots(hid_t file) {
@@ -94,27 +110,64 @@ RunInfo read_info(hid_t file, const std::filesystem::path& path) {
   return parse_run_info(text, path);
 }
 
-Snapshot read_snapshot(const VtkhdfColumns& columns, std::size_t index, Precision precision) {
-  Snapshot snapshot;
-  snapshot.step = at(columns.step, index);
-  columns.values.read(index, 1, hdf5::memory_type<double>(), &snapshot.time);
-  const auto row = [index](const hdf5::Column& offsets) { return static_cast<hsize_t>(at(offsets, index)); };
-  const auto n = static_cast<hsize_t>(at(columns.number_of_points, row(columns.part_offsets)));
-  // A damaged count must not make us allocate more memory than the rows could fill.
-  if (n > columns.points.rows()) columns.points.fail("a snapshot is longer than its table");
-  ParticleSet& p = snapshot.particles;
-  p.id.resize(n);
-  p.material.resize(n);
-  p.position.resize(n);
-  p.velocity.resize(n);
-  columns.id.read(row(columns.id_offsets), n, hdf5::memory_type<std::int64_t>(), p.id.data());
-  columns.material.read(row(columns.material_offsets), n, hdf5::memory_type<std::uint16_t>(), p.material.data());
-  columns.points.read(row(columns.point_offsets), n, hdf5::memory_type<double>(), p.position.data());
-  columns.velocity.read(row(columns.velocity_offsets), n, hdf5::memory_type<double>(), p.velocity.data());
-  if (at(columns.checksum, index) != static_cast<std::int64_t>(checksum(snapshot, precision))) {
-    columns.checksum.fail("snapshot " + std::to_string(index) + " is not what was written");
+/// Where a snapshot's rows begin in each table, and how many there are.
+struct SnapshotRows {
+  std::size_t index;
+  std::int64_t step;
+  double time = 0;
+  hsize_t count, id, material, points, velocity;
+
+  SnapshotRows(const VtkhdfColumns& columns, std::size_t snapshot) : index(snapshot), step(at(columns.step, snapshot)) {
+    columns.values.read(index, 1, hdf5::memory_type<double>(), &time);
+    const auto row = [&](const hdf5::Column& offsets) { return static_cast<hsize_t>(at(offsets, index)); };
+    count = static_cast<hsize_t>(at(columns.number_of_points, row(columns.part_offsets)));
+    // A damaged count must not make us allocate more memory than the rows could fill.
+    if (count > columns.points.rows()) columns.points.fail("a snapshot is longer than its table");
+    id = row(columns.id_offsets);
+    material = row(columns.material_offsets);
+    points = row(columns.point_offsets);
+    velocity = row(columns.velocity_offsets);
   }
+};
+
+/// Reads `rows` of a snapshot's particles from its particle `first` on.
+void read_slice(const VtkhdfColumns& columns, const SnapshotRows& of, hsize_t first, hsize_t rows, ParticleSet& p) {
+  p.resize(rows);
+  p.acceleration.clear();
+  columns.id.read(of.id + first, rows, hdf5::memory_type<std::int64_t>(), p.id.data());
+  columns.material.read(of.material + first, rows, hdf5::memory_type<std::uint16_t>(), p.material.data());
+  columns.points.read(of.points + first, rows, hdf5::memory_type<double>(), p.position.data());
+  columns.velocity.read(of.velocity + first, rows, hdf5::memory_type<double>(), p.velocity.data());
+}
+
+void check_sum(const VtkhdfColumns& columns, const SnapshotRows& of, const SnapshotChecksum& sum) {
+  if (at(columns.checksum, of.index) == static_cast<std::int64_t>(sum.value())) return;
+  columns.checksum.fail("snapshot " + std::to_string(of.index) + " is not what was written");
+}
+
+Snapshot read_snapshot(const VtkhdfColumns& columns, std::size_t index, Precision precision) {
+  const SnapshotRows rows(columns, index);
+  Snapshot snapshot{rows.step, rows.time, {}};
+  read_slice(columns, rows, 0, rows.count, snapshot.particles);
+  SnapshotChecksum sum(rows.step, rows.time, rows.count, precision);
+  sum.add(ParticleSlice(snapshot.particles, 0, rows.count));
+  check_sum(columns, rows, sum);
   return snapshot;
+}
+
+/// Reads a snapshot to see whether it is sound; returns ParticleSlices::identity() of it.
+std::uint64_t identity_of(const VtkhdfColumns& columns, const SnapshotRows& rows, Precision precision) {
+  std::uint64_t identity = 0;
+  SnapshotChecksum sum(rows.step, rows.time, rows.count, precision);
+  ParticleSet p;
+  for (hsize_t first = 0; first < rows.count; first += kSliceRows) {
+    read_slice(columns, rows, first, std::min<hsize_t>(kSliceRows, rows.count - first), p);
+    const ParticleSlice slice(p, 0, p.size());
+    identity += slice.identity();
+    sum.add(slice);
+  }
+  check_sum(columns, rows, sum);
+  return identity;
 }
 
 }  // namespace
@@ -123,15 +176,24 @@ struct ParticlesFile::Columns : VtkhdfColumns {
   explicit Columns(VtkhdfColumns columns) : VtkhdfColumns(std::move(columns)) {}
 
   // Of the last snapshot: data that the next one may refer to.
-  std::vector<std::uint64_t> last_id;
-  std::vector<std::uint16_t> last_material;
+  std::uint64_t last_count = 0, last_identity = 0;  // of its particles; ParticleSlices::identity()
   std::int64_t last_id_offset = 0, last_material_offset = 0, last_radius_offset = 0;
   std::int64_t part = -1;        // -1: none yet
   std::int64_t cell_offset = 0;  // its first vertex
 
+  /// How many particles are appended at a time: whole chunks, so that none is written twice.
+  std::size_t slice_rows() const;
   void choose_part(std::int64_t particles);
-  void append_identity(const ParticleSet& particles, const RunInfo& info);
+  void append_identity(const ParticleSlice& particles, const RunInfo& info);
 };
+
+std::size_t ParticlesFile::Columns::slice_rows() const {
+  const hsize_t chunk = points.chunk_rows();
+  for (const hdf5::Column* column : {&velocity, &id, &material, &radius}) {
+    if (column->chunk_rows() != chunk) column->fail("its chunks are not as long as those of the points");
+  }
+  return chunk * std::max<hsize_t>(1, kSliceRows / chunk);
+}
 
 // Selects the list of vertices for this many particles: the last one, or a new one.
 void ParticlesFile::Columns::choose_part(std::int64_t particles) {
@@ -145,27 +207,19 @@ void ParticlesFile::Columns::choose_part(std::int64_t particles) {
     const std::int64_t cells = vertices ? particles : 0;
     put(topology.number_of_cells, cells);
     put(topology.number_of_connectivity_ids, cells);
-    std::vector<std::int64_t> offsets(static_cast<std::size_t>(cells) + 1);
-    std::iota(offsets.begin(), offsets.end(), 0);
-    topology.offsets.append(offsets);
+    append_counting(topology.offsets, 0, cells + 1);
     // Vertex i is particle i in every part, so one list, as long as the longest part, serves all.
     const auto listed = static_cast<std::int64_t>(topology.connectivity.rows());
-    if (listed >= cells) continue;
-    std::vector<std::int64_t> connectivity(static_cast<std::size_t>(cells - listed));
-    std::iota(connectivity.begin(), connectivity.end(), listed);
-    topology.connectivity.append(connectivity);
+    if (listed < cells) append_counting(topology.connectivity, listed, cells - listed);
   }
 }
 
-void ParticlesFile::Columns::append_identity(const ParticleSet& p, const RunInfo& info) {
-  if (step.rows() > 0 && p.id == last_id && p.material == last_material) return;
+void ParticlesFile::Columns::append_identity(const ParticleSlice& p, const RunInfo& info) {
   std::vector<double> radii(p.size());
   for (std::size_t i = 0; i < p.size(); ++i) radii[i] = info.materials.at(p.material[i]).radius;
-  last_id_offset = append_rows(id, p.size(), hdf5::memory_type<std::int64_t>(), p.id.data());
-  last_material_offset = append_rows(material, p.size(), hdf5::memory_type<std::uint16_t>(), p.material.data());
-  last_radius_offset = append_reals(radius, p.size(), radii, info.precision);
-  last_id = p.id;
-  last_material = p.material;
+  append_rows(id, p.size(), hdf5::memory_type<std::int64_t>(), p.id.data());
+  append_rows(material, p.size(), hdf5::memory_type<std::uint16_t>(), p.material.data());
+  append_reals(radius, p.size(), radii, info.precision);
 }
 
 ParticlesFile::ParticlesFile(hdf5::File file, const RunInfo& info)
@@ -232,11 +286,11 @@ void ParticlesFile::cut(std::size_t snapshots) {
   }
   hsize_t particles = 0;
   if (snapshots > 0) {
-    const Snapshot last = read_snapshot(c, snapshots - 1, info_.precision);
-    particles = last.particles.size();
+    const SnapshotRows last(c, snapshots - 1);
+    particles = last.count;
     last_step_ = last.step;
-    c.last_id = last.particles.id;
-    c.last_material = last.particles.material;
+    c.last_count = last.count;
+    c.last_identity = identity_of(c, last, info_.precision);
     c.last_id_offset = at(c.id_offsets, snapshots - 1);
     c.last_material_offset = at(c.material_offsets, snapshots - 1);
     c.last_radius_offset = at(c.radius_offsets, snapshots - 1);
@@ -266,12 +320,16 @@ void ParticlesFile::cut(std::size_t snapshots) {
 }
 
 void ParticlesFile::append(const Snapshot& snapshot) {
-  HOOKE_ASSERT(!last_step_ || snapshot.step > *last_step_, snapshot.step, *last_step_);
   HOOKE_ASSERT(snapshot.particles.columns_fit(), snapshot.particles.size());
+  append(snapshot.step, snapshot.time, SlicesOfSet(snapshot.particles));
+}
+
+void ParticlesFile::append(std::int64_t step, double time, const ParticleSlices& particles) {
+  HOOKE_ASSERT(!last_step_ || step > *last_step_, step, *last_step_);
   try {
-    write_snapshot(snapshot);
+    write_snapshot(step, time, particles);
     file_->commit();
-    last_step_ = snapshot.step;
+    last_step_ = step;
   } catch (const std::exception&) {
     file_->bytes().trim();
     // HDF5 may have failed over bytes missing on the disk; then report the disk's error.
@@ -280,18 +338,32 @@ void ParticlesFile::append(const Snapshot& snapshot) {
   }
 }
 
-void ParticlesFile::write_snapshot(const Snapshot& snapshot) {
-  const ParticleSet& p = snapshot.particles;
+void ParticlesFile::write_snapshot(std::int64_t step, double time, const ParticleSlices& particles) {
+  const std::uint64_t n = particles.size();
   if (!columns_) {
-    columns_ = std::make_unique<Columns>(VtkhdfColumns::create(file_->id(), p.size(), info_.precision));
+    columns_ = std::make_unique<Columns>(VtkhdfColumns::create(file_->id(), n, info_.precision));
   }
   Columns& c = *columns_;
-  c.choose_part(static_cast<std::int64_t>(p.size()));
-  c.append_identity(p, info_);
-  const std::int64_t point_offset = append_vectors(c.points, p.position, info_.precision);
-  const std::int64_t velocity_offset = append_vectors(c.velocity, p.velocity, info_.precision);
+  c.choose_part(static_cast<std::int64_t>(n));
+  const std::uint64_t identity = particles.identity();
+  const bool are_new = c.step.rows() == 0 || n != c.last_count || identity != c.last_identity;
+  if (are_new) {
+    c.last_id_offset = next_row(c.id);
+    c.last_material_offset = next_row(c.material);
+    c.last_radius_offset = next_row(c.radius);
+    c.last_count = n;
+    c.last_identity = identity;
+  }
+  const std::int64_t point_offset = next_row(c.points), velocity_offset = next_row(c.velocity);
+  SnapshotChecksum checksum(step, time, n, info_.precision);
+  visit_slices(particles, c.slice_rows(), [&](const ParticleSlice& p) {
+    if (are_new) c.append_identity(p, info_);
+    append_vectors(c.points, p.position, info_.precision);
+    append_vectors(c.velocity, p.velocity, info_.precision);
+    checksum.add(p);
+  });
 
-  c.values.append(std::vector<double>{snapshot.time});
+  c.values.append(std::vector<double>{time});
   put(c.part_offsets, c.part);
   put(c.number_of_parts, 1);
   put(c.point_offsets, point_offset);
@@ -301,8 +373,8 @@ void ParticlesFile::write_snapshot(const Snapshot& snapshot) {
   put(c.id_offsets, c.last_id_offset);
   put(c.material_offsets, c.last_material_offset);
   put(c.radius_offsets, c.last_radius_offset);
-  put(c.step, snapshot.step);
-  put(c.checksum, static_cast<std::int64_t>(checksum(snapshot, info_.precision)));
+  put(c.step, step);
+  put(c.checksum, static_cast<std::int64_t>(checksum.value()));
   const hdf5::Handle steps = hdf5::open_group(file_->id(), "VTKHDF/Steps");
   hdf5::set_integer_attribute(steps.get(), "NSteps", static_cast<std::int64_t>(c.step.rows()));
 }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "hooke/core/particle_slices.h"
 #include "hooke/io/hdf5_library.h"
 #include "hooke/io/snapshot.h"
 
@@ -46,6 +47,7 @@ class ParticlesFile {
 
   /// Steps must ascend.
   void append(const Snapshot& snapshot);
+  void append(std::int64_t step, double time, const ParticleSlices& particles);
   std::optional<std::int64_t> last_step() const { return last_step_; }
 
   /// Makes the appended snapshots survive a power failure too.
@@ -54,7 +56,7 @@ class ParticlesFile {
  private:
   struct Columns;
   ParticlesFile(hdf5::File file, const RunInfo& info);
-  void write_snapshot(const Snapshot& snapshot);
+  void write_snapshot(std::int64_t step, double time, const ParticleSlices& particles);
   void cut(std::size_t snapshots);
 
   RunInfo info_;

@@ -68,8 +68,12 @@ class RunWriter {
   /// Queues a snapshot. Steps must ascend; a step that was already written is not written again.
   Expected<void> write_snapshot(std::shared_ptr<const Snapshot> snapshot);
   Expected<void> write_snapshot(Snapshot snapshot);
+  /// Writes a snapshot at once, after what is queued, where its particles come in slices. `time`: s.
+  Expected<void> write_snapshot(std::int64_t step, double time, const ParticleSlices& particles);
   /// Queues a checkpoint, which replaces the existing one after all snapshots queued before it are written.
   Expected<void> write_checkpoint(SimulationState state);
+  /// Writes one at once, after what is queued, with these particles in place of the state's.
+  Expected<void> write_checkpoint(const SimulationState& state, const ParticleSlices& particles);
   /// Appends a row to series.csv at once. A step that was already written is not written again.
   Expected<void> write_series(const SeriesRow& row);
   Expected<void> write_report(const RunReport& report);

@@ -133,26 +133,61 @@ struct RunWriter::Impl {
 
   Expected<void> write(const Item& item) {
     if (const auto* snapshot = std::get_if<std::shared_ptr<const Snapshot>>(&item)) {
-      return guarded(folder / kParticlesFile, [&] {
-        const auto held = hdf5::lock();
-        particles.append(**snapshot);
-      });
+      const Snapshot& s = **snapshot;
+      return write_snapshot(s.step, s.time, SlicesOfSet(s.particles));
     }
-    // A checkpoint implies that everything before it exists, so it must reach the disk after them.
+    const auto& state = std::get<SimulationState>(item);
+    return write_checkpoint(state, SlicesOfSet(state.particles));
+  }
+
+  Expected<void> write_snapshot(std::int64_t step, double time, const ParticleSlices& slices) {
+    return guarded(folder / kParticlesFile, [&] {
+      const auto held = hdf5::lock();
+      particles.append(step, time, slices);
+    });
+  }
+
+  // A checkpoint implies that everything before it exists, so it must reach the disk after them.
+  Expected<void> write_checkpoint(const SimulationState& state, const ParticleSlices& slices) {
     Expected<void> synced = guarded(folder / kParticlesFile, [&] {
       particles.sync();
       series.sync();
     });
     if (!synced) return synced;
-    return io::write_checkpoint(folder / kCheckpointFile, std::get<SimulationState>(item), info);
+    return io::write_checkpoint(folder / kCheckpointFile, state, slices, info);
+  }
+
+  // Writes on the calling thread, when all that was queued before is written.
+  template <class Write>
+  Expected<void> write_now(const Write& write_it) {
+    if (Expected<void> written = wait(); !written) return written;
+    if (is_finished()) return is_over();
+    Expected<void> done = write_it();
+    const std::lock_guard held(mutex);
+    if (!done) error = done.error();
+    return done;
+  }
+
+  // Whether a snapshot of this step is to be written: those of ascending steps are, each once.
+  Expected<bool> takes_step(std::int64_t step) {
+    if (last_queued && step < *last_queued) {
+      return hooke::fail(Error::Kind::bad_input, (folder / kParticlesFile).string(),
+                         "snapshots must be written in order of their steps");
+    }
+    const bool is_new = !last_queued || step > *last_queued;
+    last_queued = step;
+    return is_new;
+  }
+
+  Unexpected is_over() const {
+    return hooke::fail(Error::Kind::bad_input, folder.string(), "is finished: nothing more can be written");
   }
 
   Expected<void> push(Item item) {
     std::unique_lock held(mutex);
     changed.wait(held, [&] { return queue.empty() || error; });
     if (error) return hooke::fail(*error);
-    if (stopping)
-      return hooke::fail(Error::Kind::bad_input, folder.string(), "is finished: nothing more can be written");
+    if (stopping) return is_over();
     queue.push_back(std::move(item));
     changed.notify_all();
     return {};
@@ -264,13 +299,16 @@ fs::path RunWriter::checkpoint_path() const { return impl_->folder / kCheckpoint
 
 Expected<void> RunWriter::write_snapshot(std::shared_ptr<const Snapshot> snapshot) {
   HOOKE_ASSERT(snapshot != nullptr);
-  if (impl_->last_queued && snapshot->step <= *impl_->last_queued) {
-    if (snapshot->step == *impl_->last_queued) return {};
-    return fail(Error::Kind::bad_input, (impl_->folder / kParticlesFile).string(),
-                "snapshots must be written in order of their steps");
-  }
-  impl_->last_queued = snapshot->step;
-  return impl_->push(std::move(snapshot));
+  const Expected<bool> is_new = impl_->takes_step(snapshot->step);
+  if (!is_new) return fail(is_new.error());
+  return *is_new ? impl_->push(std::move(snapshot)) : Expected<void>{};
+}
+
+Expected<void> RunWriter::write_snapshot(std::int64_t step, double time, const ParticleSlices& particles) {
+  const Expected<bool> is_new = impl_->takes_step(step);
+  if (!is_new) return fail(is_new.error());
+  if (!*is_new) return {};
+  return impl_->write_now([&] { return impl_->write_snapshot(step, time, particles); });
 }
 
 Expected<void> RunWriter::write_snapshot(Snapshot snapshot) {
@@ -278,6 +316,10 @@ Expected<void> RunWriter::write_snapshot(Snapshot snapshot) {
 }
 
 Expected<void> RunWriter::write_checkpoint(SimulationState state) { return impl_->push(std::move(state)); }
+
+Expected<void> RunWriter::write_checkpoint(const SimulationState& state, const ParticleSlices& particles) {
+  return impl_->write_now([&] { return impl_->write_checkpoint(state, particles); });
+}
 
 Expected<void> RunWriter::write_series(const SeriesRow& row) {
   HOOKE_ASSERT(!impl_->is_finished(), row.step);

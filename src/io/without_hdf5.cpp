@@ -23,6 +23,10 @@ Error needs_hdf5(const std::filesystem::path& file) {
 Expected<void> write_checkpoint(const std::filesystem::path& file, const SimulationState&, const RunInfo&) {
   return fail(needs_hdf5(file));
 }
+Expected<void> write_checkpoint(const std::filesystem::path& file, const SimulationState&, const ParticleSlices&,
+                                const RunInfo&) {
+  return fail(needs_hdf5(file));
+}
 Expected<Checkpoint> read_checkpoint(const std::filesystem::path& file) { return fail(needs_hdf5(file)); }
 Expected<std::shared_ptr<const Structure>> read_structure_of_run(const std::filesystem::path& folder) {
   return fail(needs_hdf5(folder));
@@ -45,6 +49,7 @@ ParticlesFile ParticlesFile::update(const std::filesystem::path& path, const Run
   throw Failure(needs_hdf5(path));
 }
 void ParticlesFile::append(const Snapshot&) {}
+void ParticlesFile::append(std::int64_t, double, const ParticleSlices&) {}
 void ParticlesFile::sync() const {}
 
 ParticlesContents read_particles_contents(const std::filesystem::path& path) { throw Failure(needs_hdf5(path)); }

@@ -112,6 +112,17 @@ struct Recorder::Impl {
     return {};
   }
 
+  // One process goes on while its particles are written. Several ranks hand over theirs a slice at a time, so that
+  // rank 0 need not have room for all, and wait meanwhile.
+  Expected<void> write_snapshot() {
+    if (opened.ranks == 1) return writer.write_snapshot(simulation.snapshot());
+    return writer.write_snapshot(simulation.step_count(), simulation.time(), *simulation.slices());
+  }
+  Expected<void> write_checkpoint() {
+    if (opened.ranks == 1) return writer.write_checkpoint(simulation.state());
+    return writer.write_checkpoint(simulation.state_besides_particles(), *simulation.slices());
+  }
+
   // Writes the outputs due at this step; at the end of the run, all of them.
   Expected<void> write_outputs(bool at_end) {
     const std::int64_t step = simulation.step_count();
@@ -121,11 +132,11 @@ struct Recorder::Impl {
       const auto measurements = simulation.measure();
       if (!measurements) return fail(measurements.error());
       if (auto written = writer.write_series(io::make_series_row(simulation, *measurements)); !written) return written;
-      if (auto written = writer.write_snapshot(simulation.snapshot()); !written) return written;
+      if (auto written = write_snapshot(); !written) return written;
     }
     const bool have_checkpoint = step == checkpoint_step || (step == first && in_place);
     if ((must || checkpoint_due(step)) && !have_checkpoint) {
-      if (auto written = writer.write_checkpoint(simulation.state()); !written) return written;
+      if (auto written = write_checkpoint(); !written) return written;
       checkpoint_step = step;
       if (events.checkpoint) events.checkpoint(step);
     }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "samples.h"
@@ -86,6 +87,54 @@ TEST_F(Checkpoints, NoticeEveryChangedBit) {
     const std::string message = error_of_reading(file);
     EXPECT_TRUE(message.find("damaged") != std::string::npos || message.find("no checkpoint") != std::string::npos);
   }
+}
+
+// The seal is a sum over blocks of a mebibyte: each is taken along with its place and its length.
+TEST_F(Checkpoints, NoticeBlocksThatHaveChangedPlaces) {
+  constexpr std::size_t kBlock = std::size_t{1} << 20U;
+  ASSERT_TRUE(io::write_checkpoint(file, samples::state(3, 60'000), samples::run_info()));
+  const std::string whole = samples::read_file(file);
+  ASSERT_GT(whole.size(), 4 * kBlock);
+  std::string swapped = whole;
+  std::swap_ranges(swapped.begin() + kBlock, swapped.begin() + 2 * kBlock, swapped.begin() + 2 * kBlock);
+  ASSERT_NE(swapped, whole);
+  samples::write_file(file, swapped);
+  EXPECT_EQ(error_of_reading(file), "is a damaged checkpoint: its checksum is wrong");
+  samples::write_file(file, whole.substr(0, kBlock) + whole.substr(2 * kBlock));
+  EXPECT_EQ(error_of_reading(file), "is a damaged checkpoint: its checksum is wrong");
+  samples::write_file(file, whole);
+  EXPECT_TRUE(io::read_checkpoint(file));
+}
+
+TEST_F(Checkpoints, OfEarlierVersionsAreRefusedByThatName) {
+  ASSERT_TRUE(io::write_checkpoint(file, samples::state(3, 10), samples::run_info()));
+  std::string before = samples::read_file(file);
+  before.replace(before.size() - 16, 8, "HOKECHK1");
+  samples::write_file(file, before);
+  EXPECT_EQ(error_of_reading(file), "is a checkpoint of an earlier version, which this program can't read");
+}
+
+// Particles that come in slices give the bytes of those that come at once.
+TEST_F(Checkpoints, AreTheSameFromSlices) {
+  const SimulationState state = samples::state(3, 1000);
+  ASSERT_TRUE(io::write_checkpoint(file, state, samples::run_info()));
+  const std::string whole = samples::read_file(file);
+  SimulationState others = state;
+  others.particles = {};
+  ASSERT_TRUE(io::write_checkpoint(file, others, samples::SmallSlices(state.particles, 7), samples::run_info()));
+  EXPECT_EQ(samples::read_file(file), whole);
+}
+
+TEST_F(Checkpoints, AnErrorOfTheSlicesLeavesTheOldFile) {
+  const SimulationState state = samples::state(3, 1000);
+  ASSERT_TRUE(io::write_checkpoint(file, state, samples::run_info()));
+  const std::string whole = samples::read_file(file);
+  const samples::SmallSlices failing(state.particles, 10, 500);
+  const auto written = io::write_checkpoint(file, state, failing, samples::run_info());
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().findings.front().message, "ends after 500 particles");
+  EXPECT_EQ(samples::read_file(file), whole);
+  EXPECT_EQ(samples::files_in(folder.path()), std::vector<std::string>{"checkpoint.h5"});
 }
 
 TEST_F(Checkpoints, AnUnwritablePathIsAnError) {

@@ -9,10 +9,11 @@
 #include <cstring>
 #include <functional>
 
-#include "hooke/base/hash.h"
+#include "hooke/base/process_usage.h"
 #include "hooke/io/checkpoint.h"
 #include "hooke/io/describe_file.h"
 #include "hooke/io/run_folder.h"
+#include "hooke/io/seal.h"
 #include "samples.h"
 
 namespace hooke {
@@ -220,17 +221,7 @@ class DamagedCheckpoints : public testing::Test {
     whole = sealed.substr(0, sealed.size() - 2 * sizeof(std::uint64_t));
   }
   /// Makes the seal anew: it guards against accidents, not against somebody.
-  void seal() {
-    std::string bytes = samples::read_file(file);
-    std::uint64_t sum = bytes.size();
-    for (std::size_t at = 0; at < bytes.size(); at += sizeof sum) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, bytes.data() + at, std::min(sizeof word, bytes.size() - at));
-      sum = combine64(sum, word);
-    }
-    bytes.append("HOKECHK1").append(reinterpret_cast<const char*>(&sum), sizeof sum);
-    samples::write_file(file, bytes);
-  }
+  void seal() { io::append_seal(file); }
   void expect_refused_after(const std::function<void(hid_t)>& change, bool of_structure = true) {
     samples::write_file(file, whole);
     edit(file, change);
@@ -250,6 +241,22 @@ TEST_F(DamagedCheckpoints, AreSoundWithANewSeal) {
   seal();
   EXPECT_TRUE(io::read_checkpoint(file));
   EXPECT_TRUE(io::read_structure_of_run(folder.path()));
+}
+
+// A file that claims to have a driver's block behind its end: what follows there, which is its seal, is read as a size,
+// and HDF5 takes the memory before it looks further.
+TEST_F(DamagedCheckpoints, WhatIsBehindTheEndTakesNoMemory) {
+  std::string bytes(257, '\0');
+  bytes.replace(0, 8, "\x89HDF\r\n\x1a\n");
+  bytes[13] = bytes[14] = 8;  // bytes of an offset, of a length
+  bytes[16] = 4, bytes[18] = 16;  // entries of nodes
+  std::fill(bytes.begin() + 23, bytes.begin() + 127, '\xff');
+  std::fill(bytes.begin() + 49, bytes.begin() + 82, '\0');
+  samples::write_file(file, bytes);
+  seal();
+  const std::uint64_t before = peak_resident_bytes();
+  expect_refused(io::read_checkpoint(file));
+  EXPECT_LT(peak_resident_bytes() - before, std::uint64_t{256} << 20U);
 }
 
 TEST_F(DamagedCheckpoints, TablesAreOfTheirTypeRankAndLength) {

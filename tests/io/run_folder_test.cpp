@@ -72,6 +72,40 @@ TEST_F(RunFolder, SnapshotsReadBackInBothPrecisions) {
   EXPECT_EQ(samples::read_file(run / "scene.json"), "{\"hooke\": 1}\n");
 }
 
+// As several ranks hand them over: here a chunk of the file (140,000 rows are three) at a time.
+TEST_F(RunFolder, SnapshotsInSlicesReadBack) {
+  constexpr std::size_t kChunk = 46'667;
+  std::vector<Snapshot> written;
+  auto writer = create();
+  ASSERT_TRUE(writer) << writer.error().text();
+  for (const std::size_t n : {140'000U, 140'000U, 0U, 50'000U}) {
+    written.push_back(samples::snapshot(static_cast<std::int64_t>(written.size()), n));
+    const Snapshot& s = written.back();
+    if (s.step == 1) written.back().particles.id = written.front().particles.id;
+    ASSERT_TRUE(writer->write_snapshot(s.step, s.time, samples::SmallSlices(s.particles, kChunk)));
+  }
+  ASSERT_TRUE(writer->finish());
+  expect_snapshots(written);
+  const auto late = writer->write_snapshot(9, 9, SlicesOfSet(written.front().particles));
+  ASSERT_FALSE(late);
+  EXPECT_NE(late.error().text().find("is finished"), std::string::npos);
+}
+
+TEST_F(RunFolder, AnErrorOfTheSlicesKeepsTheSnapshotsBefore) {
+  auto writer = create();
+  ASSERT_TRUE(writer) << writer.error().text();
+  const Snapshot first = samples::snapshot(0, 1000), second = samples::snapshot(8, 140'000);
+  ASSERT_TRUE(writer->write_snapshot(first));
+  const samples::SmallSlices failing(second.particles, 46'667, 100'000);
+  for (int tries = 0; tries < 2; ++tries) {
+    const auto failed = writer->write_snapshot(8 + tries, second.time, failing);
+    ASSERT_FALSE(failed);
+    EXPECT_EQ(failed.error().findings.front().message, "ends after 100000 particles");
+  }
+  EXPECT_FALSE(writer->finish());
+  expect_snapshots({first});
+}
+
 TEST_F(RunFolder, TellsStepsAndTimes) {
   auto writer = create();
   for (const std::int64_t step : {0, 8, 16}) ASSERT_TRUE(writer->write_snapshot(samples::snapshot(step, 4)));
