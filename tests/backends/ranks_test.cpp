@@ -254,6 +254,38 @@ TEST(Ranks, SeeBlocksThatFlyAtEachOther) {
   }
 }
 
+// Two blocks on two ranks fly at each other by almost a slack, and one particle in front of each flies ahead of its
+// block by almost half a skin. The lists of both stay good, all the while, and the two particles come to touch: each
+// rank must know them both from the start. One is `ahead` (m) of the face between the ranks, the other at it; contacts
+// begin at 1.
+TEST(Ranks, KnowWhoComesToTouchWithinASkinAndASlack) {
+  const Scene scene = open_scene();
+  constexpr double kSkin = 0.25, kSlack = 0.5;  // of a first list, m
+  constexpr double kBlock = 20, kAhead = 4;     // m/s
+  constexpr std::int64_t kSteps = 24;           // of 0.02 m each and, for those in front, 0.004 m more
+  static_assert(kSteps * 0.001 * kBlock < 0.99 * kSlack && kSteps * 0.001 * kAhead < 0.49 * kSkin);
+  for (const double ahead : {1.45, 1.505, 1.52, 1.54, 1.56}) {
+    SCOPED_TRACE(ahead);
+    ParticleSet particles;
+    add(particles, {-ahead, 0, 0}, {kAhead, 0, 0});
+    add(particles, {0, 0, 0}, {-kBlock - kAhead, 0, 0});
+    for (int i = 0; i < 1000; ++i) {
+      const Vec3d at{4 + 1.3 * (i / 100), 1.3 * (i / 10 % 10 - 4.5), 1.3 * (i % 10 - 4.5)};
+      add(particles, {-at.x, at.y, at.z}, {0, 0, 0});
+      add(particles, at, {-kBlock, 0, 0});
+    }
+    Simulation one = simulate(scene, particles, kCpuDouble);
+    ASSERT_TRUE(advance(one, kSteps));
+    ASSERT_EQ(measured(one).contacts, 1U);
+    on_ranks(2, scene, particles, kCpuDouble, [&](Simulation& many) {
+      ASSERT_TRUE(advance(many, kSteps));
+      EXPECT_EQ(many.neighbour_statistics().rebuilds, 1U) << "the first list was good for all steps";
+      EXPECT_EQ(many.state_hash(), one.state_hash());
+      EXPECT_EQ(many.ledger(), one.ledger());
+    });
+  }
+}
+
 TEST(Ranks, ShareAMixtureOfVeryDifferentRadii) {
   Scene scene = open_scene();
   scene.gravity = {0, -9.8, 0};
