@@ -30,6 +30,7 @@ docs_packages=(doxygen mkdocs mkdocs-material)
 lint_packages=(clang-19 clang-tidy-19)
 cross_packages=(g++-aarch64-linux-gnu googletest qemu-user-static)
 package_packages=(debootstrap dpkg-dev)
+hosts_packages=(iproute2)
 fuzz_packages=(clang-19 libclang-rt-19-dev)
 
 packages=("${build_packages[@]}")
@@ -42,7 +43,7 @@ case "${1:-}" in
   docs) packages+=("${docs_packages[@]}") ;;
   bench) packages+=("${bench_packages[@]}") ;;
   soak) packages+=("${test_packages[@]}" "${lint_packages[@]}" "${bench_packages[@]}" "${cross_packages[@]}"
-    "${package_packages[@]}") ;;
+    "${package_packages[@]}" "${hosts_packages[@]}") ;;
 esac
 
 if ! command -v dpkg-query >/dev/null; then
