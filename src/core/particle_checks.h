@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "hooke/base/expected.h"
 #include "hooke/base/vec3.h"
+#include "hooke/core/particle_slices.h"
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
 
@@ -27,5 +29,10 @@ std::string particle_fault(const Scene& scene, std::size_t material, const Vec3d
 /// What is wrong with a set of particles of `scene`; empty where nothing is. Those that are `restored` have
 /// accelerations under velocity Verlet, and may stand outside of the domain.
 std::vector<Finding> check_particles(const Scene& scene, const ParticleSet& particles, bool restored);
+
+/// The same for particles in slices; an error where they can't be visited. `largest_id`: of all, 0 where there are
+/// none.
+Expected<std::vector<Finding>> check_particles(const Scene& scene, const ParticleSlices& particles, bool restored,
+                                               std::uint64_t& largest_id);
 
 }  // namespace hooke

@@ -52,6 +52,8 @@ class ParticleSlices {
   virtual std::uint64_t size() const = 0;
   virtual std::uint64_t identity() const = 0;  ///< ParticleSlice::identity() of all
   virtual bool has_accelerations() const = 0;
+  /// All of them, where they are held.
+  virtual const ParticleSet* set() const { return nullptr; }
   /// Calls `take`, which does not throw, with `rows` (> 0) particles at a time, the last time with those left. May be
   /// called again. An error, of a file for example, ends it early.
   virtual Expected<void> visit(std::size_t rows, const Take& take) const = 0;
@@ -64,6 +66,7 @@ class SlicesOfSet final : public ParticleSlices {
 
   std::uint64_t size() const override { return set_.size(); }
   std::uint64_t identity() const override { return ParticleSlice(set_, 0, set_.size()).identity(); }
+  const ParticleSet* set() const override { return &set_; }
   bool has_accelerations() const override { return !set_.acceleration.empty(); }
   Expected<void> visit(std::size_t rows, const Take& take) const override {
     for (std::size_t first = 0; first < set_.size(); first += rows) {
@@ -75,5 +78,20 @@ class SlicesOfSet final : public ParticleSlices {
  private:
   const ParticleSet& set_;
 };
+
+/// All of them as a set.
+inline Expected<ParticleSet> collected(const ParticleSlices& particles) {
+  ParticleSet all;
+  all.reserve(particles.size());
+  auto visited = particles.visit(std::size_t{1} << 16U, [&all](const ParticleSlice& slice) {
+    all.id.insert(all.id.end(), slice.id.begin(), slice.id.end());
+    all.material.insert(all.material.end(), slice.material.begin(), slice.material.end());
+    all.position.insert(all.position.end(), slice.position.begin(), slice.position.end());
+    all.velocity.insert(all.velocity.end(), slice.velocity.begin(), slice.velocity.end());
+    all.acceleration.insert(all.acceleration.end(), slice.acceleration.begin(), slice.acceleration.end());
+  });
+  if (!visited) return fail(visited.error());
+  return all;
+}
 
 }  // namespace hooke

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <type_traits>
 #include <utility>
 
@@ -13,6 +12,7 @@
 #include "hooke/base/bytes.h"
 #include "hooke/base/format.h"
 #include "hooke/base/process_usage.h"
+#include "hooke/core/particle_parcels.h"
 
 namespace hooke {
 namespace {
@@ -20,7 +20,6 @@ namespace {
 constexpr int kLeader = 0;
 constexpr double kMostImbalance = 1.05;  // beyond what the last cut has reached, before boxes are cut anew
 constexpr double kFew = 64;              // particles that don't matter to the balance
-constexpr std::size_t kMostSamples = 1'000'000;
 
 // Adds the processor time of its scope to a sum. Where there are more ranks than cores, most of the time that passes in
 // a message is the other ranks' work.
@@ -57,50 +56,6 @@ std::vector<T> values_of(std::span<const std::byte> bytes) {
   std::vector<T> values(bytes.size() / sizeof(T));
   take_bytes(bytes, values.data(), values.size());
   return values;
-}
-
-void append_particles(std::vector<std::byte>& to, const ParticleSet& from, std::span<const std::size_t> which) {
-  constexpr std::size_t kBytes = sizeof(std::uint64_t) + sizeof(std::uint16_t) + 3 * sizeof(Vec3d);
-  to.reserve(to.size() + which.size() * kBytes + sizeof(std::size_t) + 1);
-  append_bytes(to, which.size());
-  append_bytes(to, static_cast<std::uint8_t>(from.acceleration.empty() ? 0 : 1));
-  const auto column = [&](const auto& of) {
-    for (const std::size_t i : which) append_bytes(to, of[i]);
-  };
-  column(from.id);
-  column(from.material);
-  column(from.position);
-  column(from.velocity);
-  if (!from.acceleration.empty()) column(from.acceleration);
-}
-
-// The same of all that follow each other.
-void append_particles(std::vector<std::byte>& to, const ParticleSlice& from) {
-  append_bytes(to, from.size());
-  append_bytes(to, static_cast<std::uint8_t>(from.acceleration.empty() ? 0 : 1));
-  const auto column = [&](const auto& of) { append_bytes(to, of.data(), of.size()); };
-  column(from.id);
-  column(from.material);
-  column(from.position);
-  column(from.velocity);
-  column(from.acceleration);
-}
-
-void take_particles(std::span<const std::byte> from, ParticleSet& to) {
-  std::size_t count = 0;
-  std::uint8_t accelerated = 0;
-  take_bytes(from, count);
-  take_bytes(from, accelerated);
-  const auto column = [&](auto& of) {
-    const std::size_t before = of.size();
-    of.resize(before + count);
-    take_bytes(from, of.data() + before, count);
-  };
-  column(to.id);
-  column(to.material);
-  column(to.position);
-  column(to.velocity);
-  if (accelerated != 0) column(to.acceleration);
 }
 
 }  // namespace
@@ -206,41 +161,6 @@ Condition Ranks::first(const Condition& here) {
   Condition all = here;
   combine(all, [](const Condition& a, Condition& sum) { sum = Condition::first(sum, a); });
   return all;
-}
-
-void Ranks::assign(Backend& backend, const Scene& scene, const ParticleSet& particles) {
-  if (is_serial()) return backend.assign(particles);
-  SharedParticles& shared = *backend.shared();
-  space_.domain = scene.domain;
-  std::vector<Vec3d> sample;
-  if (leads()) {
-    const std::size_t stride = particles.size() / kMostSamples + 1;
-    for (std::size_t i = 0; i < particles.size(); i += stride) sample.push_back(particles.position[i]);
-  }
-  space_.boxes = communicator_->cut(sample);
-  ++statistics_.cuts;
-  even_ = 1;
-  std::vector<std::byte> ids;
-  if (leads()) append_bytes(ids, particles.id.data(), particles.size());
-  communicator_->broadcast(ids);
-  std::vector<Parcel> out;
-  if (leads()) {
-    std::vector<std::vector<std::size_t>> of(space_.boxes.size());
-    int owner = kLeader;  // of the particle before: neighbours often have the same
-    for (std::size_t i = 0; i < particles.size(); ++i) {
-      if (!space_.owns(owner, particles.position[i])) owner = std::max(space_.owner(particles.position[i]), kLeader);
-      of[static_cast<std::size_t>(owner)].push_back(i);
-    }
-    for (std::size_t rank = 0; rank < of.size(); ++rank) {
-      append_particles(out.emplace_back(Parcel{static_cast<int>(rank), {}}).bytes, particles, of[rank]);
-      of[rank] = {};
-    }
-  }
-  ParticleSet own;
-  for (const Parcel& parcel : exchange(std::move(out))) take_particles(parcel.bytes, own);
-  shared.assign_part(own, values_of<std::uint64_t>(ids));
-  channel_ = nullptr;
-  stale_ = true;
 }
 
 void Ranks::cut(SharedParticles& shared) {

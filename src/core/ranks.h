@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "hooke/base/expected.h"
 #include "hooke/core/backend.h"
 #include "hooke/core/communicator.h"
 #include "hooke/core/ledger_sums.h"
@@ -75,7 +76,9 @@ class Ranks {
 
   // At the start -----------------------------------------------------------------------------------------------------
 
-  /// Deals particles out: `particles` are rank 0's.
+  /// Deals particles out: `particles` are rank 0's, which visits them twice. Where it can't, all ranks return an error,
+  /// rank 0 that of the visit, and the back ends' particles are not to be relied on.
+  Expected<void> assign(Backend& backend, const Scene& scene, const ParticleSlices& particles);
   void assign(Backend& backend, const Scene& scene, const ParticleSet& particles);
 
   // What is asked of the whole scene ---------------------------------------------------------------------------------
@@ -121,6 +124,8 @@ class Ranks {
   void share_torn(SharedParticles& shared);
   std::vector<WantedParticles> exchange_wanted(const SharedParticles& shared);
   void renew_ghosts(SharedParticles& shared);
+  Expected<void> take_part(const ParticleSlices& particles, std::vector<Vec3d>& sample, ParticleSet& own,
+                           std::vector<IdRun>& ids);
   Condition decide(Backend& backend, SharedParticles& shared, const Condition& here);
   GhostZones zones() const { return {&space_, communicator_->rank(), largest_, width_}; }
 

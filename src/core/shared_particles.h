@@ -10,6 +10,7 @@
 #include "hooke/base/box3.h"
 #include "hooke/base/vec3.h"
 #include "hooke/core/communicator.h"
+#include "hooke/core/id_runs.h"
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
 #include "hooke/core/sums.h"
@@ -79,9 +80,9 @@ class SharedParticles {
  public:
   virtual ~SharedParticles() = default;
 
-  /// Replaces all particles by this rank's part; `all`: the ids of all ranks' particles, ascending. There are no ghosts
-  /// then, and the neighbour list is stale.
-  virtual void assign_part(const ParticleSet& own, std::span<const std::uint64_t> all) = 0;
+  /// Replaces all particles by this rank's part; `all`: the ids of all ranks' particles, ascending, no two
+  /// runs next to each other. There are no ghosts then, and the neighbour list is stale.
+  virtual void assign_part(const ParticleSet& own, std::span<const IdRun> all) = 0;
 
   /// Adds the positions (m) of some of its particles, each standing for as many others.
   virtual void sample(std::vector<Vec3d>& points) const = 0;

@@ -70,16 +70,9 @@ Expected<Simulation> Simulation::create(Scene scene, ParticleSet particles, std:
   impl->scene = std::move(scene);
   impl->backend = std::move(backend);
   impl->run.next_id = particles.empty() ? 1 : particles.id.back() + 1;
-  if (auto started = impl->start(particles, true, {}); !started) return fail(started.error());
+  if (auto started = impl->start(SlicesOfSet(particles), true, {}); !started) return fail(started.error());
   particles = ParticleSet{};  // the back end has them now; measuring may need the room
-  Simulation simulation(std::move(impl));
-  const auto now = simulation.measure();
-  if (!now) return fail(now.error());
-  const double elastic = now->elastic_energy + now->spring_energy;
-  simulation.impl_->initial_elastic = elastic;
-  simulation.impl_->initial_energy = now->kinetic_energy + now->potential_energy + elastic + now->attraction_energy;
-  simulation.impl_->initial_momentum = now->momentum;
-  return simulation;
+  return Impl::begin(std::move(impl));
 }
 
 Expected<Simulation> Simulation::resume(Scene scene, SimulationState state, std::unique_ptr<Backend> backend,
@@ -272,7 +265,7 @@ Expected<void> Simulation::set_material(const Material& material) {
     }
     s.scene = std::move(changed);
     // All accelerations anew: those of the last step are of the old material.
-    return s.start(now, true, s.backend->broken_springs());
+    return s.start(SlicesOfSet(now), true, s.backend->broken_springs());
   }
   return fail(Error::Kind::bad_input, "materials" + path_step(material.name), "there is no material of this name");
 }
@@ -294,7 +287,7 @@ Expected<void> Simulation::cut_springs(std::span<const std::uint64_t> springs) {
   const auto whole = measure();
   if (!whole) return fail(whole.error());
   const std::shared_ptr<const Snapshot> all = s.snapshot();
-  if (auto started = s.start(all->particles, false, broken); !started) return started;
+  if (auto started = s.start(SlicesOfSet(all->particles), false, broken); !started) return started;
   const auto cut = measure();
   if (!cut) return fail(cut.error());
   s.run.ledger.broken += broken.size() - before;
@@ -345,34 +338,9 @@ SimulationState Simulation::state_besides_particles() const {
 
 Expected<void> Simulation::restore(SimulationState state) {
   const FloatingPointGuard guard;
-  Impl& s = *impl_;
-  std::vector<Finding> findings = check_particles(s.scene, state.particles, true);
-  if (state.step < 0) findings.push_back({"step", formatted("{} must be 0 or more", state.step)});
-  if (!state.particles.empty() && state.particles.id.back() >= state.next_id) {
-    findings.push_back(
-        {"next_id", formatted("{} is not above the largest id {}", state.next_id, state.particles.id.back())});
-  }
-  const auto& structure = s.scene.structure ? s.scene.structure : state.structure;
-  if (structure && findings.empty()) findings = validate(*structure, s.single());
-  const std::size_t springs = structure ? structure->springs.size() : 0;
-  if (!is_ascending(state.broken_springs)) {
-    findings.push_back({"broken_springs", "indices must be unique and ascending"});
-  } else if (!state.broken_springs.empty() && state.broken_springs.back() >= springs) {
-    findings.push_back(
-        {"broken_springs", formatted("{} is no spring; there are {}", state.broken_springs.back(), springs)});
-  }
-  for (Finding& finding : check_state(state.emission, s.scene)) findings.push_back(std::move(finding));
-  if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});
-  s.scene.structure = structure;
-  s.run.emission.restore(std::move(state.emission));
-  s.run.step = state.step;
-  s.run.next_id = state.next_id;
-  s.run.ledger = state.ledger;
-  s.initial_energy = state.initial_energy;
-  s.initial_elastic = state.initial_elastic;
-  s.initial_momentum = state.initial_momentum;
-  s.failed = false;
-  return s.start(state.particles, false, state.broken_springs);
+  const ParticleSet& particles = state.particles;
+  return impl_->restore(state, SlicesOfSet(particles), check_particles(impl_->scene, particles, true),
+                        particles.empty() ? 0 : particles.id.back());
 }
 
 std::uint64_t Simulation::state_hash() const {

@@ -72,6 +72,16 @@ class Simulation {
   static Expected<Simulation> resume(Scene scene, SimulationState state, std::unique_ptr<Backend> backend,
                                      std::shared_ptr<Communicator> communicator = nullptr);
 
+  /// create() and resume() for particles that are taken a slice at a time, several times over: where several ranks
+  /// compute a scene without a structure, rank 0 never holds more than a slice and its own part of them. `particles` is
+  /// let go of once they are dealt out. An error of theirs is returned as it is. state.particles is not looked at.
+  static Expected<Simulation> create_in_slices(Scene scene, std::shared_ptr<const ParticleSlices> particles,
+                                               std::unique_ptr<Backend> backend, const CreateOptions& options = {});
+  static Expected<Simulation> resume_in_slices(Scene scene, SimulationState state,
+                                               std::shared_ptr<const ParticleSlices> particles,
+                                               std::unique_ptr<Backend> backend,
+                                               std::shared_ptr<Communicator> communicator = nullptr);
+
   /// On ranks above 0, in place of create() or resume() on rank 0: holds this rank's part of the particles and takes
   /// part in all that rank 0's simulation is asked to do, until that one is gone. The same scene, without its
   /// particles, and a back end of the same precision. What goes wrong on any rank rank 0 reports. On several ranks a

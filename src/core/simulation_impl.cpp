@@ -104,16 +104,16 @@ Expected<void> Simulation::Impl::check_precision() const {
               "the scene asks for double, the back end computes in single precision");
 }
 
-Expected<void> Simulation::Impl::start(const ParticleSet& particles, bool are_new,
+Expected<void> Simulation::Impl::start(const ParticleSlices& particles, bool are_new,
                                        const std::vector<std::uint64_t>& broken_springs) {
   if (auto right = check_precision(); !right) return right;
   if (auto can = check_ranks(); !can) return can;
-  const bool take_accelerations = !particles.empty() && are_new;
+  const bool take_accelerations = particles.size() > 0 && are_new;
   lead_start(take_accelerations, broken_springs);
   return start_here(particles, take_accelerations, broken_springs);
 }
 
-Expected<void> Simulation::Impl::start_here(const ParticleSet& particles, bool take_accelerations,
+Expected<void> Simulation::Impl::start_here(const ParticleSlices& particles, bool take_accelerations,
                                             const std::vector<std::uint64_t>& broken_springs) {
   forget_copies();
   try {
@@ -121,7 +121,11 @@ Expected<void> Simulation::Impl::start_here(const ParticleSet& particles, bool t
     run.emission.configure(scene);
     backend->break_springs(broken_springs);
     place_colliders(run, scene, run.step);
-    ranks.assign(*backend, scene, particles);
+    if (auto assigned = ranks.assign(*backend, scene, particles); !assigned) {
+      failed = true;
+      failure = assigned.error();
+      return assigned;
+    }
     if (!take_accelerations) return {};
     return check(start_particles(scene, *backend, ranks, run));
   } catch (const std::bad_alloc& memory) {

@@ -58,9 +58,14 @@ struct Simulation::Impl {
   // asks for double.
   Expected<void> check_precision() const;
   // Hands all particles to the back end. Under velocity Verlet those that are new get their first accelerations.
-  Expected<void> start(const ParticleSet& particles, bool are_new, const std::vector<std::uint64_t>& broken_springs);
-  Expected<void> start_here(const ParticleSet& particles, bool take_accelerations,
+  Expected<void> start(const ParticleSlices& particles, bool are_new, const std::vector<std::uint64_t>& broken_springs);
+  Expected<void> start_here(const ParticleSlices& particles, bool take_accelerations,
                             const std::vector<std::uint64_t>& broken_springs);
+  // The same for a saved state. `findings` are those of its particles, `largest_id` is theirs.
+  Expected<void> restore(SimulationState& state, const ParticleSlices& particles, std::vector<Finding> findings,
+                         std::uint64_t largest_id);
+  // The simulation that has been started with new particles, measured.
+  static Expected<Simulation> begin(std::unique_ptr<Impl> started);
   Expected<void> take_steps(std::int64_t count);
 
   // Runs what changes or asks the back end. If memory runs out or a device fails, the back end's state is unknown: the

@@ -88,7 +88,7 @@ void Simulation::Impl::follow_start(std::span<const std::byte> from) {
   run.ledger = {};
   run.ledger.kick = start.kick;
   failed = false;
-  (void)start_here({}, start.take_accelerations, broken_springs);
+  (void)start_here(SlicesOfSet({}), start.take_accelerations, broken_springs);
 }
 
 void Simulation::Impl::gather(ParticleSet& particles) {

@@ -28,7 +28,7 @@ struct Moving {
 }  // namespace
 
 template <class Real>
-void CpuBackend<Real>::assign_part(const ParticleSet& own, std::span<const std::uint64_t> all) {
+void CpuBackend<Real>::assign_part(const ParticleSet& own, std::span<const IdRun> all) {
   is_part_ = true;
   list_.share(true);
   particles_.place_part(own, all);
@@ -366,8 +366,8 @@ void CpuBackend<Real>::renumber(std::vector<std::uint32_t>& slots, std::size_t f
   }
 }
 
-template void CpuBackend<float>::assign_part(const ParticleSet& own, std::span<const std::uint64_t> all);
-template void CpuBackend<double>::assign_part(const ParticleSet& own, std::span<const std::uint64_t> all);
+template void CpuBackend<float>::assign_part(const ParticleSet& own, std::span<const IdRun> all);
+template void CpuBackend<double>::assign_part(const ParticleSet& own, std::span<const IdRun> all);
 template void CpuBackend<float>::sample(std::vector<Vec3d>& points) const;
 template void CpuBackend<double>::sample(std::vector<Vec3d>& points) const;
 template void CpuBackend<float>::move_out(const Decomposition& space, int here, std::vector<Parcel>& out);

@@ -22,9 +22,10 @@ void ParticleState<Real>::place(const ParticleSet& particles, std::size_t births
 }
 
 template <class Real>
-void ParticleState<Real>::place_part(const ParticleSet& particles, std::span<const std::uint64_t> all) {
+void ParticleState<Real>::place_part(const ParticleSet& particles, std::span<const IdRun> all) {
   HOOKE_ASSERT(are_particles_of(particles, *scene_), particles.size(), scene_->materials.size());
-  ids = IdTable(std::vector<std::uint64_t>(all.begin(), all.end()));
+  ids = {};
+  for (const IdRun& run : all) ids.append(run.first, static_cast<std::size_t>(run.count));
   count_anew(particles);
   lay_out(particles, room_for_arrivals(count_ - noninteracting_count_), room_for_arrivals(noninteracting_count_));
 }

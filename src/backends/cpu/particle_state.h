@@ -10,6 +10,7 @@
 #include "hooke/backends/cpu/particle_slots.h"
 #include "hooke/base/exact_sum.h"
 #include "hooke/base/huge_pages.h"
+#include "hooke/core/id_runs.h"
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
 #include "hooke/passes/id_table.h"
@@ -49,7 +50,7 @@ class ParticleState {
   /// at least.
   void place(const ParticleSet& particles, std::size_t births = 0);
   /// The same for a part of the scene's particles; `all`: the ids of all of them.
-  void place_part(const ParticleSet& particles, std::span<const std::uint64_t> all);
+  void place_part(const ParticleSet& particles, std::span<const IdRun> all);
 
   /// The buffer of the next state, as working memory; call end_scratch() before the next pass. reorder() works in it,
   /// too.
