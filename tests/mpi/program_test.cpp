@@ -204,6 +204,38 @@ TEST_F(Ranks, ASignalThatMpirunHandsOnStopsAllAndLeavesACheckpoint) {
   EXPECT_EQ(state_hash("part"), state_hash("whole"));
 }
 
+TEST_F(Ranks, OnlyTheFirstOneThatIsTerminatedStopsAllWithACheckpoint) {
+  hooke_ok({"run", "s.json", "-o", "whole", "--steps", "4000"});
+  Program program = start_on(3, {"run", "s.json", "-o", "part", "--steps", "4000"});
+  EXPECT_TRUE(wait_until([this] { return exists("part/checkpoint.h5"); }));
+  const std::vector<pid_t> ranks = program.children();
+  ASSERT_EQ(ranks.size(), 3U);
+  kill(ranks[1], SIGTERM);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  for (const pid_t rank : ranks) EXPECT_EQ(kill(rank, 0), 0) << "it goes on";
+  kill(ranks[0], SIGTERM);
+  const Outcome stopped = program.wait();
+  EXPECT_EQ(stopped.status, 130) << stopped.err;
+  EXPECT_EQ(times(stopped.err, "--resume"), 1U) << stopped.err;
+  hooke_ok({"run", "s.json", "-o", "part", "--steps", "4000", "--resume", "part/checkpoint.h5"});
+  EXPECT_EQ(state_hash("part"), state_hash("whole"));
+}
+
+TEST_F(Ranks, AFullDiskIsReportedOnce) {
+  const Words writes{"run", "s.json", "-o", "full", "--steps", "120", "--checkpoint-every", "0.05"};
+  std::string limited = "ulimit -f 800; exec " + program_file();  // blocks of 512 bytes
+  for (const std::string& word : writes) limited += " " + word;
+  Words words{"-q", "-np", "1", "sh", "-c", limited, ":", "-np", "2", program_file()};
+  words.insert(words.end(), writes.begin(), writes.end());
+  const Outcome full = start_other(HOOKE_MPIRUN, words).wait();
+  EXPECT_EQ(full.status, 3) << full.err;
+  EXPECT_EQ(times(full.err, "error: full/"), 1U) << full.err;
+  EXPECT_EQ(times(full.err, "the last good checkpoint is of step"), 1U) << full.err;
+  ok_on(2, {"run", "s.json", "-o", "full", "--steps", "120", "--resume", "full/checkpoint.h5"});
+  hooke_ok({"run", "s.json", "-o", "whole", "--steps", "120"});
+  EXPECT_EQ(state_hash("full"), state_hash("whole"));
+}
+
 // One of three is killed, so many times, each time another one at another moment: a few times after every change, many
 // times in the long tests.
 class RanksOfWhichOneIsKilled : public Ranks, public testing::WithParamInterface<int> {};
