@@ -37,10 +37,12 @@ double moved(double x, double by, const Domain& domain, int axis) {
   return wrapped < high ? wrapped : low;
 }
 
-void add_jitter(const BlockSource& block, const Domain& domain, std::vector<Vec3d>& centres) {
+// Of the block's centres from number `first` on, the last of `centres` from index `from` on.
+void add_jitter(const BlockSource& block, const Domain& domain, std::uint64_t first, std::size_t from,
+                std::vector<Vec3d>& centres) {
   if (!(block.jitter > 0)) return;
-  for (std::size_t i = 0; i < centres.size(); ++i) {
-    const auto random = uniform4(block.seed, i, 0);
+  for (std::size_t i = from; i < centres.size(); ++i) {
+    const auto random = uniform4(block.seed, first + (i - from), 0);
     for (int axis = 0; axis < 3; ++axis) {
       const double by = block.jitter * (2 * random[static_cast<std::size_t>(axis)] - 1);
       component(centres[i], axis) = moved(component(centres[i], axis), by, domain, axis);
@@ -99,12 +101,11 @@ std::vector<Vec3d> block_centres(const BlockSource& block, const Domain& domain,
     centres = random_packing(block.box, block.spacing, block.count.value_or(kAsManyAsFit), block.seed);
     room = centres.size();
   } else {
-    const Lattice lattice = lattice_of(block);
-    room = lattice.site_count();
+    room = lattice_site_count(block);
     const std::uint64_t wanted = block.count.value_or(room);
     if (wanted <= room) {
       centres.reserve(wanted);
-      lattice.append_sites(wanted, centres);
+      append_lattice(block, domain, 0, wanted, centres);
     }
   }
   if (block.count && *block.count > room) {
@@ -114,8 +115,17 @@ std::vector<Vec3d> block_centres(const BlockSource& block, const Domain& domain,
                              block.spacing, corner(block.box.min), corner(block.box.max)));
     return {};
   }
-  add_jitter(block, domain, centres);
   return centres;
+}
+
+std::uint64_t lattice_site_count(const BlockSource& block) { return lattice_of(block).site_count(); }
+
+void append_lattice(const BlockSource& block, const Domain& domain, std::uint64_t first, std::uint64_t count,
+                    std::vector<Vec3d>& centres) {
+  HOOKE_ASSERT(block.lattice != "random", block.path);
+  const std::size_t from = centres.size();
+  lattice_of(block).append_sites(first, count, centres);
+  add_jitter(block, domain, first, from, centres);
 }
 
 }  // namespace hooke::scene

@@ -38,4 +38,10 @@ double expected_count(const BlockSource& block);
 /// that says how many particles would fit.
 std::vector<Vec3d> block_centres(const BlockSource& block, const Domain& domain, Findings& findings);
 
+/// Of a block that is a lattice, not random: its number of sites, which its count may exceed; and `count` of its
+/// particles' centres from number `first` on, the same as of block_centres().
+std::uint64_t lattice_site_count(const BlockSource& block);
+void append_lattice(const BlockSource& block, const Domain& domain, std::uint64_t first, std::uint64_t count,
+                    std::vector<Vec3d>& centres);
+
 }  // namespace hooke::scene

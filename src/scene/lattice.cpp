@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "hooke/base/assert.h"
 
@@ -23,6 +24,21 @@ std::uint64_t sites_on(double length, double distance) {
 }
 
 double length(const Box3d& box, int axis) { return component(box.max, axis) - component(box.min, axis); }
+
+// Of so many containers, those of even and of odd index with so many sites each: the index of the one that holds site
+// `first`, or their number where none does. `first` becomes its index in there.
+std::uint64_t find_site(std::uint64_t& first, std::uint64_t containers, const std::uint64_t (&sites)[2]) {
+  std::uint64_t at = 0;
+  const double both = static_cast<double>(sites[0]) + static_cast<double>(sites[1]);
+  if (both == 0) return containers;
+  if (both < kMostSites) {
+    const std::uint64_t pairs = std::min(first / (sites[0] + sites[1]), containers / 2);
+    at = 2 * pairs;
+    first -= pairs * (sites[0] + sites[1]);
+  }
+  for (; at < containers && first >= sites[at % 2]; ++at) first -= sites[at % 2];
+  return at;
+}
 
 // A product of counts, saturated at 2^63 as the counts are.
 std::uint64_t saturated(double count) {
@@ -90,13 +106,13 @@ std::uint64_t Lattice::site_count() const {
   return many < 1e15 ? (layers_ - layers_ / 2) * even + (layers_ / 2) * odd : saturated(many);
 }
 
-void Lattice::append_sites(std::uint64_t count, std::vector<Vec3d>& out) const {
+void Lattice::append_sites(std::uint64_t first, std::uint64_t count, std::vector<Vec3d>& out) const {
   const Layer parities[2] = {layer(false), layer(true)};
   // The last site may lie beyond the box by the rounding tolerance; it is moved back to the face.
   const auto put = [this](Vec3d& site, int axis, double offset) {
     component(site, axis) = std::min(component(box_.min, axis) + offset, component(box_.max, axis));
   };
-  for (std::uint64_t k = 0; k < layers_; ++k) {
+  for (std::uint64_t k = find_site(first, layers_, {sites_in(parities[0]), sites_in(parities[1])}); k < layers_; ++k) {
     const Layer& l = parities[k % 2];
     Vec3d site{0, 0, 0};
     const double height = static_cast<double>(k) * layer_distance_;
@@ -105,9 +121,9 @@ void Lattice::append_sites(std::uint64_t count, std::vector<Vec3d>& out) const {
     } else {
       component(site, up_.axis) = std::max(component(box_.max, up_.axis) - height, component(box_.min, up_.axis));
     }
-    for (std::uint64_t j = 0; j < l.rows; ++j) {
+    for (std::uint64_t j = find_site(first, l.rows, l.sites); j < l.rows; ++j) {
       put(site, third_axis_, l.row_offset + static_cast<double>(j) * row_distance_);
-      for (std::uint64_t i = 0; i < l.sites[j % 2]; ++i) {
+      for (std::uint64_t i = std::exchange(first, 0); i < l.sites[j % 2]; ++i) {
         if (count-- == 0) return;
         put(site, row_axis_, l.site_offset[j % 2] + static_cast<double>(i) * spacing_);
         out.push_back(site);

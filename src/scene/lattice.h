@@ -30,7 +30,9 @@ class Lattice {
   std::uint64_t site_count() const;
 
   /// Appends the first `count` sites, or all if there are fewer.
-  void append_sites(std::uint64_t count, std::vector<Vec3d>& out) const;
+  void append_sites(std::uint64_t count, std::vector<Vec3d>& out) const { append_sites(0, count, out); }
+  /// The same from site `first` on.
+  void append_sites(std::uint64_t first, std::uint64_t count, std::vector<Vec3d>& out) const;
 
  private:
   // Sites of one layer: rows along `row_axis_`, side by side along the third axis.

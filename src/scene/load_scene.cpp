@@ -40,7 +40,7 @@ Expected<LoadedScene> parse(std::string_view text, const std::string& name, cons
 
   LoadedScene loaded;
   build_scene(json, folder, options, findings, loaded);
-  loaded.particles = load_particles(json, loaded.scene, folder, options, findings, loaded.warnings);
+  loaded.particles = load_particles(json, loaded.scene, folder, options, findings, loaded.warnings, loaded.slices);
   LoadOptions ties = options;
   ties.with_particles = options.with_particles && !findings.touches("particles");  // only then are the ids reliable
   loaded.scene.structure =

@@ -4,11 +4,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "hooke/base/expected.h"
+#include "hooke/core/particle_slices.h"
 #include "hooke/core/particles.h"
 #include "hooke/core/scene.h"
 
@@ -32,6 +34,10 @@ struct LoadOptions {
   bool with_particles = true;
   /// Bytes that the particles may need in all; 0: the memory that the machine has available.
   std::uint64_t memory_limit = 0;
+  /// The part of the particles that this machine will hold: below 1 where several machines share them out.
+  double share_here = 1;
+  /// Gives LoadedScene::slices in place of `particles` where it can. The findings are the same.
+  bool in_slices = false;
 };
 
 /// A file that the scene refers to and that is needed to read the scene again.
@@ -50,6 +56,10 @@ struct FieldMemory {
 struct LoadedScene {
   Scene scene;
   ParticleSet particles;  ///< of its sources; ids from 1 in order of the sources, or the files' own
+  /// The same particles, made a slice at a time as they are visited: a lattice without holding it, every other source
+  /// as a whole when its turn comes. An error where a file has changed since. Null but for LoadOptions::in_slices; and
+  /// where the scene has cloths, bodies or springs, or ids that don't ascend from source to source.
+  std::shared_ptr<const ParticleSlices> slices;
   std::string resolved;  ///< the scene as it was understood, with overrides and defaults written out, JSON;
                          ///< its paths are still relative to the scene's folder
   std::vector<SceneFile> files;  ///< meshes; particle files are not listed

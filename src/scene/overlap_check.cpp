@@ -22,32 +22,58 @@ namespace {
 // do not overlap.
 constexpr double kBytesPerPair = 16;
 
-// Estimates the number of overlapping pairs if every cell, as wide as the largest diameter, is filled evenly. The
-// estimate may be too high, because cells share counters.
-double most_pairs(const Scene& scene, const ParticleSet& particles) {
+double largest_radius(const Scene& scene, const ParticleSet& particles) {
   double radius = 0;
   for (const std::uint16_t m : particles.material) radius = std::max(radius, scene.materials[m].radius);
-  std::vector<std::uint32_t> count(std::bit_ceil(particles.size()));
-  const auto cell = [radius](double x) {
-    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x / (2 * radius))));
-  };
-  for (const Vec3d& x : particles.position) {
-    ++count[combine64(combine64(mix64(cell(x.x)), cell(x.y)), cell(x.z)) & (count.size() - 1)];
-  }
-  double squares = 0;
-  for (const std::uint32_t n : count) squares += static_cast<double>(n) * n;
-  return 0.5 * (4 * std::numbers::pi / 3) * squares;
+  return radius;
 }
+
+// Bytes; 0 where that is unknown.
+double available_for_pairs(const LoadOptions& options) {
+  return static_cast<double>(options.memory_limit != 0 ? options.memory_limit : available_memory());
+}
+
+// Bytes on this machine.
+double needed_for_pairs(double pairs, const LoadOptions& options) { return kBytesPerPair * pairs * options.share_here; }
 
 }  // namespace
 
+PairEstimate::PairEstimate(double radius, double particles)
+    : radius_(radius),
+      count_(std::bit_ceil(static_cast<std::size_t>(std::clamp(particles, 1.0, 1e15)))) {}
+
+void PairEstimate::add(std::span<const Vec3d> positions) {
+  const auto cell = [radius = radius_](double x) {
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x / (2 * radius))));
+  };
+  for (const Vec3d& x : positions)
+    ++count_[combine64(combine64(mix64(cell(x.x)), cell(x.y)), cell(x.z)) & (count_.size() - 1)];
+}
+
+double PairEstimate::most_pairs(std::uint64_t particles) {
+  while (count_.size() > std::bit_ceil(std::max<std::uint64_t>(particles, 1))) {
+    const std::size_t half = count_.size() / 2;
+    for (std::size_t k = 0; k < half; ++k) count_[k] += count_[k + half];
+    count_.resize(half);
+  }
+  double squares = 0;
+  for (const std::uint32_t n : count_) squares += static_cast<double>(n) * n;
+  return 0.5 * (4 * std::numbers::pi / 3) * squares;
+}
+
+bool has_room_for_pairs(double pairs, const LoadOptions& options) {
+  const double available = available_for_pairs(options);
+  return available == 0 || needed_for_pairs(pairs, options) <= available;
+}
+
 void refuse_overlaps(const Scene& scene, const ParticleSet& particles, const LoadOptions& options, Findings& findings) {
-  if (particles.empty()) return;
-  const std::uint64_t limit = options.memory_limit != 0 ? options.memory_limit : available_memory();
-  const double available = static_cast<double>(limit);
-  if (limit == 0 || kBytesPerPair * most_pairs(scene, particles) <= available) return;
+  if (particles.empty() || available_for_pairs(options) == 0) return;
+  PairEstimate estimate(largest_radius(scene, particles), static_cast<double>(particles.size()));
+  estimate.add(particles.position);
+  if (has_room_for_pairs(estimate.most_pairs(particles.size()), options)) return;
+  const double available = available_for_pairs(options);
   const Overlaps overlaps = count_overlaps(scene, particles);
-  const double needed = kBytesPerPair * overlaps.pairs;
+  const double needed = needed_for_pairs(overlaps.pairs, options);
   if (needed <= available) return;
   findings.add("particles",
                fmt::format("overlap in about {:.3g} pairs, {:.3g} to a particle, whose list needs about {} of memory; "

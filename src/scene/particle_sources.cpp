@@ -6,36 +6,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <optional>
 
 #include "hooke/scene/available_memory.h"
-#include "hooke/scene/block_source.h"
-#include "hooke/scene/cluster_source.h"
 #include "hooke/scene/json_path.h"
-#include "hooke/scene/particle_file.h"
+#include "hooke/scene/particle_source.h"
 #include "hooke/scene/scene_builder.h"
 #include "hooke/scene/scene_path.h"
+#include "hooke/scene/source_slices.h"
 #include "hooke/scene/spelling.h"
 
 namespace hooke::scene {
 namespace {
 
+constexpr const char* kTies[] = {"cloths", "bodies", "springs"};
 constexpr std::size_t kMostFindings = 20;  // of one kind, about the particles of one source
-
-// One entry of "particles", checked but not yet made.
-struct Source {
-  std::string path;  // in the scene: "particles[0]"
-  ParticleFileRules rules;  // material and velocity are used for a block, too
-  std::optional<BlockSource> block;
-  std::optional<ClusterSource> cluster;
-  std::string file_name;  // as the scene writes it
-  std::filesystem::path file;
-};
 
 // The range of one source's particles among all particles.
 struct Span {
-  const Source* source;
+  const ParticleSource* source;
   std::size_t begin;
   std::size_t end;
   std::vector<std::uint64_t> places;  // in the source's file
@@ -45,6 +36,14 @@ struct Span {
     return places.empty() ? source->path : place_in_file(source->file_name, places[particle - begin], binary);
   }
 };
+
+// Whether the scene has what is tied to particles by their ids.
+bool ties_particles(const Json& json) {
+  return std::any_of(std::begin(kTies), std::end(kTies), [&json](const char* key) {
+    const auto entries = json.find(key);
+    return entries != json.end() && !entries->empty();
+  });
+}
 
 class Loader {
  public:
@@ -70,21 +69,24 @@ class Loader {
   // Whether there is memory for the planned particles.
   bool fits() {
     double particles = 0;
-    for (const Source& source : sources_) {
-      particles += source.block     ? expected_count(*source.block)
-                   : source.cluster ? static_cast<double>(source.cluster->count)
-                                    : static_cast<double>(count_particles(source.file, source.rules));
-    }
+    for (const ParticleSource& source : sources_) particles += expected_count(source);
     const std::uint64_t limit = options_.memory_limit != 0 ? options_.memory_limit : available_memory();
-    const double needed = particles * kBytesPerParticle;
+    const double needed = particles * kBytesPerParticle * options_.share_here;
     if (limit == 0 || needed <= static_cast<double>(limit)) return true;
     findings_.add("particles", fmt::format("are about {:.0f} and need about {} of memory; {} are available", particles,
                                            in_bytes(needed), in_bytes(static_cast<double>(limit))));
     return false;
   }
 
+  // Null where only the whole set will do.
+  std::shared_ptr<const ParticleSlices> make_slices() {
+    if (!findings_.empty()) return nullptr;
+    auto slices = std::make_shared<SourceSlices>(scene_, sources_);
+    return slices->prepare(options_, warnings_) ? slices : nullptr;
+  }
+
   ParticleSet make() {
-    for (const Source& source : sources_) {
+    for (const ParticleSource& source : sources_) {
       if (source.block) {
         append_block(source);
       } else if (source.cluster) {
@@ -100,7 +102,7 @@ class Loader {
 
  private:
   void plan_source(const Json& entry, const std::string& path) {
-    Source source;
+    ParticleSource source;
     source.path = path;
     source.rules.materials = scene_.materials;
     plan_material(entry, source);
@@ -137,14 +139,14 @@ class Loader {
     return std::nullopt;
   }
 
-  void plan_material(const Json& entry, Source& source) {
+  void plan_material(const Json& entry, ParticleSource& source) {
     const std::string where = join_path(source.path, "material");
     if (!entry.contains("material") || findings_.touches(where)) return;
     source.rules.material = material_named(entry.at("material").get_ref<const std::string&>(), where);
   }
 
   // Keys that only files have.
-  void plan_types_and_frame(const Json& entry, Source& source) {
+  void plan_types_and_frame(const Json& entry, ParticleSource& source) {
     for (const char* key : {"types", "frame"}) {
       if (entry.contains(key) && !entry.contains("file")) {
         findings_.add(join_path(source.path, key), "is of no use without \"file\"");
@@ -162,7 +164,7 @@ class Loader {
     source.rules.frame = frame.is_string() ? kLastFrame : frame.get<std::uint64_t>();
   }
 
-  void plan_file(const std::string& name, Source& source) {
+  void plan_file(const std::string& name, ParticleSource& source) {
     source.file_name = printable(name);
     const auto complain = [&](const char* key, const std::string& message) {
       findings_.add(join_path(source.path, key), message);
@@ -188,7 +190,7 @@ class Loader {
     }
   }
 
-  void plan_block(const Json& json, Source& source) {
+  void plan_block(const Json& json, ParticleSource& source) {
     const std::string path = join_path(source.path, "block");
     // A block with a count ends one radius from the domain's faces: without a valid radius nothing can be planned.
     if (!source.rules.material || findings_.touches(join_path("materials", names_[*source.rules.material]))) return;
@@ -198,7 +200,7 @@ class Loader {
     }
   }
 
-  void plan_cluster(const Json& json, Source& source) {
+  void plan_cluster(const Json& json, ParticleSource& source) {
     if (!source.rules.material || findings_.touches(join_path("materials", names_[*source.rules.material]))) return;
     const ClusterSource cluster = read_cluster(json);
     if (dot(cluster.normal, cluster.normal) > 0) {
@@ -208,7 +210,7 @@ class Loader {
     }
   }
 
-  void append_cluster(const Source& source) {
+  void append_cluster(const ParticleSource& source) {
     ClusterParticles made =
         make_cluster(*source.cluster, scene_.materials[*source.rules.material].mass, scene_.attraction);
     for (Vec3d& v : made.velocity) v += source.rules.velocity;
@@ -217,7 +219,7 @@ class Loader {
     append_common(span, std::vector<std::uint16_t>(made.position.size(), *source.rules.material), made.velocity, {});
   }
 
-  void append_block(const Source& source) {
+  void append_block(const ParticleSource& source) {
     const std::vector<Vec3d> centres = block_centres(*source.block, scene_.domain, findings_);
     const Span span{&source, particles_.size(), particles_.size() + centres.size(), {}};
     particles_.position.insert(particles_.position.end(), centres.begin(), centres.end());
@@ -225,7 +227,7 @@ class Loader {
                   std::vector<Vec3d>(centres.size(), source.rules.velocity), {});
   }
 
-  void append_file(const Source& source) {
+  void append_file(const ParticleSource& source) {
     FileParticles read = read_particle_file(source.file, source.file_name, source.rules, findings_, warnings_);
     if (read.box && domain_known_) check_box(*read.box, source.file_name, scene_.domain, findings_, warnings_);
     Span span{&source, particles_.size(), particles_.size() + read.position.size(), std::move(read.place), read.binary};
@@ -250,35 +252,19 @@ class Loader {
     spans_.push_back(std::move(span));
   }
 
-  // The two faces of a periodic axis are the same place, which belongs to the lower face.
-  bool is_on_periodic_face(const Vec3d& x) const {
-    for (int axis = 0; axis < 3; ++axis) {
-      const bool periodic = scene_.domain.boundary[static_cast<std::size_t>(axis)] == Boundary::periodic;
-      if (periodic && component(x, axis) == component(scene_.domain.max, axis)) return true;
-    }
-    return false;
-  }
-
-  bool is_inside(const Vec3d& x) const {
-    for (int axis = 0; axis < 3; ++axis) {
-      const double value = component(x, axis);
-      if (!(value >= component(scene_.domain.min, axis) && value <= component(scene_.domain.max, axis))) return false;
-    }
-    return !is_on_periodic_face(x);
-  }
-
   void refuse_outside(const Span& span) {
     std::size_t outside = 0;
     const auto text = [](const Vec3d& x) { return fmt::format("[{}, {}, {}]", x.x, x.y, x.z); };
     // A block is one thing to correct, but the rows of a file are many.
     const std::size_t most = span.places.empty() ? 1 : kMostFindings;
     for (std::size_t i = span.begin; i < span.end; ++i) {
-      if (is_inside(particles_.position[i]) || ++outside > most) continue;
+      if (is_inside(scene_.domain, particles_.position[i]) || ++outside > most) continue;
       const Vec3d& x = particles_.position[i];
-      complain(span, span.where(i),
-               fmt::format("centre {} is outside the domain {} to {}{}", text(x), text(scene_.domain.min),
-                           text(scene_.domain.max),
-                           is_on_periodic_face(x) ? "; the upper face of a periodic axis is its lower one" : ""));
+      complain(
+          span, span.where(i),
+          fmt::format(
+              "centre {} is outside the domain {} to {}{}", text(x), text(scene_.domain.min), text(scene_.domain.max),
+              is_on_periodic_face(scene_.domain, x) ? "; the upper face of a periodic axis is its lower one" : ""));
     }
     if (outside > most) {
       complain(span, span.places.empty() ? span.source->path : span.source->file_name,
@@ -325,7 +311,7 @@ class Loader {
   std::vector<Finding>& warnings_;
   std::vector<std::string> names_;
   bool domain_known_;
-  std::vector<Source> sources_;
+  std::vector<ParticleSource> sources_;
   std::vector<Span> spans_;
   ParticleSet particles_;
   std::uint64_t largest_id_ = 0;
@@ -333,13 +319,24 @@ class Loader {
 
 }  // namespace
 
+double expected_count(const ParticleSource& source) {
+  return source.block     ? expected_count(*source.block)
+         : source.cluster ? static_cast<double>(source.cluster->count)
+                          : static_cast<double>(count_particles(source.file, source.rules));
+}
+
 ParticleSet load_particles(const Json& json, const Scene& scene, const std::filesystem::path& folder,
-                           const LoadOptions& options, Findings& findings, std::vector<Finding>& warnings) {
+                           const LoadOptions& options, Findings& findings, std::vector<Finding>& warnings,
+                           std::shared_ptr<const ParticleSlices>& slices) {
   const auto entries = json.find("particles");
   if (entries == json.end() || !entries->is_array()) return {};
   Loader loader(scene, folder, options, findings, warnings);
   loader.plan(*entries);
   if (!options.with_particles || !loader.fits()) return {};
+  if (options.in_slices && !ties_particles(json)) {
+    slices = loader.make_slices();
+    if (slices) return {};
+  }
   return loader.make();
 }
 

@@ -41,11 +41,14 @@ TEST_P(BrokenScene, IsRefusedWithItsMessage) {
   if (GetParam() == "bodies-meshes" || GetParam() == "emitters-meshes") HOOKE_NEEDS_OPENVDB();
   scene::LoadOptions options;
   options.memory_limit = std::uint64_t{1} << 30U;
-  const auto loaded =
-      scene::parse_scene(read(kFolder / (GetParam() + ".json")), GetParam() + ".json", kFolder, options);
-  ASSERT_FALSE(loaded) << "was taken for good";
-  EXPECT_EQ(loaded.error().kind, Error::Kind::bad_input);
-  EXPECT_EQ(loaded.error().text() + "\n", read(kFolder / (GetParam() + ".expected")));
+  for (const bool in_slices : {false, true}) {
+    options.in_slices = in_slices;
+    const auto loaded =
+        scene::parse_scene(read(kFolder / (GetParam() + ".json")), GetParam() + ".json", kFolder, options);
+    ASSERT_FALSE(loaded) << "was taken for good";
+    EXPECT_EQ(loaded.error().kind, Error::Kind::bad_input);
+    EXPECT_EQ(loaded.error().text() + "\n", read(kFolder / (GetParam() + ".expected")));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BrokenScene, testing::ValuesIn(names()), [](const auto& test) {
