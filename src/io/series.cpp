@@ -63,19 +63,14 @@ void for_each_column(const SeriesRow& row, Visit&& column) {
   column("expired", l.population.expired);
   column("sunk", l.population.sunk);
   column("removed", l.removed);
-  column("rebuilds", row.rebuilds);
 }
 
 }  // namespace
 
 SeriesRow make_series_row(const Simulation& simulation, const Measurements& measurements) {
   const Ledger ledger = simulation.ledger();
-  return {simulation.step_count(),
-          simulation.time(),
-          measurements,
-          ledger,
-          integration_error(measurements, ledger, simulation.initial_elastic()),
-          simulation.neighbour_statistics().rebuilds};
+  return {simulation.step_count(), simulation.time(), measurements, ledger,
+          integration_error(measurements, ledger, simulation.initial_elastic())};
 }
 
 std::string series_header(const std::vector<std::string>& colliders) {

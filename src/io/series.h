@@ -17,8 +17,7 @@ struct SeriesRow {
   double time = 0;  ///< s
   Measurements measurements;
   Ledger ledger;
-  double integration = 0;      ///< integration_error(), J
-  std::uint64_t rebuilds = 0;  ///< of the neighbour list, since the program started
+  double integration = 0;  ///< integration_error(), J
 };
 
 /// The row of the present instant. `measurements` must come from Simulation::measure() now.
