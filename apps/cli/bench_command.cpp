@@ -54,7 +54,7 @@ void check_domain(const Scene& scene, const Measurements& now, std::vector<Findi
 
 // Faults that make the results of a run worthless: a speed is only worth printing for correct steps.
 std::vector<Finding> find_faults(const Simulation& simulation, const io::RunReport& report,
-                                 std::uint64_t particles_before, std::uint64_t removed_before) {
+                                 std::uint64_t particles_before, const Ledger& before) {
   std::vector<Finding> faults;
   const Measurements& now = report.measurements;
   const Scene& scene = simulation.scene();
@@ -65,11 +65,17 @@ std::vector<Finding> find_faults(const Simulation& simulation, const io::RunRepo
     break;
   }
   check_domain(scene, now, faults);
-  const std::uint64_t removed = report.ledger.removed - removed_before;
+  const std::uint64_t removed = report.ledger.removed - before.removed;
+  const auto changed = [&](std::uint64_t PopulationLedger::* count) {
+    return report.ledger.population.*count - before.population.*count;
+  };
+  const std::uint64_t born = changed(&PopulationLedger::born);
+  const std::uint64_t gone = changed(&PopulationLedger::expired) + changed(&PopulationLedger::sunk) + removed;
   const bool has_open_face = std::ranges::find(scene.domain.boundary, Boundary::open) != scene.domain.boundary.end();
-  if (report.particles + removed != particles_before || (removed > 0 && !has_open_face)) {
-    faults.push_back({"escaped", fmt::format("of {} particles {} are left, and {} left through open faces",
-                                             particles_before, report.particles, removed)});
+  if (report.particles + gone != particles_before + born || (removed > 0 && !has_open_face)) {
+    faults.push_back({"escaped", fmt::format("of {} particles and {} born {} are left, and {} are gone, {} of these "
+                                             "through open faces",
+                                             particles_before, born, report.particles, gone, removed)});
   }
   const double allowed = report.precision == Precision::single_precision ? kDriftSingle : kDriftDouble;
   if (!(report.momentum_drift <= allowed)) {
@@ -188,7 +194,7 @@ ExitStatus bench_command(const BenchArguments& arguments, const run::LaunchedRan
   if (const std::string small = run::small_ranks(*opened); !small.empty()) spdlog::warn(small);
   Simulation& simulation = opened->simulation;
   const std::uint64_t particles_before = simulation.particle_count();
-  const std::uint64_t removed_before = simulation.ledger().removed;
+  const Ledger ledger_before = simulation.ledger();
 
   const bool show = !arguments.json && isatty(STDOUT_FILENO) != 0;
   if (auto warmed = advance(simulation, arguments.warmup, show); !warmed) {
@@ -217,7 +223,7 @@ ExitStatus bench_command(const BenchArguments& arguments, const run::LaunchedRan
   report.seconds = seconds;
   report.neighbours.rebuilds = rebuilds - rebuilds_before;
   report.stages = report.stages - stages_before;
-  if (auto faults = find_faults(simulation, report, particles_before, removed_before); !faults.empty()) {
+  if (auto faults = find_faults(simulation, report, particles_before, ledger_before); !faults.empty()) {
     return report_error({Error::Kind::run_failed, std::move(faults)}, true);
   }
   if (ranks.size() == 1) {  // of several each has a part of the particles, and another part of the walls

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program.h"
+#include "source_dir.h"
 
 namespace hooke::test {
 namespace {
@@ -69,6 +70,17 @@ TEST_F(Bench, StartsFromACheckpoint) {
   const auto report = nlohmann::json::parse(
       hooke_ok({"bench", "s.json", "--resume", "s/checkpoint.h5", "--warmup", "5", "--steps", "15", "--json"}));
   EXPECT_EQ(report.at("state_hash"), state_hash("later"));
+}
+
+// Births, ends of lives, sinks and open faces are no escapes.
+TEST_F(Bench, MeasuresScenesWhereParticlesComeAndGo) {
+  for (const char* scene : {"fountain", "fireworks", "hourglass"}) {
+    SCOPED_TRACE(scene);
+    const auto report =
+        nlohmann::json::parse(hooke_ok({"bench", HOOKE_SOURCE_DIR "/scenes/" + std::string(scene) + ".json", "--steps",
+                                        "60", "--warmup", "40", "--json"}));
+    EXPECT_GT(report.at("particles"), 0);
+  }
 }
 
 TEST_F(Bench, PrintsATable) {
