@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "hooke/base/floating_point.h"
+#include "hooke/io/checkpoint_parts.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/hdf5.h"
 #include "hooke/io/population_tables.h"
@@ -22,7 +23,6 @@ namespace {
 
 constexpr std::int64_t kFormat = 5;
 constexpr const char* kType = "hooke checkpoint";
-constexpr const char* kTablesDiffer = "is a damaged checkpoint: its tables don't fit together";
 
 /// The numbers of a state besides its particles and step, in the order of the file; `visit` may read or set them.
 template <class State, class Visit>
@@ -146,6 +146,15 @@ Checkpoint read_content(const std::filesystem::path& path) {
   check_seal(path);
   const auto held = hdf5::lock();
   const hdf5::File file(path, JournaledFile::Mode::read);
+  Checkpoint checkpoint = read_all_but_particles(file, path);
+  read_particles(file.id(), path, checkpoint.state.particles);
+  file.check_reads();
+  return checkpoint;
+}
+
+}  // namespace
+
+Checkpoint read_all_but_particles(const hdf5::File& file, const std::filesystem::path& path) {
   const hid_t root = file.id();
   if (const std::int64_t format = hdf5::read_integer_attribute(root, "format"); format != kFormat) {
     throw Failure(Error::Kind::bad_input, path,
@@ -153,15 +162,11 @@ Checkpoint read_content(const std::filesystem::path& path) {
   }
   Checkpoint checkpoint;
   read_numbers(root, path, checkpoint.state);
-  read_particles(root, path, checkpoint.state.particles);
   read_structure(root, path, checkpoint.state);
   read_population(root, path, checkpoint.state);
   checkpoint.info = parse_run_info(hdf5::read_text(root, "run"), path);
-  file.check_reads();
   return checkpoint;
 }
-
-}  // namespace
 
 Expected<void> write_checkpoint(const std::filesystem::path& path, const SimulationState& state, const RunInfo& info) {
   return write_checkpoint(path, state, SlicesOfSet(state.particles), info);

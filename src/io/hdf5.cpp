@@ -468,11 +468,13 @@ void write_array(hid_t parent, const char* name, const T* values, hsize_t rows, 
 }
 
 template <class T>
-std::vector<T> read_array(hid_t parent, const char* name, hsize_t width) {
-  const Handle dataset(check(H5Dopen2(parent, name, H5P_DEFAULT), parent, std::string("it has no ") + name));
-  const Handle space(H5Dget_space(dataset.get()));
-  const Handle stored(H5Dget_type(dataset.get()));
-  const Handle properties(H5Dget_create_plist(dataset.get()));
+ArrayRows<T>::ArrayRows(hid_t parent, const char* name, hsize_t width)
+    : name_(name),
+      dataset_(check(H5Dopen2(parent, name, H5P_DEFAULT), parent, std::string("it has no ") + name)),
+      width_(width) {
+  const Handle space(H5Dget_space(dataset_.get()));
+  const Handle stored(H5Dget_type(dataset_.get()));
+  const Handle properties(H5Dget_create_plist(dataset_.get()));
   const int rank = width == 1 ? 1 : 2;
   hsize_t size[2] = {0, 1};
   const bool good = H5Tequal(stored.get(), file_type<T>()) > 0 && is_self_contained(properties.get()) &&
@@ -482,10 +484,24 @@ std::vector<T> read_array(hid_t parent, const char* name, hsize_t width) {
   if (!good || size[0] > file_bytes(parent) / sizeof(T) / width) {
     fail_at(parent, std::string(name) + " is no table of this kind");
   }
-  std::vector<T> values(size[0] * width);
-  if (!values.empty() && H5Dread(dataset.get(), memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
-    fail_at(parent, std::string(name) + " can't be read");
-  }
+  rows_ = size[0];
+}
+
+template <class T>
+void ArrayRows<T>::read(hsize_t start, hsize_t count, T* values) const {
+  HOOKE_ASSERT(start <= rows_ && count <= rows_ - start, start, count, rows_);
+  with_rows(dataset_.get(), start, count, width_, [&](hid_t memory, hid_t file) {
+    const herr_t status = H5Dread(dataset_.get(), memory_type<T>(), memory, file, H5P_DEFAULT, values);
+    if (status < 0) fail_at(dataset_.get(), name_ + " can't be read");
+    return status;
+  });
+}
+
+template <class T>
+std::vector<T> read_array(hid_t parent, const char* name, hsize_t width) {
+  const ArrayRows<T> array(parent, name, width);
+  std::vector<T> values(array.rows() * width);
+  array.read(0, array.rows(), values.data());
   return values;
 }
 
@@ -494,6 +510,9 @@ template void write_array(hid_t, const char*, const std::uint64_t*, hsize_t, hsi
 template void write_array(hid_t, const char*, const std::uint16_t*, hsize_t, hsize_t);
 template void write_array(hid_t, const char*, const std::uint32_t*, hsize_t, hsize_t);
 template void write_array(hid_t, const char*, const std::uint8_t*, hsize_t, hsize_t);
+template class ArrayRows<double>;
+template class ArrayRows<std::uint64_t>;
+template class ArrayRows<std::uint16_t>;
 template std::vector<double> read_array(hid_t, const char*, hsize_t);
 template std::vector<std::uint64_t> read_array(hid_t, const char*, hsize_t);
 template std::vector<std::uint16_t> read_array(hid_t, const char*, hsize_t);

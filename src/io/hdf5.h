@@ -162,4 +162,20 @@ void write_array(hid_t parent, const char* name, const T* values, hsize_t rows, 
 template <class T>
 std::vector<T> read_array(hid_t parent, const char* name, hsize_t width = 1);
 
+/// An array of write_array(), to be read some rows at a time.
+template <class T>
+class ArrayRows {
+ public:
+  ArrayRows(hid_t parent, const char* name, hsize_t width = 1);
+  hsize_t rows() const { return rows_; }
+  /// `count` rows from `start` on, within rows().
+  void read(hsize_t start, hsize_t count, T* values) const;
+
+ private:
+  std::string name_;
+  Handle dataset_;
+  hsize_t rows_ = 0;
+  hsize_t width_ = 1;
+};
+
 }  // namespace hooke::io::hdf5

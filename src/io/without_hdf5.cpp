@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "hooke/io/checkpoint.h"
+#include "hooke/io/checkpoint_slices.h"
 #include "hooke/io/failure.h"
 #include "hooke/io/hdf5_library.h"
 #include "hooke/io/particles_file.h"
@@ -28,6 +29,9 @@ Expected<void> write_checkpoint(const std::filesystem::path& file, const Simulat
   return fail(needs_hdf5(file));
 }
 Expected<Checkpoint> read_checkpoint(const std::filesystem::path& file) { return fail(needs_hdf5(file)); }
+Expected<CheckpointInSlices> read_checkpoint_in_slices(const std::filesystem::path& file) {
+  return fail(needs_hdf5(file));
+}
 Expected<std::shared_ptr<const Structure>> read_structure_of_run(const std::filesystem::path& folder) {
   return fail(needs_hdf5(folder));
 }

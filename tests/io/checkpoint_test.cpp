@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <random>
 
+#include "hooke/io/checkpoint_slices.h"
 #include "samples.h"
 
 namespace hooke {
@@ -23,6 +24,11 @@ class Checkpoints : public testing::Test {
     EXPECT_EQ(read.error().kind, Error::Kind::bad_input);
     EXPECT_EQ(read.error().findings.size(), 1U);
     EXPECT_EQ(read.error().findings.front().where, path.string());
+    const auto sliced = io::read_checkpoint_in_slices(path);
+    EXPECT_FALSE(sliced);
+    if (!sliced) {
+      EXPECT_EQ(sliced.error().text(), read.error().text());
+    }
     return read.error().findings.front().message;
   }
 
@@ -50,6 +56,59 @@ TEST_F(Checkpoints, ReadBackBitForBit) {
     EXPECT_TRUE(samples::same(read->state.particles, state.particles));
   }
   EXPECT_EQ(samples::files_in(folder.path()), std::vector<std::string>{"checkpoint.h5"});
+}
+
+TEST_F(Checkpoints, ReadInSlicesTheSameBits) {
+  for (const bool accelerated : {true, false}) {
+    for (const std::size_t n : {0U, 1U, 17U, 5000U}) {
+      SimulationState state = samples::state(1234567890123, n);
+      if (!accelerated) state.particles.acceleration.clear();
+      ASSERT_TRUE(io::write_checkpoint(file, state, samples::run_info()));
+      const auto whole = io::read_checkpoint(file);
+      const auto sliced = io::read_checkpoint_in_slices(n == 17 ? folder.path() : file);
+      ASSERT_TRUE(whole && sliced);
+      EXPECT_EQ(sliced->rest.info, whole->info);
+      EXPECT_TRUE(sliced->rest.state.particles.empty());
+      EXPECT_EQ(sliced->rest.state.step, state.step);
+      EXPECT_EQ(sliced->rest.state.next_id, state.next_id);
+      EXPECT_EQ(sliced->rest.state.ledger, state.ledger);
+      EXPECT_EQ(*sliced->rest.state.structure, *state.structure);
+      EXPECT_EQ(sliced->rest.state.broken_springs, state.broken_springs);
+      EXPECT_EQ(sliced->rest.state.emission, state.emission);
+      EXPECT_EQ(sliced->rest.state.initial_momentum, state.initial_momentum);
+      EXPECT_EQ(sliced->particles->size(), n);
+      EXPECT_EQ(sliced->particles->identity(), SlicesOfSet(state.particles).identity());
+      EXPECT_EQ(sliced->particles->has_accelerations(), accelerated && n > 0);
+      // The open file is that of its name when it was opened.
+      ASSERT_TRUE(io::write_checkpoint(file, samples::state(3, 40), samples::run_info()));
+      for (const std::size_t rows : {1U, 7U, 64U, 5000U, 6000U}) {
+        ParticleSet together;
+        std::size_t slices = 0;
+        ASSERT_TRUE(sliced->particles->visit(rows, [&](const ParticleSlice& slice) {
+          ++slices;
+          together.id.insert(together.id.end(), slice.id.begin(), slice.id.end());
+          together.material.insert(together.material.end(), slice.material.begin(), slice.material.end());
+          together.position.insert(together.position.end(), slice.position.begin(), slice.position.end());
+          together.velocity.insert(together.velocity.end(), slice.velocity.begin(), slice.velocity.end());
+          together.acceleration.insert(together.acceleration.end(), slice.acceleration.begin(),
+                                       slice.acceleration.end());
+        }));
+        EXPECT_EQ(slices, (n + rows - 1) / rows);
+        EXPECT_TRUE(samples::same(together, state.particles));
+      }
+    }
+  }
+}
+
+// A file that loses its bytes while it is open.
+TEST_F(Checkpoints, SayWhereSlicesCantBeRead) {
+  ASSERT_TRUE(io::write_checkpoint(file, samples::state(3, 50'000), samples::run_info()));
+  const auto sliced = io::read_checkpoint_in_slices(file);
+  ASSERT_TRUE(sliced);
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 4);
+  const auto visited = sliced->particles->visit(1000, [](const ParticleSlice&) {});
+  ASSERT_FALSE(visited);
+  EXPECT_EQ(visited.error().text(), file.string() + ": has changed while it was read");
 }
 
 TEST_F(Checkpoints, KeepAccelerationsEmptyWhereThereAreNone) {
