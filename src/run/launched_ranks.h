@@ -22,6 +22,7 @@ LaunchedRank launched_rank();
 struct LaunchedRanks {
   std::shared_ptr<Communicator> communicator;  ///< null: this process is alone
   int cores = 1;  ///< for this rank: those that it is bound to; its share of them where other ranks are bound to them
+  int on_this_machine = 1;  ///< of the ranks, this one included
 
   int rank() const { return communicator ? communicator->rank() : 0; }
   int size() const { return communicator ? communicator->size() : 1; }

@@ -53,12 +53,16 @@ Expected<LaunchedRanks> load_ranks(int launched) {
   if (!module) return fail(module.error());
   const auto join = module->function<decltype(hooke_join_ranks)>("hooke_join_ranks");
   const auto own_cores = module->function<decltype(hooke_own_cores)>("hooke_own_cores");
-  if (join == nullptr || own_cores == nullptr)
+  const auto on_this_node = module->function<decltype(hooke_ranks_on_this_node)>("hooke_ranks_on_this_node");
+  if (join == nullptr || own_cores == nullptr || on_this_node == nullptr)
     return fail(Error::Kind::bad_input, "hooke-mpi.so", "is of another version of hooke");
   Expected<std::shared_ptr<Communicator>> joined;
   join(launched, joined);
   if (!joined) return fail(std::move(joined).error());
-  return LaunchedRanks{std::move(*joined), own_cores()};
+  LaunchedRanks ranks{std::move(*joined)};
+  ranks.cores = own_cores();
+  ranks.on_this_machine = on_this_node();
+  return ranks;
 }
 
 }  // namespace hooke::run

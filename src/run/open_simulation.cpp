@@ -15,6 +15,7 @@
 #include "hooke/backends/reference/reference_backend.h"
 #include "hooke/base/format.h"
 #include "hooke/io/checkpoint.h"
+#include "hooke/io/checkpoint_slices.h"
 #include "hooke/run/cuda_loader.h"
 #include "hooke/run/mpi_loader.h"
 #include "hooke/run/rank_orders.h"
@@ -65,26 +66,45 @@ namespace {
 struct Parts {
   scene::LoadedScene loaded;
   std::optional<io::Checkpoint> checkpoint;
+  std::shared_ptr<const ParticleSlices> slices;  // if any, in place of the scene's or the checkpoint's particles
   std::unique_ptr<Backend> backend;
 };
 
-Expected<scene::LoadedScene> load(const SceneArguments& scene, bool with_particles) {
+Expected<scene::LoadedScene> load(const SceneArguments& scene, bool with_particles, const LaunchedRanks& ranks) {
   scene::LoadOptions options;
   options.overrides = scene.overrides;
   options.allow_outside = scene.allow_outside;
   options.with_particles = with_particles;
+  options.share_here = static_cast<double>(ranks.on_this_machine) / ranks.size();
+  options.in_slices = ranks.size() > 1;
   return scene::load_scene(scene.file, options);
 }
 
-Expected<Parts> collect_parts(scene::LoadedScene loaded, const DeviceArguments& device,
-                              const std::filesystem::path& resume) {
-  Parts parts;
-  if (!resume.empty()) {
-    auto checkpoint = io::read_checkpoint(resume);
+Expected<void> open_checkpoint(const std::filesystem::path& file, bool in_slices, Parts& parts) {
+  if (in_slices) {
+    auto checkpoint = io::read_checkpoint_in_slices(file);
     if (!checkpoint) return fail(std::move(checkpoint).error());
-    parts.checkpoint = std::move(*checkpoint);
+    parts.checkpoint = std::move(checkpoint->rest);
+    parts.slices = std::move(checkpoint->particles);
+    return {};
   }
-  const std::size_t particles = parts.checkpoint ? parts.checkpoint->state.particles.size() : loaded.particles.size();
+  auto checkpoint = io::read_checkpoint(file);
+  if (!checkpoint) return fail(std::move(checkpoint).error());
+  parts.checkpoint = std::move(*checkpoint);
+  return {};
+}
+
+// In slices: the particles of the checkpoint; those of a scene are as they have been loaded.
+Expected<Parts> collect_parts(scene::LoadedScene loaded, const DeviceArguments& device,
+                              const std::filesystem::path& resume, bool in_slices) {
+  Parts parts;
+  parts.slices = std::move(loaded.slices);
+  if (!resume.empty()) {
+    if (auto opened = open_checkpoint(resume, in_slices, parts); !opened) return fail(std::move(opened).error());
+  }
+  const std::size_t particles = parts.slices       ? parts.slices->size()
+                                : parts.checkpoint ? parts.checkpoint->state.particles.size()
+                                                   : loaded.particles.size();
   auto backend = make_backend(device, loaded.scene, particles, loaded.warnings);
   if (!backend) return fail(std::move(backend).error());
   if (parts.checkpoint) {
@@ -97,15 +117,28 @@ Expected<Parts> collect_parts(scene::LoadedScene loaded, const DeviceArguments& 
   return parts;
 }
 
+Expected<Simulation> start(Parts& parts, const std::shared_ptr<Communicator>& communicator) {
+  scene::LoadedScene& loaded = parts.loaded;
+  if (parts.checkpoint) {
+    SimulationState& state = parts.checkpoint->state;
+    if (!parts.slices)
+      return Simulation::resume(std::move(loaded.scene), std::move(state), std::move(parts.backend), communicator);
+    return Simulation::resume_in_slices(std::move(loaded.scene), std::move(state), std::move(parts.slices),
+                                        std::move(parts.backend), communicator);
+  }
+  // start_checks.h warns of an unstable step
+  const CreateOptions options{.allow_unstable_step = true, .communicator = communicator};
+  if (!parts.slices) {
+    return Simulation::create(std::move(loaded.scene), std::move(loaded.particles), std::move(parts.backend), options);
+  }
+  return Simulation::create_in_slices(std::move(loaded.scene), std::move(parts.slices), std::move(parts.backend),
+                                      options);
+}
+
 Expected<OpenedSimulation> assemble(Parts parts, const std::shared_ptr<Communicator>& communicator) {
   scene::LoadedScene& loaded = parts.loaded;
   const int threads = parts.backend->info().threads;
-  auto simulation = parts.checkpoint ? Simulation::resume(std::move(loaded.scene), std::move(parts.checkpoint->state),
-                                                          std::move(parts.backend), communicator)
-          // start_checks.h warns of an unstable step
-                                     : Simulation::create(std::move(loaded.scene), std::move(loaded.particles),
-                                                          std::move(parts.backend),
-                                                          {.allow_unstable_step = true, .communicator = communicator});
+  auto simulation = start(parts, communicator);
   if (!simulation) return fail(std::move(simulation).error());
   const std::int64_t step = simulation->step_count();
   return OpenedSimulation{std::move(*simulation),
@@ -142,10 +175,10 @@ Expected<Parts> collect_parts_of_rank(const SceneArguments& scene, DeviceArgumen
                 formatted("\"{}\" can't compute on several ranks yet; \"cpu\" can", device.device));
   }
   if (device.threads == 0) device.threads = ranks.cores;
-  auto loaded = load(scene, leads && resume.empty());
+  auto loaded = load(scene, leads && resume.empty(), ranks);
   if (!loaded) return fail(std::move(loaded).error());
   for (Finding& finding : findings) loaded->warnings.push_back(std::move(finding));
-  return collect_parts(std::move(*loaded), device, resume);
+  return collect_parts(std::move(*loaded), device, resume, true);
 }
 
 // The same, once all ranks have theirs; sets the threads of all.
@@ -180,14 +213,14 @@ Expected<OpenedSimulation> open_on_all(const SceneArguments& scene, const Device
 Expected<OpenedSimulation> open_simulation(const SceneArguments& scene, const DeviceArguments& device,
                                            const std::filesystem::path& resume, const LaunchedRanks& ranks) {
   if (ranks.size() > 1) return open_on_all(scene, device, resume, ranks);
-  auto loaded = load(scene, resume.empty());
+  auto loaded = load(scene, resume.empty(), ranks);
   if (!loaded) return fail(std::move(loaded).error());
   return open_simulation(std::move(*loaded), device, resume);
 }
 
 Expected<OpenedSimulation> open_simulation(scene::LoadedScene loaded, const DeviceArguments& device,
                                            const std::filesystem::path& resume) {
-  auto parts = collect_parts(std::move(loaded), device, resume);
+  auto parts = collect_parts(std::move(loaded), device, resume, false);
   if (!parts) return fail(std::move(parts).error());
   return assemble(std::move(*parts), nullptr);
 }

@@ -14,3 +14,5 @@ extern "C" __attribute__((visibility("default"))) void hooke_join_ranks(
 }
 
 extern "C" __attribute__((visibility("default"))) int hooke_own_cores() { return hooke::own_cores(); }
+
+extern "C" __attribute__((visibility("default"))) int hooke_ranks_on_this_node() { return hooke::ranks_on_this_node(); }

@@ -16,3 +16,5 @@ extern "C" const char* hooke_mpi_version();
 extern "C" void hooke_join_ranks(int launched, hooke::Expected<std::shared_ptr<hooke::Communicator>>& joined);
 /// own_cores().
 extern "C" int hooke_own_cores();
+/// ranks_on_this_node().
+extern "C" int hooke_ranks_on_this_node();

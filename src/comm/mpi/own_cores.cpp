@@ -48,4 +48,6 @@ int own_cores() {
   return std::max(1, CPU_COUNT(&own) / std::max(1, sharing));
 }
 
+int ranks_on_this_node() { return static_cast<int>(allowed_on_this_node(allowed_cores()).size()); }
+
 }  // namespace hooke

@@ -9,4 +9,7 @@ namespace hooke {
 /// join_ranks().
 int own_cores();
 
+/// How many ranks run on the node of this one. All ranks call it together, after join_ranks().
+int ranks_on_this_node();
+
 }  // namespace hooke
