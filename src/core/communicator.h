@@ -19,6 +19,12 @@ struct Parcel {
   std::vector<std::byte> bytes;
 };
 
+/// A place, m, and what is there to be shared out.
+struct WeightedPoint {
+  Vec3d at;
+  double weight = 1;
+};
+
 /// How the ranks that compute one scene together talk to each other: processes of a cluster (comm/mpi), threads of a
 /// test. Rank 0 leads: it reads, writes and speaks. Every rank calls each of these functions in the same order.
 class Communicator {
@@ -57,9 +63,13 @@ class Communicator {
   /// A channel: each route out has one in at the other end, of the same size. Routes of no bytes are left out.
   virtual std::unique_ptr<Channel> open(std::span<const Route> out, std::span<const Route> in) = 0;
 
-  /// Cuts space into a box (m) for each rank, so that the boxes tile it and hold about as many of all ranks' points
-  /// each. Their outer faces are at infinity. Every rank gets all of them.
-  virtual std::vector<Box3d> cut(std::span<const Vec3d> points) = 0;
+  /// Cuts space into a box (m) for each rank, so that the boxes tile it and all ranks' points in each weigh about as
+  /// much; a weight is above 0. The boxes' outer faces are at infinity. Every rank gets all of them.
+  virtual std::vector<Box3d> cut(std::span<const WeightedPoint> points) = 0;
+
+  /// Processor time so far of the thread that calls, s: what ranks balance their work by. Where it stands still, as in
+  /// most tests, they balance their counts of particles.
+  virtual double processor_seconds() const = 0;
 
   /// Ends the program on all ranks, where one alone knows that it can't go on: `why` is said on standard error.
   [[noreturn]] virtual void abort(const std::string& why) = 0;

@@ -18,19 +18,21 @@ namespace hooke {
 namespace {
 
 constexpr int kLeader = 0;
-constexpr double kMostImbalance = 1.05;  // beyond what the last cut has reached, before boxes are cut anew
-constexpr double kFew = 64;              // particles that don't matter to the balance
 
 // Adds the processor time of its scope to a sum. Where there are more ranks than cores, most of the time that passes in
 // a message is the other ranks' work.
 class Waiting {
  public:
-  explicit Waiting(double& seconds) : seconds_(seconds), start_(thread_processor_seconds()) {}
-  ~Waiting() { seconds_ += thread_processor_seconds() - start_; }
+  Waiting(const Communicator& communicator, double& seconds)
+      : communicator_(communicator),
+        seconds_(seconds),
+        start_(communicator.processor_seconds()) {}
+  ~Waiting() { seconds_ += communicator_.processor_seconds() - start_; }
   Waiting(const Waiting&) = delete;
   Waiting& operator=(const Waiting&) = delete;
 
  private:
+  const Communicator& communicator_;
   double& seconds_;
   double start_;
 };
@@ -60,49 +62,25 @@ std::vector<T> values_of(std::span<const std::byte> bytes) {
 
 }  // namespace
 
-// Decomposition -------------------------------------------------------------------------------------------------------
-
-int Decomposition::owner(const Vec3d& x) const {
-  for (int rank = 0; rank < static_cast<int>(boxes.size()); ++rank) {
-    if (owns(rank, x)) return rank;
-  }
-  return kNobody;
-}
-
-bool Decomposition::is_near(int rank, const Vec3d& x, double reach) const {
-  const Box3d& box = boxes[static_cast<std::size_t>(rank)];
-  for (int axis = 0; axis < 3; ++axis) {
-    double low = component(box.min, axis), high = component(box.max, axis);
-    const double at = component(x, axis);
-    if (domain.boundary[static_cast<std::size_t>(axis)] != Boundary::periodic) {
-      if (!(at >= low - reach && at <= high + reach)) return false;
-      continue;
-    }
-    low = std::max(low, component(domain.min, axis)) - reach;
-    high = std::min(high, component(domain.max, axis)) + reach;
-    const double period = component(domain.period(), axis);
-    const auto is_between = [&](double at_image) { return at_image >= low && at_image <= high; };
-    if (!is_between(at) && !is_between(at - period) && !is_between(at + period)) return false;
-  }
-  return true;
-}
-
-double FrameDisplacements::across() const {
-  if (none()) return 0;
-  double sum = 0;
-  for (int axis = 0; axis < 3; ++axis) sum += (most[axis] + most[axis + 3]) * (most[axis] + most[axis + 3]);
-  return std::sqrt(sum);
-}
-
-// Ranks ---------------------------------------------------------------------------------------------------------------
-
 Ranks::Ranks(std::shared_ptr<Communicator> communicator) : communicator_(std::move(communicator)) {
   if (communicator_ && communicator_->size() == 1) communicator_ = nullptr;
+  if (communicator_) balance_ = RankBalance(communicator_->size());
+}
+
+double Ranks::computed_seconds() const { return communicator_->processor_seconds() - waited_; }
+
+Ranks::Step::Step(Ranks& ranks, Backend& backend)
+    : ranks_(ranks),
+      backend_(backend),
+      start_(ranks.is_serial() ? 0 : ranks.computed_seconds()) {}
+Ranks::Step::~Step() {
+  if (ranks_.is_serial()) return;
+  ranks_.balance_.add_step(ranks_.computed_seconds() - start_, backend_.shared()->work());
 }
 
 template <class T, class Body>
 void Ranks::combine(std::span<T> items, const Body& body, const Place& here) {
-  const Waiting waiting(statistics_.waiting);
+  const Waiting waiting(*communicator_, waited_);
   expect_all(here);
   communicator_->combine(items.data(), items.size(), sizeof(T), adding<T>(body));
 }
@@ -112,7 +90,7 @@ void Ranks::combine(T& item, const Body& body, const Place& here) {
 }
 
 std::vector<Parcel> Ranks::exchange(std::vector<Parcel> out, const Place& here) {
-  const Waiting waiting(statistics_.waiting);
+  const Waiting waiting(*communicator_, waited_);
   expect_all(here);
   return communicator_->exchange(std::move(out));
 }
@@ -163,38 +141,60 @@ Condition Ranks::first(const Condition& here) {
   return all;
 }
 
-void Ranks::cut(SharedParticles& shared) {
-  std::vector<Vec3d> points;
-  shared.sample(points);
-  space_.boxes = communicator_->cut(points);
-  ++statistics_.cuts;
+void Ranks::end_interval(std::uint64_t particles) {
+  const auto steps = static_cast<double>(balance_.steps());
+  RankBalance::Interval all = balance_.interval(particles);
+  combine(all, [](const RankBalance::Interval& a, RankBalance::Interval& sum) { sum.add(a); });
+  balance_.end_interval(all);
+  statistics_.steps += steps;
+  statistics_.uneven_particles += steps * all.particles.uneven(communicator_->size());
+  statistics_.uneven_time += steps * all.seconds.uneven(communicator_->size());
 }
 
-// Everyone to the owner of its place; new boxes where these have become uneven, more than a cut can help.
+// Everyone to the owner of its place; new boxes where the work has become uneven, more than a cut can help.
 void Ranks::exchange_particles(SharedParticles& shared) {
   const auto move = [&] {
     std::vector<Parcel> out;
     shared.move_out(space_, communicator_->rank(), out);
     shared.move_in(exchange(std::move(out)));
   };
-  // The largest share over the mean.
-  const auto imbalance = [&] {
-    struct Counts {
-      std::uint64_t all, most;
-    };
-    Counts counts{shared.own_count(), shared.own_count()};
-    combine(counts, [](const Counts& a, Counts& sum) {
-      sum.all += a.all;
-      sum.most = std::max(sum.most, a.most);
-    });
-    const double mean = static_cast<double>(counts.all) / communicator_->size();
-    return static_cast<double>(counts.most) / (mean + kFew);
+  end_interval(shared.own_count());
+  RankBalance::Spread loads = RankBalance::Spread::of(shared.work() * balance_.slowness());
+  combine(loads, [](const RankBalance::Spread& a, RankBalance::Spread& sum) { sum.add(a); });
+  if (balance_.wants_cut(loads)) cut(shared);
+  move();
+}
+
+// New boxes. What their particles are expected to cost is what they have cost where they were.
+void Ranks::cut(SharedParticles& shared) {
+  const double start = communicator_->processor_seconds();
+  std::vector<WeightedPoint> points;
+  shared.sample(points);
+  for (WeightedPoint& p : points) p.weight *= balance_.slowness();
+  {
+    const Waiting waiting(*communicator_, waited_);
+    space_.boxes = communicator_->cut(points);
+  }
+  ++statistics_.cuts;
+  struct Share {
+    double work = 0, load = 0;
   };
-  move();
-  if (imbalance() <= kMostImbalance * even_) return;
-  cut(shared);
-  move();
-  even_ = std::max(1.0, imbalance());
+  std::vector<Share> shares(space_.boxes.size());
+  for (const WeightedPoint& p : points) {
+    const int owner = space_.owner(p.at);
+    if (owner == Decomposition::kNobody) continue;
+    shares[static_cast<std::size_t>(owner)].load += p.weight;
+    shares[static_cast<std::size_t>(owner)].work += p.weight / balance_.slowness();
+  }
+  combine(std::span(shares), [](const Share& a, Share& sum) {
+    sum.work += a.work;
+    sum.load += a.load;
+  });
+  RankBalance::Spread loads;
+  for (const Share& share : shares) loads.add(RankBalance::Spread::of(share.load));
+  const Share& here = shares[static_cast<std::size_t>(communicator_->rank())];
+  balance_.begin_anew(loads, here.work > 0 ? here.load / here.work : 1, here.work,
+                      communicator_->processor_seconds() - start);
 }
 
 // A spring tears on the ranks that own its ends; the others learn of it before they may own one.
@@ -249,7 +249,7 @@ void Ranks::refresh(SharedParticles& shared) {
   if (stale_) return;  // new ones come
   shared.pack(out_);
   {
-    const Waiting waiting(statistics_.waiting);
+    const Waiting waiting(*communicator_, waited_);
     channel_->exchange();
   }
   shared.unpack(in_);
@@ -349,11 +349,12 @@ void Ranks::find_inside(const Backend& backend, const Box3d& box, std::vector<Oc
 }
 
 RankCosts Ranks::costs(std::uint64_t particles) {
+  if (!is_serial()) end_interval(particles);
   RankCosts costs;
   const auto figure = [](auto here) { return RankFigure{static_cast<double>(here), static_cast<double>(here)}; };
   const double processor = processor_seconds();
   costs.processor = figure(processor - statistics_.processor_before);
-  costs.waiting = figure(statistics_.waiting);
+  costs.waiting = figure(waited_ - statistics_.waited_before);
   costs.ghosts = figure(statistics_.ghosts);
   costs.messages = figure(statistics_.messages);
   costs.bytes = figure(statistics_.bytes);
@@ -361,8 +362,13 @@ RankCosts Ranks::costs(std::uint64_t particles) {
   costs.peak_bytes = figure(peak_resident_bytes());
   costs.exchanges = statistics_.exchanges;
   costs.cuts = statistics_.cuts;
+  if (statistics_.steps > 0) {
+    costs.uneven_particles = statistics_.uneven_particles / statistics_.steps;
+    costs.uneven_time = statistics_.uneven_time / statistics_.steps;
+  }
   statistics_ = {};
   statistics_.processor_before = processor;
+  statistics_.waited_before = waited_;
   if (is_serial()) return costs;
   combine(costs, [](const RankCosts& a, RankCosts& sum) {
     sum.ranks += a.ranks;

@@ -14,6 +14,7 @@
 #include "hooke/core/communicator.h"
 #include "hooke/core/ledger_sums.h"
 #include "hooke/core/particle_slices.h"
+#include "hooke/core/rank_balance.h"
 #include "hooke/core/shared_particles.h"
 
 namespace hooke {
@@ -34,6 +35,8 @@ struct RankCosts {
   RankFigure peak_bytes;        ///< largest resident memory of the processes so far
   std::uint64_t exchanges = 0;  ///< times that all ranks got new ghosts
   std::uint64_t cuts = 0;       ///< times that the ranks' boxes were cut
+  double uneven_particles = 1;  ///< the largest count of particles over the mean, on average over the steps
+  double uneven_time = 1;       ///< of the time that a rank computes from one exchange to the next, likewise
 };
 
 /// What all ranks' particles are together.
@@ -56,6 +59,20 @@ class Ranks {
   Communicator& communicator() { return *communicator_; }
 
   // A step -----------------------------------------------------------------------------------------------------------
+
+  /// Around each step: notes how long this rank computes, for the balance.
+  class Step {
+   public:
+    Step(Ranks& ranks, Backend& backend);
+    ~Step();
+    Step(const Step&) = delete;
+    Step& operator=(const Step&) = delete;
+
+   private:
+    Ranks& ranks_;
+    Backend& backend_;
+    double start_;
+  };
 
   /// Whether a list has become stale on any rank, or ghosts are missing.
   bool neighbours_stale(Backend& backend);
@@ -105,8 +122,8 @@ class Ranks {
     std::uint64_t exchanges = 0, ghosts = 0;  // new ghosts, and how many in all
     std::uint64_t cuts = 0;  // of the boxes
     std::uint64_t messages = 0, bytes = 0;  // sent for ghosts that moved
-    double waiting = 0;  // processor time in messages, s
-    double processor_before = 0;  // processor_seconds() at the last costs()
+    double processor_before = 0, waited_before = 0;  // processor_seconds(), waited_ at the last costs()
+    double steps = 0, uneven_particles = 0, uneven_time = 0;  // summed over these steps
   };
 
   using Place = std::source_location;
@@ -120,11 +137,13 @@ class Ranks {
   void refresh(SharedParticles& shared);
   void cut(SharedParticles& shared);
   std::vector<std::uint64_t> slice_starts(std::span<const std::uint64_t> own_ids, std::size_t rows);
+  void end_interval(std::uint64_t particles);
+  double computed_seconds() const;
   void exchange_particles(SharedParticles& shared);
   void share_torn(SharedParticles& shared);
   std::vector<WantedParticles> exchange_wanted(const SharedParticles& shared);
   void renew_ghosts(SharedParticles& shared);
-  Expected<void> take_part(const ParticleSlices& particles, std::vector<Vec3d>& sample, ParticleSet& own,
+  Expected<void> take_part(const ParticleSlices& particles, std::vector<WeightedPoint>& sample, ParticleSet& own,
                            std::vector<IdRun>& ids);
   Condition decide(Backend& backend, SharedParticles& shared, const Condition& here);
   GhostZones zones() const { return {&space_, communicator_->rank(), largest_, width_}; }
@@ -134,7 +153,8 @@ class Ranks {
   std::vector<double> largest_;  // GhostZones::largest
   GhostWidth width_;
   bool stale_ = true;
-  double even_ = 1;  // the largest share of particles over the mean, as the last cut has left it
+  RankBalance balance_{1};
+  double waited_ = 0;  // processor time of this thread in messages, s
   std::vector<std::byte> out_, in_;  // of the channel
   std::unique_ptr<Communicator::Channel> channel_;
   std::size_t partners_ = 0;  // that it sends to

@@ -42,12 +42,12 @@ void spread(Communicator& communicator, std::vector<T>& values) {
 }
 
 // Some of all positions, evenly.
-Expected<std::vector<Vec3d>> sample_of(const ParticleSlices& particles) {
-  std::vector<Vec3d> sample;
+Expected<std::vector<WeightedPoint>> sample_of(const ParticleSlices& particles) {
+  std::vector<WeightedPoint> sample;
   const std::uint64_t stride = particles.size() / kMostSamples + 1;
   std::uint64_t next = 0;  // that is taken, counted from the first of the slice
   auto visited = particles.visit(kSliceRows, [&](const ParticleSlice& slice) {
-    for (; next < slice.size(); next += stride) sample.push_back(slice.position[next]);
+    for (; next < slice.size(); next += stride) sample.push_back({slice.position[next]});
     next -= slice.size();
   });
   if (!visited) return fail(std::move(visited).error());
@@ -69,11 +69,11 @@ class Owners {
 };
 
 // How many particles each rank will about have.
-std::vector<std::uint64_t> expected_parts(const Decomposition& space, const std::vector<Vec3d>& sample,
+std::vector<std::uint64_t> expected_parts(const Decomposition& space, const std::vector<WeightedPoint>& sample,
                                           std::uint64_t all) {
   std::vector<std::uint64_t> counts(space.boxes.size());
   Owners owners(space);
-  for (const Vec3d& x : sample) ++counts[owners.of(x)];
+  for (const WeightedPoint& p : sample) ++counts[owners.of(p.at)];
   const double each = 1.02 * static_cast<double>(all) / std::max(1.0, static_cast<double>(sample.size()));
   for (std::uint64_t& count : counts) count = static_cast<std::uint64_t>(each * static_cast<double>(count));
   return counts;
@@ -114,13 +114,13 @@ Expected<void> Ranks::assign(Backend& backend, const Scene& scene, const Particl
   channel_ = nullptr;
   stale_ = true;
   space_.domain = scene.domain;
-  Expected<std::vector<Vec3d>> sample{std::vector<Vec3d>()};
+  Expected<std::vector<WeightedPoint>> sample{std::vector<WeightedPoint>()};
   if (leads()) sample = sample_of(particles);
   if (spread(*communicator_, sample ? Word::all : Word::failure) == Word::failure)
     return sample ? fail(Error::Kind::run_failed, "particles", "rank 0 can't deal them out") : fail(sample.error());
   space_.boxes = communicator_->cut(*sample);
   ++statistics_.cuts;
-  even_ = 1;
+  balance_.forget();
   ParticleSet own;
   std::vector<IdRun> ids;
   if (auto all = take_part(particles, *sample, own, ids); !all) return all;
@@ -129,7 +129,7 @@ Expected<void> Ranks::assign(Backend& backend, const Scene& scene, const Particl
 }
 
 // Each rank's particles, and the ids of all. Rank 0 hands out slices for as long as there are some.
-Expected<void> Ranks::take_part(const ParticleSlices& particles, std::vector<Vec3d>& sample, ParticleSet& own,
+Expected<void> Ranks::take_part(const ParticleSlices& particles, std::vector<WeightedPoint>& sample, ParticleSet& own,
                                 std::vector<IdRun>& ids) {
   std::vector<std::uint64_t> parts;
   if (leads()) parts = expected_parts(space_, sample, particles.size());

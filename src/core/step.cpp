@@ -35,6 +35,7 @@ std::int64_t apply_forces_in_a_row(const Scene& scene, Backend& backend, const R
 // Algorithm 3 of the thesis, with what has been added to it since: the cell list is rebuilt when it must be rather than
 // in every step, velocity Verlet has a half step of its own in front, and particles come and go at the end.
 Condition take_step(const Scene& scene, Backend& backend, Ranks& ranks, RunState& run, std::int64_t most) {
+  const Ranks::Step timed(ranks, backend);
   const bool verlet = scene.integrator == Integrator::velocity_verlet;
   const auto finish_motion = [&](const Condition& found) {
     const Condition on_any_rank = ranks.follow_motion(backend, found);

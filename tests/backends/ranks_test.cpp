@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -107,6 +108,48 @@ TEST(Ranks, MayHaveNothingToDo) {
       EXPECT_EQ(many.state_hash(), one.state_hash());
       EXPECT_EQ(many.ledger(), one.ledger());
     });
+  }
+}
+
+// A gas of which one half of space is three times as dear as the other: a rank's clock tells it, and the ranks' boxes
+// follow until all take as long. Where clocks stand still they have as many particles each.
+TEST(Ranks, ShareOutTheTimeThatWorkTakes) {
+  Scene scene = open_scene();
+  scene.domain = {{-24, -8, -8}, {24, 8, 8}, {Boundary::spring, Boundary::spring, Boundary::spring}};
+  ParticleSet gas = lattice(scene, {40, 13, 13}, {-23.4, -7.2, -7.2}, 1.2, 0.05, 1);
+  for (std::size_t i = 0; i < gas.size(); ++i) {
+    const auto u = uniform4(11, i, 0);
+    gas.velocity[i] = {20 * (u[0] - 0.5), 20 * (u[1] - 0.5), 20 * (u[2] - 0.5)};
+  }
+  const BoxCost dear_below_zero = [](const Box3d& box) {
+    double volume[2];  // of the box, in units of half of all: x below 0, above
+    for (int side = 0; side < 2; ++side) {
+      const Vec3d low = {std::max(box.min.x, side == 0 ? -24.0 : 0.0), std::max(box.min.y, -8.0),
+                         std::max(box.min.z, -8.0)};
+      const Vec3d high = {std::min(box.max.x, side == 0 ? 0.0 : 24.0), std::min(box.max.y, 8.0),
+                          std::min(box.max.z, 8.0)};
+      volume[side] = std::max(0.0, high.x - low.x) * (high.y - low.y) * (high.z - low.z) / 6144;
+    }
+    return 1e-3 * (3 * volume[0] + volume[1]);
+  };
+  Simulation one = simulate(scene, gas, kCpuDouble);
+  ASSERT_TRUE(advance(one, 600));
+  for (const bool timed : {false, true}) {
+    SCOPED_TRACE(timed ? "timed" : "counted");
+    on_ranks(
+        2, scene, gas, kCpuDouble,
+        [&](Simulation& two) {
+          ASSERT_TRUE(advance(two, 300));
+          (void)two.rank_costs();
+          ASSERT_TRUE(advance(two, 300));
+          const RankCosts costs = two.rank_costs();
+          EXPECT_GT(costs.exchanges, 10U);
+          EXPECT_NEAR(costs.particles.most / costs.particles.sum, timed ? 2.0 / 3 : 0.5, 0.05);
+          EXPECT_NEAR(costs.uneven_particles, timed ? 4.0 / 3 : 1, 0.08);
+          EXPECT_LT(costs.uneven_time, 1.1);
+          expect_same_bits(one, two);
+        },
+        timed ? dear_below_zero : BoxCost());
   }
 }
 

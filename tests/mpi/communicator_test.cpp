@@ -254,6 +254,12 @@ std::vector<std::size_t> counts(const std::vector<Box3d>& boxes, const std::vect
   return found;
 }
 
+std::vector<WeightedPoint> weighted(const std::vector<Vec3d>& points, double weight = 1) {
+  std::vector<WeightedPoint> all;
+  for (const Vec3d& x : points) all.push_back({x, weight});
+  return all;
+}
+
 // This rank's part of points that all know.
 std::vector<Vec3d> part(const std::vector<Vec3d>& points) {
   std::vector<Vec3d> own;
@@ -270,7 +276,7 @@ std::vector<Vec3d> random_points(std::size_t count) {
 
 TEST(Cut, BoxesHoldAsManyPointsEach) {
   const std::vector<Vec3d> points = random_points(20'000);
-  const std::vector<Box3d> boxes = all().cut(part(points));
+  const std::vector<Box3d> boxes = all().cut(weighted(part(points)));
   expect_tiling(boxes, points);
   for (const std::size_t count : counts(boxes, points))
     EXPECT_NEAR(static_cast<double>(count), 20'000.0 / size(), 20'000.0 / size() * 0.02);
@@ -278,15 +284,31 @@ TEST(Cut, BoxesHoldAsManyPointsEach) {
 
 TEST(Cut, OfPointsThatOneRankHas) {
   const std::vector<Vec3d> points = random_points(20'000);
-  const std::vector<Box3d> boxes = all().cut(here() == 0 ? points : std::vector<Vec3d>());
+  const std::vector<Box3d> boxes = all().cut(weighted(here() == 0 ? points : std::vector<Vec3d>()));
   expect_tiling(boxes, points);
   for (const std::size_t count : counts(boxes, points))
     EXPECT_NEAR(static_cast<double>(count), 20'000.0 / size(), 20'000.0 / size() * 0.02);
 }
 
+// Half of the points weigh four times as much as the others, and lie elsewhere.
+TEST(Cut, BoxesHoldAsMuchWeightEach) {
+  const std::vector<Vec3d> light = random_points(20'000);
+  std::vector<Vec3d> heavy = light;
+  for (Vec3d& x : heavy) x.x += 20;
+  std::vector<WeightedPoint> own = weighted(part(light), 0.5);
+  for (const WeightedPoint& p : weighted(part(heavy), 2)) own.push_back(p);
+  const std::vector<Box3d> boxes = all().cut(own);
+  expect_tiling(boxes, light);
+  const std::vector<std::size_t> heavies = counts(boxes, heavy), lights = counts(boxes, light);
+  for (std::size_t k = 0; k < boxes.size(); ++k) {
+    const double weight = 2.0 * static_cast<double>(heavies[k]) + 0.5 * static_cast<double>(lights[k]);
+    EXPECT_NEAR(weight, 50'000.0 / size(), 50'000.0 / size() * 0.02);
+  }
+}
+
 TEST(Cut, OuterFacesAreAtInfinity) {
   const std::vector<Vec3d> points = random_points(500);
-  const std::vector<Box3d> boxes = all().cut(part(points));
+  const std::vector<Box3d> boxes = all().cut(weighted(part(points)));
   Box3d around = Box3d::none();
   for (const Box3d& box : boxes) around.add(box);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -296,7 +318,7 @@ TEST(Cut, OuterFacesAreAtInfinity) {
 TEST(Cut, OfALattice) {
   std::vector<Vec3d> points;
   for (int i = 0; i < 8000; ++i) points.push_back({0.1 * (i % 20), 0.1 * (i / 20 % 20), 0.1 * (i / 400)});
-  const std::vector<Box3d> boxes = all().cut(here() == 0 ? points : std::vector<Vec3d>());
+  const std::vector<Box3d> boxes = all().cut(weighted(here() == 0 ? points : std::vector<Vec3d>()));
   expect_tiling(boxes, points);
   for (const std::size_t count : counts(boxes, points))
     EXPECT_NEAR(static_cast<double>(count), 8000.0 / size(), 400);  // a layer
@@ -305,8 +327,9 @@ TEST(Cut, OfALattice) {
 TEST(Cut, WithoutPoints) { expect_tiling(all().cut({}), random_points(1000)); }
 
 TEST(Cut, OfOnePoint) {
-  const Vec3d x{1, 2, 3};
-  expect_tiling(all().cut(here() == size() - 1 ? std::span(&x, 1) : std::span<const Vec3d>()), random_points(1000));
+  std::vector<WeightedPoint> points;
+  if (here() == size() - 1) points.push_back({{1, 2, 3}});
+  expect_tiling(all().cut(points), random_points(1000));
 }
 
 // Also fewer than ranks, and several in one place.
@@ -317,19 +340,19 @@ TEST(Cut, OfFewPoints) {
       const auto u = uniform4(3, 100 * turn + i, 0);
       points.push_back({std::floor(4 * u[0]), std::floor(3 * u[1]), std::floor(2 * u[2])});
     }
-    expect_tiling(all().cut(part(points)), points);
+    expect_tiling(all().cut(weighted(part(points))), points);
   }
 }
 
 TEST(Cut, OfPointsInOnePlace) {
   const std::vector<Vec3d> points(1000, Vec3d{1, 2, 3});
-  expect_tiling(all().cut(part(points)), random_points(1000));
+  expect_tiling(all().cut(weighted(part(points))), random_points(1000));
 }
 
 TEST(Cut, OfPointsOnALine) {
   std::vector<Vec3d> points;
   for (int i = 0; i < 1000; ++i) points.push_back({0, 0.5 * i, 0});
-  const std::vector<Box3d> boxes = all().cut(part(points));
+  const std::vector<Box3d> boxes = all().cut(weighted(part(points)));
   expect_tiling(boxes, points);
   for (const std::size_t count : counts(boxes, points)) EXPECT_NEAR(static_cast<double>(count), 1000.0 / size(), 2);
 }
@@ -341,14 +364,14 @@ TEST(Cut, LeavesOutWhatIsNotFinite) {
   points[3].x = nan;
   points[4].y = infinity;
   points[5].z = -infinity;
-  expect_tiling(all().cut(part(points)), good);
+  expect_tiling(all().cut(weighted(part(points))), good);
 }
 
 TEST(Cut, ManyTimes) {
   for (std::uint64_t turn = 0; turn < 20; ++turn) {
     std::vector<Vec3d> points;
     for (std::size_t i = 0; i < 50 * turn; ++i) points.push_back(random_point(turn * 1000 + i));
-    expect_tiling(all().cut(part(points)), points);
+    expect_tiling(all().cut(weighted(part(points))), points);
   }
 }
 

@@ -27,7 +27,10 @@ struct Room {
 
 class ThreadCommunicator final : public Communicator {
  public:
-  ThreadCommunicator(std::shared_ptr<Room> room, int rank) : room_(std::move(room)), rank_(rank) {}
+  ThreadCommunicator(std::shared_ptr<Room> room, int rank, BoxCost cost)
+      : room_(std::move(room)),
+        rank_(rank),
+        cost_(std::move(cost)) {}
 
   int rank() const override { return rank_; }
   int size() const override { return static_cast<int>(room_->memory.size()); }
@@ -71,21 +74,27 @@ class ThreadCommunicator final : public Communicator {
   }
 
   // Halves of halves: all points, sorted along the longest axis of their box, and the box cut between two of them.
-  std::vector<Box3d> cut(std::span<const Vec3d> points) override {
+  std::vector<Box3d> cut(std::span<const WeightedPoint> points) override {
     const auto* const own = reinterpret_cast<const std::byte*>(points.data());
     mine().assign(own, own + points.size_bytes());
     meet();
-    std::vector<Vec3d> all;
+    std::vector<WeightedPoint> all;
     for (const std::vector<std::byte>& part : room_->memory) {
       const std::size_t before = all.size();
-      all.resize(before + part.size() / sizeof(Vec3d));
+      all.resize(before + part.size() / sizeof(WeightedPoint));
       if (!part.empty()) std::memcpy(all.data() + before, part.data(), part.size());
     }
     meet();
     std::vector<Box3d> boxes;
     const double far = HUGE_VAL;
     halve(all, {{-far, -far, -far}, {far, far, far}}, size(), boxes);
+    own_box_ = boxes[static_cast<std::size_t>(rank_)];
     return boxes;
+  }
+
+  double processor_seconds() const override {
+    if (cost_) seconds_ += cost_(own_box_);
+    return seconds_;
   }
 
   [[noreturn]] void abort(const std::string& why) override {
@@ -116,22 +125,28 @@ class ThreadCommunicator final : public Communicator {
     std::vector<Route> out_, in_;
   };
 
-  static void halve(std::span<Vec3d> points, const Box3d& box, int ranks, std::vector<Box3d>& boxes) {
+  static void halve(std::span<WeightedPoint> points, const Box3d& box, int ranks, std::vector<Box3d>& boxes) {
     if (ranks == 1) {
       boxes.push_back(box);
       return;
     }
     Box3d around = Box3d::none();
-    for (const Vec3d& x : points) around.add(x);
+    for (const WeightedPoint& p : points) around.add(p.at);
     int axis = 0;
     for (int a = 1; a < 3 && !points.empty(); ++a) {
       if (component(around.extent(), a) > component(around.extent(), axis)) axis = a;
     }
     const int left = ranks / 2;
-    const std::size_t middle = points.size() * static_cast<std::size_t>(left) / static_cast<std::size_t>(ranks);
-    std::sort(points.begin(), points.end(),
-              [axis](const Vec3d& a, const Vec3d& b) { return component(a, axis) < component(b, axis); });
-    const double at = points.empty() ? std::max(component(box.min, axis), -1e6) + 1 : component(points[middle], axis);
+    std::sort(points.begin(), points.end(), [axis](const WeightedPoint& a, const WeightedPoint& b) {
+      return component(a.at, axis) < component(b.at, axis);
+    });
+    double weight = 0, below = 0;
+    for (const WeightedPoint& p : points) weight += p.weight;
+    std::size_t middle = 0;
+    while (middle + 1 < points.size() && below + points[middle].weight <= weight * left / ranks)
+      below += points[middle++].weight;
+    const double at =
+        points.empty() ? std::max(component(box.min, axis), -1e6) + 1 : component(points[middle].at, axis);
     Box3d low = box, high = box;
     component(low.max, axis) = component(high.min, axis) = at;
     halve(points.first(middle), low, left, boxes);
@@ -143,16 +158,19 @@ class ThreadCommunicator final : public Communicator {
 
   std::shared_ptr<Room> room_;
   int rank_;
+  BoxCost cost_;
+  Box3d own_box_;
+  mutable double seconds_ = 0;
 };
 
 }  // namespace
 
-void run_ranks(int ranks, const std::function<void(std::shared_ptr<Communicator>)>& body) {
+void run_ranks(int ranks, const std::function<void(std::shared_ptr<Communicator>)>& body, const BoxCost& cost) {
   const auto room = std::make_shared<Room>(ranks);
   std::vector<std::thread> threads;
   for (int rank = 1; rank < ranks; ++rank)
-    threads.emplace_back([&, rank] { body(std::make_shared<ThreadCommunicator>(room, rank)); });
-  body(std::make_shared<ThreadCommunicator>(room, 0));
+    threads.emplace_back([&, rank] { body(std::make_shared<ThreadCommunicator>(room, rank, cost)); });
+  body(std::make_shared<ThreadCommunicator>(room, 0, cost));
   for (std::thread& thread : threads) thread.join();
 }
 

@@ -19,6 +19,10 @@ std::vector<std::byte>& parcel_to(int rank, std::vector<Parcel>& out) {
   return begun != out.end() ? begun->bytes : out.emplace_back(Parcel{rank, {}}).bytes;
 }
 
+// The work of an outlier, in units of that of a calm particle. Handling it costs some 15 of these for as long as it is
+// one; it has not been one for all of a list's life.
+constexpr double kOutlierWork = 4;
+
 // x and v, which change in every step.
 template <class Real>
 struct Moving {
@@ -36,10 +40,20 @@ void CpuBackend<Real>::assign_part(const ParticleSet& own, std::span<const IdRun
 }
 
 template <class Real>
-void CpuBackend<Real>::sample(std::vector<Vec3d>& points) const {
+double CpuBackend<Real>::work() const {
+  return static_cast<double>(particles_.count()) + kOutlierWork * static_cast<double>(list_.outliers().size());
+}
+
+// Outliers are few, and so are the places where they are.
+template <class Real>
+void CpuBackend<Real>::sample(std::vector<WeightedPoint>& points) const {
   constexpr std::size_t kStride = 16;
-  for (std::size_t i = 0; i < particles_.slots.end(); i += kStride) {
-    if (!is_vacant(particles_.records[i])) points.push_back(vec_cast<double>(particles_.records[i].x));
+  const auto add = [&](std::size_t i, double weight) {
+    if (!is_vacant(particles_.records[i])) points.push_back({vec_cast<double>(particles_.records[i].x), weight});
+  };
+  for (std::size_t i = 0; i < particles_.slots.end(); i += kStride) add(i, kStride);
+  for (const std::uint32_t i : list_.outliers()) {
+    if (i < particles_.slots.end()) add(i, kOutlierWork);
   }
 }
 
@@ -368,8 +382,10 @@ void CpuBackend<Real>::renumber(std::vector<std::uint32_t>& slots, std::size_t f
 
 template void CpuBackend<float>::assign_part(const ParticleSet& own, std::span<const IdRun> all);
 template void CpuBackend<double>::assign_part(const ParticleSet& own, std::span<const IdRun> all);
-template void CpuBackend<float>::sample(std::vector<Vec3d>& points) const;
-template void CpuBackend<double>::sample(std::vector<Vec3d>& points) const;
+template void CpuBackend<float>::sample(std::vector<WeightedPoint>& points) const;
+template void CpuBackend<double>::sample(std::vector<WeightedPoint>& points) const;
+template double CpuBackend<float>::work() const;
+template double CpuBackend<double>::work() const;
 template void CpuBackend<float>::move_out(const Decomposition& space, int here, std::vector<Parcel>& out);
 template void CpuBackend<double>::move_out(const Decomposition& space, int here, std::vector<Parcel>& out);
 template void CpuBackend<float>::move_in(std::span<const Parcel> in);

@@ -17,6 +17,7 @@
 
 #include "hooke/base/format.h"
 #include "hooke/base/printable.h"
+#include "hooke/base/process_usage.h"
 #include "hooke/comm/mpi/zoltan_cuts.h"
 
 namespace hooke {
@@ -158,10 +159,12 @@ class MpiCommunicator final : public Communicator {
     return std::make_unique<MpiChannel>(out, in, largest_message_);
   }
 
-  std::vector<Box3d> cut(std::span<const Vec3d> points) override {
+  std::vector<Box3d> cut(std::span<const WeightedPoint> points) override {
     if (!cuts_) cuts_ = std::make_unique<ZoltanCuts>();
     return cuts_->cut(points, size_);
   }
+
+  double processor_seconds() const override { return thread_processor_seconds(); }
 
   [[noreturn]] void abort(const std::string& why) override {
     std::fprintf(stderr, "hooke: rank %d: %s\n", rank_, printable(why, 1000).c_str());

@@ -21,11 +21,12 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // What is not finite is nowhere, and a bisection would look for it for ever.
-std::vector<Vec3d> finite(std::span<const Vec3d> points) {
-  std::vector<Vec3d> kept;
+std::vector<WeightedPoint> finite(std::span<const WeightedPoint> points) {
+  std::vector<WeightedPoint> kept;
   kept.reserve(points.size());
-  for (const Vec3d& x : points) {
-    if (std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z)) kept.push_back(x);
+  for (const WeightedPoint& p : points) {
+    HOOKE_ASSERT(p.weight > 0, p.weight);
+    if (std::isfinite(p.at.x) && std::isfinite(p.at.y) && std::isfinite(p.at.z)) kept.push_back(p);
   }
   return kept;
 }
@@ -38,11 +39,11 @@ std::uint64_t count_on_all_ranks(std::uint64_t count) {
 constexpr Box3d kSpace = {{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
 
 // Equal slabs along x, between the outermost points.
-std::vector<Box3d> slabs(const std::vector<Vec3d>& points, int ranks) {
+std::vector<Box3d> slabs(const std::vector<WeightedPoint>& points, int ranks) {
   double most[2] = {-kInfinity, -kInfinity};  // of -x, of x
-  for (const Vec3d& x : points) {
-    most[0] = std::max(most[0], -x.x);
-    most[1] = std::max(most[1], x.x);
+  for (const WeightedPoint& p : points) {
+    most[0] = std::max(most[0], -p.at.x);
+    most[1] = std::max(most[1], p.at.x);
   }
   MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
   const bool is_somewhere = most[0] > -kInfinity;
@@ -64,7 +65,9 @@ void open_outer_faces(Box3d& box) {
 }
 
 // What Zoltan asks about points; `data` is the vector of them.
-const std::vector<Vec3d>& points_of(void* data) { return *static_cast<const std::vector<Vec3d>*>(data); }
+const std::vector<WeightedPoint>& points_of(void* data) {
+  return *static_cast<const std::vector<WeightedPoint>*>(data);
+}
 
 int dimensions(void*, int* error) {
   *error = ZOLTAN_OK;
@@ -74,18 +77,19 @@ int count(void* data, int* error) {
   *error = ZOLTAN_OK;
   return static_cast<int>(points_of(data).size());
 }
-void list(void* data, int, int, ZOLTAN_ID_PTR global, ZOLTAN_ID_PTR local, int, float*, int* error) {
+void list(void* data, int, int, ZOLTAN_ID_PTR global, ZOLTAN_ID_PTR local, int, float* weights, int* error) {
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   for (std::size_t i = 0; i < points_of(data).size(); ++i) {
     global[2 * i] = static_cast<ZOLTAN_ID_TYPE>(rank);
     global[2 * i + 1] = local[i] = static_cast<ZOLTAN_ID_TYPE>(i);
+    weights[i] = static_cast<float>(points_of(data)[i].weight);
   }
   *error = ZOLTAN_OK;
 }
 void positions(void* data, int, int, int count, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR local, int, double* at, int* error) {
   for (int i = 0; i < count; ++i) {
-    const Vec3d& x = points_of(data)[local[i]];
+    const Vec3d& x = points_of(data)[local[i]].at;
     for (int axis = 0; axis < 3; ++axis) *at++ = component(x, axis);
   }
   *error = ZOLTAN_OK;
@@ -95,7 +99,7 @@ void positions(void* data, int, int, int count, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR loc
 
 struct ZoltanCuts::Impl {
   Zoltan_Struct* zoltan = nullptr;
-  std::vector<Vec3d> points;  // for the callbacks
+  std::vector<WeightedPoint> points;  // for the callbacks
 };
 
 ZoltanCuts::ZoltanCuts() : impl_(std::make_unique<Impl>()) {
@@ -107,6 +111,7 @@ ZoltanCuts::ZoltanCuts() : impl_(std::make_unique<Impl>()) {
                                     {"LB_METHOD", "RCB"},
                                     {"NUM_GID_ENTRIES", "2"},
                                     {"NUM_LID_ENTRIES", "1"},
+                                    {"OBJ_WEIGHT_DIM", "1"},
                                     {"RETURN_LISTS", "NONE"},
                                     {"KEEP_CUTS", "1"},
                                     // Half-way between the points beside a cut, so that few lie on it.
@@ -121,7 +126,7 @@ ZoltanCuts::ZoltanCuts() : impl_(std::make_unique<Impl>()) {
 
 ZoltanCuts::~ZoltanCuts() { Zoltan_Destroy(&impl_->zoltan); }
 
-std::vector<Box3d> ZoltanCuts::cut(std::span<const Vec3d> points, int ranks) {
+std::vector<Box3d> ZoltanCuts::cut(std::span<const WeightedPoint> points, int ranks) {
   if (ranks == 1) return {kSpace};
   impl_->points = finite(points);
   // Zoltan's boxes overlap where there are fewer points than ranks.

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "hooke/base/box3.h"
-#include "hooke/base/vec3.h"
+#include "hooke/core/communicator.h"
 
 namespace hooke {
 
-/// Cuts space into boxes of about as many points each, by Zoltan's recursive coordinate bisection. All ranks make one,
-/// between MPI's start and end, and call it together.
+/// Cuts space into boxes whose points weigh about as much each, by Zoltan's recursive coordinate bisection. All ranks
+/// make one, between MPI's start and end, and call it together.
 class ZoltanCuts {
  public:
   ZoltanCuts();
@@ -21,7 +21,7 @@ class ZoltanCuts {
   ZoltanCuts& operator=(const ZoltanCuts&) = delete;
 
   /// Communicator::cut().
-  std::vector<Box3d> cut(std::span<const Vec3d> points, int ranks);
+  std::vector<Box3d> cut(std::span<const WeightedPoint> points, int ranks);
 
  private:
   struct Impl;
