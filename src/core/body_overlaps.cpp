@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <mutex>
+#include <utility>
 
 #include "hooke/base/assert.h"
 #include "hooke/base/parallel.h"
@@ -79,41 +80,72 @@ double largest_radius(const Scene& scene) {
   return largest;
 }
 
+// The walls and colliders of a scene, where they are at some time, and what particles do with them.
+class Finder {
+ public:
+  Finder(const Scene& scene, double time)
+      : scene_(scene),
+        colliders_(place_colliders<double>(scene, poses(scene, time), largest_radius(scene))),
+        walls_(scene.domain.walls()),
+        all_(scene) {}
+
+  void add(const ParticleSlice& particles) {
+    constexpr std::size_t kBlock = 4096;  // particles a piece of work
+    std::mutex mutex;                     // around the tally of all
+    parallel_ranges(particles.size(), kBlock, [&](std::size_t first, std::size_t last) {
+      Tally some(scene_);
+      for (std::size_t i = first; i < last; ++i)
+        look(particles.position[i], particles.id[i], scene_.materials[particles.material[i]].radius, some);
+      const std::lock_guard lock(mutex);
+      all_.add(some);
+    });
+  }
+  std::vector<BodyOverlap> result() const { return all_.result(); }
+
+ private:
+  static std::vector<ColliderPose> poses(const Scene& scene, double time) {
+    std::vector<ColliderPose> poses;
+    for (const Collider& collider : scene.colliders) poses.push_back(pose_at(collider, time));
+    return poses;
+  }
+
+  void look(const Vec3d& x, std::uint64_t id, double radius, Tally& tally) const {
+    for_each_wall(walls_, x, radius, 0, [&](int face, const Vec3d&, double overlap) {
+      tally.add_overlap(static_cast<std::size_t>(face), id, overlap / radius);
+    });
+    for (std::size_t n = 0; n < colliders_.all.size(); ++n) {
+      const PlacedCollider<double>& collider = colliders_.all[n];
+      if (!collider.near.contains(x)) continue;
+      const std::size_t body = kWalls + colliders_.of[n];
+      for_each_collider_face(collider, x, [&](const ColliderFace<double>& face) {
+        if (face.distance < radius) tally.add_overlap(body, id, (radius - face.distance) / radius);
+      });
+      if (!collider.shape.hollow && encloses(collider, x)) tally.add_inside(body, id);
+    }
+  }
+
+  const Scene& scene_;
+  PlacedColliders<double> colliders_;
+  Walls walls_;
+  Tally all_;
+};
+
 }  // namespace
 
 std::vector<BodyOverlap> find_body_overlaps(const Scene& scene, const ParticleSet& particles, double time) {
   HOOKE_ASSERT(are_particles_of(particles, scene), particles.size(), scene.materials.size());
-  std::vector<ColliderPose> poses;
-  for (const Collider& collider : scene.colliders) poses.push_back(pose_at(collider, time));
-  const PlacedColliders<double> colliders = place_colliders<double>(scene, poses, largest_radius(scene));
-  const Walls walls = scene.domain.walls();
+  Finder finder(scene, time);
+  finder.add(ParticleSlice(particles, 0, particles.size()));
+  return finder.result();
+}
 
-  constexpr std::size_t kBlock = 4096;  // particles a piece of work
-  Tally all(scene);
-  std::mutex mutex;  // around it
-  parallel_ranges(particles.size(), kBlock, [&](std::size_t first, std::size_t last) {
-    Tally some(scene);
-    for (std::size_t i = first; i < last; ++i) {
-      const Vec3d& x = particles.position[i];
-      const std::uint64_t id = particles.id[i];
-      const double radius = scene.materials[particles.material[i]].radius;
-      for_each_wall(walls, x, radius, 0, [&](int face, const Vec3d&, double overlap) {
-        some.add_overlap(static_cast<std::size_t>(face), id, overlap / radius);
-      });
-      for (std::size_t n = 0; n < colliders.all.size(); ++n) {
-        const PlacedCollider<double>& collider = colliders.all[n];
-        if (!collider.near.contains(x)) continue;
-        const std::size_t body = kWalls + colliders.of[n];
-        for_each_collider_face(collider, x, [&](const ColliderFace<double>& face) {
-          if (face.distance < radius) some.add_overlap(body, id, (radius - face.distance) / radius);
-        });
-        if (!collider.shape.hollow && encloses(collider, x)) some.add_inside(body, id);
-      }
-    }
-    const std::lock_guard lock(mutex);
-    all.add(some);
-  });
-  return all.result();
+Expected<std::vector<BodyOverlap>> find_body_overlaps_in_slices(const Scene& scene, const ParticleSlices& particles,
+                                                                double time) {
+  constexpr std::size_t kRows = std::size_t{1} << 18U;
+  Finder finder(scene, time);
+  auto visited = particles.visit(kRows, [&finder](const ParticleSlice& slice) { finder.add(slice); });
+  if (!visited) return fail(std::move(visited).error());
+  return finder.result();
 }
 
 }  // namespace hooke

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "hooke/base/expected.h"
 #include "hooke/core/contacts.h"
+#include "hooke/core/particle_slices.h"
 
 namespace hooke {
 
@@ -22,5 +24,9 @@ struct BodyOverlap {
 /// Every wall and every collider that particles of the scene (are_particles_of) overlap or are inside of at `time` (s):
 /// walls in the order of faces, then colliders in the scene's. Takes time and memory as there are particles.
 std::vector<BodyOverlap> find_body_overlaps(const Scene& scene, const ParticleSet& particles, double time = 0);
+
+/// The same for particles in slices; an error where they can't be visited.
+Expected<std::vector<BodyOverlap>> find_body_overlaps_in_slices(const Scene& scene, const ParticleSlices& particles,
+                                                                double time = 0);
 
 }  // namespace hooke

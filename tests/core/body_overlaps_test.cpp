@@ -8,6 +8,7 @@
 #include "hooke/core/free_space.h"
 #include "hooke/core/placed_colliders.h"
 #include "support/capsule_field.h"
+#include "support/small_slices.h"
 
 namespace hooke::test {
 namespace {
@@ -94,6 +95,15 @@ TEST(BodyOverlaps, FindsTheDeepestOfManyInAnyOrder) {
   EXPECT_EQ(found[0].deepest, 20009U);
   EXPECT_NEAR(found[0].ratio, (0.4 - 1e-4) / kRadius, 1e-9);
   EXPECT_NEAR(static_cast<double>(found[0].touching), 4000, 1);
+
+  const ParticleSet particles = particles_at(places);
+  const auto sliced = find_body_overlaps_in_slices(scene, SmallSlices(particles, 777));
+  ASSERT_TRUE(sliced && sliced->size() == 1);
+  EXPECT_EQ(sliced->front().deepest, found[0].deepest);
+  EXPECT_EQ(sliced->front().ratio, found[0].ratio);
+  EXPECT_EQ(sliced->front().touching, found[0].touching);
+  EXPECT_EQ(sliced->front().inside, found[0].inside);
+  EXPECT_FALSE(find_body_overlaps_in_slices(scene, SmallSlices(particles, 777, 1)));
 }
 
 TEST(FreeSpace, HasNoRoomInsideASolidOfAnyShape) {
