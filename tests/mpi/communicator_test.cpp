@@ -380,6 +380,9 @@ TEST(Cut, ManyTimes) {
 
 TEST(Cores, AtLeastOneForEachRank) { EXPECT_GE(own_cores(), 1); }
 
+// mpirun starts all of these ranks on this machine.
+TEST(Cores, AllRanksAreOnThisNode) { EXPECT_EQ(ranks_on_this_node(), all().size()); }
+
 }  // namespace
 
 // Joins the ranks that mpirun has started; they are left before the program ends.
