@@ -8,7 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <memory>
+#include <utility>
+#include <vector>
 
 #include "hooke/base/printable.h"
 #include "hooke/core/body_overlaps.h"
@@ -80,9 +81,10 @@ std::string soft_particles(const Simulation& simulation, const Measurements& now
 
 namespace {
 
+// None where the simulation has failed, which the next step will say.
 std::vector<BodyOverlap> body_overlaps(const Simulation& simulation) {
-  const std::shared_ptr<const Snapshot> now = simulation.snapshot();
-  return find_body_overlaps(simulation.scene(), now->particles, now->time);
+  auto found = find_body_overlaps_in_slices(simulation.scene(), *simulation.slices(), simulation.time());
+  return found ? std::move(*found) : std::vector<BodyOverlap>{};
 }
 
 std::string named(const BodyOverlap& body, const Scene& scene) {
