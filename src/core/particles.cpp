@@ -8,6 +8,8 @@
 
 #include "hooke/base/ascending.h"
 #include "hooke/base/assert.h"
+#include "hooke/base/hash.h"
+#include "hooke/core/particle_slices.h"
 #include "hooke/core/scene.h"
 
 namespace hooke {
@@ -75,6 +77,12 @@ bool are_particles_of(const ParticleSet& particles, const Scene& scene) {
   const auto is_known = [&](std::uint16_t material) { return material < scene.materials.size(); };
   return particles.columns_fit() && is_ascending(particles.id) &&
          std::all_of(particles.material.begin(), particles.material.end(), is_known);
+}
+
+std::uint64_t ParticleSlice::identity() const {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < size(); ++i) sum += combine64(mix64(id[i]), material[i]);
+  return sum;
 }
 
 }  // namespace hooke

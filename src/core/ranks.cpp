@@ -4,13 +4,15 @@
 #include "hooke/core/ranks.h"
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
 #include "hooke/base/assert.h"
 #include "hooke/base/bytes.h"
 #include "hooke/base/format.h"
+#include "hooke/base/hash.h"
 #include "hooke/base/process_usage.h"
 #include "hooke/core/particle_parcels.h"
 
@@ -98,16 +100,17 @@ std::vector<Parcel> Ranks::exchange(std::vector<Parcel> out, const Place& here) 
 // With assertions: ranks that come from different places say so. Without, they wait for each other for ever.
 void Ranks::expect_all([[maybe_unused]] const Place& here) {
 #if HOOKE_ASSERTIONS
-  struct Lines {
-    std::uint32_t least, most;
+  struct Places {
+    std::uint64_t least, most;
   };
-  Lines lines{here.line(), here.line()};
-  communicator_->combine(&lines, 1, sizeof lines, adding<Lines>([](const Lines& a, Lines& sum) {
+  const std::uint64_t place = combine64(std::hash<std::string_view>{}(here.file_name()), here.line());
+  Places places{place, place};
+  communicator_->combine(&places, 1, sizeof places, adding<Places>([](const Places& a, Places& sum) {
     sum = {std::min(sum.least, a.least), std::max(sum.most, a.most)};
   }));
-  if (lines.least == lines.most) return;
-  communicator_->abort(formatted("is at line {} of ranks.cpp, {}(), while other ranks are at lines {} to {}",
-                                 here.line(), here.function_name(), lines.least, lines.most));
+  if (places.least == places.most) return;
+  communicator_->abort(formatted("is at line {} of {}, {}(), while another rank is elsewhere", here.line(),
+                                 here.file_name(), here.function_name()));
 #endif
 }
 
@@ -161,7 +164,10 @@ void Ranks::exchange_particles(SharedParticles& shared) {
   end_interval(shared.own_count());
   RankBalance::Spread loads = RankBalance::Spread::of(shared.work() * balance_.slowness());
   combine(loads, [](const RankBalance::Spread& a, RankBalance::Spread& sum) { sum.add(a); });
-  if (balance_.wants_cut(loads)) cut(shared);
+  // Sums of times may differ between ranks in their last bits.
+  bool wanted = balance_.wants_cut(loads);
+  combine(wanted, [](const bool& a, bool& sum) { sum = sum || a; });
+  if (wanted) cut(shared);
   move();
 }
 
@@ -311,6 +317,23 @@ Removal Ranks::remove(Backend& backend, std::span<const std::uint64_t> ids) {
   return removal;
 }
 
+// Every rank keeps its particles and its box, and learns which ids there still are.
+void Ranks::forget_removed_ids(Backend& backend, const Scene& scene) {
+  ParticleSet own;
+  download(backend, scene.integrator, own);
+  std::vector<std::uint64_t> ids = own.id;
+  for (const Parcel& parcel : exchange(to_all_others(*communicator_, own.id))) {
+    const std::vector<std::uint64_t> theirs = values_of<std::uint64_t>(parcel.bytes);
+    ids.insert(ids.end(), theirs.begin(), theirs.end());
+  }
+  std::sort(ids.begin(), ids.end());
+  std::vector<IdRun> runs;
+  append_ids(runs, ids);
+  backend.shared()->assign_part(own, runs);
+  channel_ = nullptr;
+  stale_ = true;
+}
+
 RemovalSums Ranks::insert(Backend& backend, const Scene& scene, const ParticleSet& newborn) {
   if (is_serial()) return backend.insert(newborn);
   if (newborn.empty()) return {};
@@ -318,12 +341,7 @@ RemovalSums Ranks::insert(Backend& backend, const Scene& scene, const ParticleSe
   std::uint64_t count = shared.own_count();
   sum(count);
   // Ids of removed particles stay in the tables until these are mostly theirs.
-  if (shared.id_count() + newborn.size() > 4 * count + 65536) {
-    ParticleSet all;
-    download(backend, scene.integrator, all);
-    gather(all);
-    assign(backend, scene, all);
-  }
+  if (shared.id_count() + newborn.size() > 4 * count + 65536) forget_removed_ids(backend, scene);
   RemovalSums born = shared.insert_part(newborn, space_, communicator_->rank());
   const auto touches = [&](std::uint16_t m) { return scene.materials[m].interacts || shared.wants_all(); };
   if (std::none_of(newborn.material.begin(), newborn.material.end(), touches)) {

@@ -140,6 +140,7 @@ class Ranks {
   void end_interval(std::uint64_t particles);
   double computed_seconds() const;
   void exchange_particles(SharedParticles& shared);
+  void forget_removed_ids(Backend& backend, const Scene& scene);
   void share_torn(SharedParticles& shared);
   std::vector<WantedParticles> exchange_wanted(const SharedParticles& shared);
   void renew_ghosts(SharedParticles& shared);

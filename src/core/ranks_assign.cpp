@@ -16,7 +16,6 @@
 namespace hooke {
 namespace {
 
-constexpr std::size_t kSliceRows = std::size_t{1} << 20U;
 constexpr std::size_t kMostSamples = 1'000'000;
 
 // What rank 0 says before the others do as it does.
@@ -140,7 +139,6 @@ Expected<void> Ranks::take_part(const ParticleSlices& particles, std::vector<Wei
     for (const Parcel& parcel : exchange(std::move(out))) take_particles(parcel.bytes, own);
   };
   if (leads()) {
-    bool fit = true;
     auto visited = particles.visit(kSliceRows, [&](const ParticleSlice& slice) {
       try {
         append_ids(ids, slice.id);
@@ -148,10 +146,9 @@ Expected<void> Ranks::take_part(const ParticleSlices& particles, std::vector<Wei
         spread(*communicator_, Word::slice);
         take(std::move(out));
       } catch (const std::bad_alloc&) {
-        fit = false;
+        communicator_->abort("particles: a slice of them does not fit into memory");
       }
     });
-    if (!fit) throw std::bad_alloc();
     spread(*communicator_, visited ? Word::all : Word::failure);
     if (!visited) return visited;
   } else {

@@ -19,7 +19,7 @@ class Simulation::Impl::SlicesOfRanks final : public ParticleSlices {
   bool has_accelerations() const override { return header_.accelerated; }
   Expected<void> visit(std::size_t rows, const Take& take) const override {
     return simulation_.guarded([&]() -> Expected<void> {
-      HOOKE_ASSERT(simulation_.own_part != nullptr);  // else the simulation has changed
+      if (!simulation_.own_part) return fail(Error::Kind::bad_input, "slices", "the simulation has changed since");
       simulation_.visit(rows, take);
       return {};
     });
@@ -101,9 +101,13 @@ void Simulation::Impl::gather(ParticleSet& particles) {
 SlicesHeader Simulation::Impl::begin_slices() {
   lead(Order::slices);
   if (!own_part) {
-    auto own = std::make_shared<ParticleSet>();
-    download(*backend, scene.integrator, *own);
-    own_part = std::move(own);
+    const auto copied = guarded([&]() -> Expected<void> {
+      auto own = std::make_shared<ParticleSet>();
+      download(*backend, scene.integrator, *own);
+      own_part = std::move(own);
+      return {};
+    });
+    if (!copied) own_part = std::make_shared<ParticleSet>();  // the simulation has failed: a visit will say so
   }
   SlicesHeader header{own_part->size(), SlicesOfSet(*own_part).identity(), !own_part->acceleration.empty()};
   ranks.sum(header);

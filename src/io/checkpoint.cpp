@@ -184,11 +184,13 @@ Expected<void> write_checkpoint(const std::filesystem::path& path, const Simulat
       write_content(file, state, particles, info);
       file.close();
       append_seal(unfinished);
-    } catch (const Failure& failure) {
+    } catch (const std::exception& any) {
       std::error_code ignored;
       std::filesystem::remove(unfinished, ignored);
       // The caller knows only the file's final name.
-      throw Failure(Error::Kind::io, path, failure.error().findings.front().message);
+      const auto* failure = dynamic_cast<const Failure*>(&any);
+      if (failure == nullptr || failure->error().findings.front().where != unfinished.string()) throw;
+      throw Failure(Error::Kind::io, path, failure->error().findings.front().message);
     }
     publish(target);
   });

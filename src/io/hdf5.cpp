@@ -325,7 +325,7 @@ void Column::read(hsize_t start, hsize_t count, hid_t type, void* data) const {
 hsize_t Column::next_chunk(hsize_t rows) const { return (rows + chunk_rows_ - 1) / chunk_rows_ * chunk_rows_; }
 
 template <class Real>
-hsize_t Column::append_chunks(const Real* values, hsize_t count) {
+void Column::append_chunks(const Real* values, hsize_t count) {
   const hsize_t first = next_chunk(rows_);
   resize(next_chunk(first + count));
   std::vector<Real> last;  // padded with zeros
@@ -343,11 +343,10 @@ hsize_t Column::append_chunks(const Real* values, hsize_t count) {
       fail("a table can't be written");
     }
   }
-  return first;
 }
 
-template hsize_t Column::append_chunks(const float*, hsize_t);
-template hsize_t Column::append_chunks(const double*, hsize_t);
+template void Column::append_chunks(const float*, hsize_t);
+template void Column::append_chunks(const double*, hsize_t);
 
 Handle create_group(hid_t parent, const char* name) {
   return Handle(check(H5Gcreate2(parent, name, H5P_DEFAULT, without_times(H5P_GROUP_CREATE).get(), H5P_DEFAULT), parent,

@@ -88,10 +88,10 @@ class Column {
   void write(hsize_t start, hsize_t count, hid_t type, const void* data);
   void read(hsize_t start, hsize_t count, hid_t type, void* data) const;
 
-  /// Appends rows of floating-point numbers from the next chunk on, compressed by shuffle_deflate; returns their first
-  /// row. For columns created as compressed.
+  /// Appends rows of floating-point numbers from the next chunk on, compressed by shuffle_deflate. For columns created
+  /// as compressed.
   template <class Real>
-  hsize_t append_chunks(const Real* values, hsize_t count);
+  void append_chunks(const Real* values, hsize_t count);
 
   /// Throws a Failure that says how this table's file is damaged.
   [[noreturn]] void fail(const std::string& how) const;

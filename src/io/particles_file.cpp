@@ -319,11 +319,6 @@ void ParticlesFile::cut(std::size_t snapshots) {
   }
 }
 
-void ParticlesFile::append(const Snapshot& snapshot) {
-  HOOKE_ASSERT(snapshot.particles.columns_fit(), snapshot.particles.size());
-  append(snapshot.step, snapshot.time, SlicesOfSet(snapshot.particles));
-}
-
 void ParticlesFile::append(std::int64_t step, double time, const ParticleSlices& particles) {
   HOOKE_ASSERT(!last_step_ || step > *last_step_, step, *last_step_);
   try {

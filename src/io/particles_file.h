@@ -46,7 +46,6 @@ class ParticlesFile {
   ParticlesFile& operator=(ParticlesFile&&) noexcept;
 
   /// Steps must ascend.
-  void append(const Snapshot& snapshot);
   void append(std::int64_t step, double time, const ParticleSlices& particles);
   std::optional<std::int64_t> last_step() const { return last_step_; }
 

@@ -13,9 +13,6 @@
 
 namespace hooke::io {
 
-/// Rows that files take at a time: 60 to 80 MB of particles.
-inline constexpr std::size_t kSliceRows = std::size_t{1} << 20U;
-
 /// Calls `write`, which may throw, with slices of `rows` particles until it throws. What it has thrown is thrown again
 /// when all have been handed over: where several ranks hand over theirs, none of them waits for another.
 template <class Write>

@@ -52,7 +52,6 @@ ParticlesFile ParticlesFile::create(const std::filesystem::path& path, const Run
 ParticlesFile ParticlesFile::update(const std::filesystem::path& path, const RunInfo&, std::int64_t) {
   throw Failure(needs_hdf5(path));
 }
-void ParticlesFile::append(const Snapshot&) {}
 void ParticlesFile::append(std::int64_t, double, const ParticleSlices&) {}
 void ParticlesFile::sync() const {}
 

@@ -37,14 +37,14 @@ class IdTable {
 
   /// Adds an id above all others.
   void append(std::uint64_t id) { append(id, 1); }
-  /// The same for consecutive ids, `count` of them.
-  void append(std::uint64_t first, std::size_t count) {
-    HOOKE_ASSERT(size() == 0 || first > (*this)[size() - 1], first, size());
+  /// The same for `count` consecutive ids from this one on.
+  void append(std::uint64_t id, std::size_t count) {
+    HOOKE_ASSERT(size() == 0 || id > (*this)[size() - 1], id, size());
     if (count == 0) return;
-    if (consecutive_ == 0) first_ = first;
-    if (first != first_ + consecutive_) {
+    if (consecutive_ == 0) first_ = id;
+    if (id != first_ + consecutive_) {
       for (std::size_t k = 0; k < consecutive_; ++k) ids_.push_back(first_ + k);
-      first_ = first;
+      first_ = id;
       consecutive_ = 0;
     }
     consecutive_ += count;

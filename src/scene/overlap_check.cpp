@@ -22,6 +22,9 @@ namespace {
 // do not overlap.
 constexpr double kBytesPerPair = 16;
 
+// 256 MB of them. Beyond that cells share counters, and the estimate is too high: then pairs are counted.
+constexpr double kMostCounters = 1U << 26U;
+
 double largest_radius(const Scene& scene, const ParticleSet& particles) {
   double radius = 0;
   for (const std::uint16_t m : particles.material) radius = std::max(radius, scene.materials[m].radius);
@@ -40,7 +43,7 @@ double needed_for_pairs(double pairs, const LoadOptions& options) { return kByte
 
 PairEstimate::PairEstimate(double radius, double particles)
     : radius_(radius),
-      count_(std::bit_ceil(static_cast<std::size_t>(std::clamp(particles, 1.0, 1e15)))) {}
+      count_(std::bit_ceil(static_cast<std::size_t>(std::clamp(particles, 1.0, kMostCounters)))) {}
 
 void PairEstimate::add(std::span<const Vec3d> positions) {
   const auto cell = [radius = radius_](double x) {

@@ -24,6 +24,9 @@ struct ParticleSource {
   std::filesystem::path file;
 };
 
+/// Whether any of its particles can be made without the others.
+inline bool is_lattice(const ParticleSource& source) { return source.block && source.block->lattice != "random"; }
+
 /// About how many particles it will have.
 double expected_count(const ParticleSource& source);
 

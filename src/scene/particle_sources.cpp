@@ -23,6 +23,7 @@ namespace {
 
 constexpr const char* kTies[] = {"cloths", "bodies", "springs"};
 constexpr std::size_t kMostFindings = 20;  // of one kind, about the particles of one source
+constexpr double kBytesPerHeldParticle = 120;  // on the host, and once more while its columns grow
 
 // The range of one source's particles among all particles.
 struct Span {
@@ -66,12 +67,19 @@ class Loader {
     }
   }
 
-  // Whether there is memory for the planned particles.
-  bool fits() {
-    double particles = 0;
-    for (const ParticleSource& source : sources_) particles += expected_count(source);
+  // Whether there is memory for the planned particles: for this machine's share of them, and for those that are held
+  // as a whole, all or the largest source, while others get theirs.
+  bool fits(bool holds_all) {
+    double particles = 0, held = 0;
+    for (const ParticleSource& source : sources_) {
+      const double count = expected_count(source);
+      particles += count;
+      if (!is_lattice(source)) held = std::max(held, count);
+    }
+    if (holds_all) held = particles;
     const std::uint64_t limit = options_.memory_limit != 0 ? options_.memory_limit : available_memory();
-    const double needed = particles * kBytesPerParticle * options_.share_here;
+    const double share = options_.share_here;
+    const double needed = particles * kBytesPerParticle * share + held * kBytesPerHeldParticle * (1 - share);
     if (limit == 0 || needed <= static_cast<double>(limit)) return true;
     findings_.add("particles", fmt::format("are about {:.0f} and need about {} of memory; {} are available", particles,
                                            in_bytes(needed), in_bytes(static_cast<double>(limit))));
@@ -332,8 +340,9 @@ ParticleSet load_particles(const Json& json, const Scene& scene, const std::file
   if (entries == json.end() || !entries->is_array()) return {};
   Loader loader(scene, folder, options, findings, warnings);
   loader.plan(*entries);
-  if (!options.with_particles || !loader.fits()) return {};
-  if (options.in_slices && !ties_particles(json)) {
+  const bool in_slices = options.in_slices && !ties_particles(json);
+  if (!options.with_particles || !loader.fits(!in_slices)) return {};
+  if (in_slices) {
     slices = loader.make_slices();
     if (slices) return {};
   }

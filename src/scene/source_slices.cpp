@@ -14,8 +14,6 @@
 namespace hooke::scene {
 namespace {
 
-bool is_lattice(const ParticleSource& source) { return source.block && source.block->lattice != "random"; }
-
 // Whether ids ascend, and are all above those before.
 bool go_on(const std::vector<std::uint64_t>& ids, std::uint64_t before) {
   if (ids.empty()) return true;
@@ -121,12 +119,18 @@ bool SourceSlices::prepare(const LoadOptions& options, std::vector<Finding>& war
 std::uint64_t SourceSlices::size() const { return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0}); }
 
 Expected<void> SourceSlices::visit(std::size_t rows, const Take& take) const {
-  Slicer slicer(rows, take);
+  std::uint64_t identity = 0;
+  const Take take_noted = [&](const ParticleSlice& slice) {
+    identity += slice.identity();
+    take(slice);
+  };
+  Slicer slicer(rows, take_noted);
   for (std::size_t s = 0; s < sources_.size(); ++s) {
     if (auto held = is_lattice(sources_[s]) ? Expected<void>() : hold(s); !held) return held;
     hand_out(s, slicer);
   }
   slicer.finish();
+  if (identity != identity_) return fail(Error::Kind::io, "particles", "a file of them has changed while it was read");
   return {};
 }
 

@@ -210,6 +210,26 @@ TEST_F(Ranks, AFullDiskIsReportedOnce) {
   EXPECT_EQ(state_hash("full"), state_hash("whole"));
 }
 
+// More particles than a file takes at a time (2^20): its bytes follow from how they are cut into slices.
+TEST_F(Ranks, WriteFilesOfManySlicesLikeOneProcess) {
+  write("many.json", R"({ "hooke": 1, "name": "many", "time": { "step": 0.002, "steps": 3 }, "gravity": [0, -9.8, 0],
+    "domain": { "min": [0, 0, 0], "max": [48, 44, 44] },
+    "materials": { "water": { "radius": 0.2, "mass": 1, "stiffness": 6000, "shear": 2, "damping": 8 } },
+    "particles": [ { "material": "water", "block": { "min": [0.2, 0.2, 0.2], "max": [43.8, 43.8, 43.8], "spacing": 0.4,
+                                                     "jitter": 0.01, "seed": 1 } } ],
+    "output": { "every_steps": 2 } })");
+  hooke_ok({"run", "many.json", "-o", "one"});
+  ASSERT_GT(figures("one").at("particles"), 1'100'000);
+  for (const int ranks : {2, 3}) {
+    const std::string folder = std::to_string(ranks);
+    ok_on(ranks, {"run", "many.json", "-o", folder});
+    expect_equal_runs("one", folder);
+  }
+  hooke_ok({"run", "many.json", "-o", "one-later", "--resume", "one/checkpoint.h5", "--steps", "6"});
+  ok_on(3, {"run", "many.json", "-o", "later", "--resume", "2/checkpoint.h5", "--steps", "6"});
+  expect_equal_runs("one-later", "later");
+}
+
 // One of three is killed, so many times, each time another one at another moment: a few times after every change, many
 // times in the long tests.
 class RanksOfWhichOneIsKilled : public Ranks, public testing::WithParamInterface<int> {};

@@ -19,8 +19,8 @@ std::vector<std::byte>& parcel_to(int rank, std::vector<Parcel>& out) {
   return begun != out.end() ? begun->bytes : out.emplace_back(Parcel{rank, {}}).bytes;
 }
 
-// The work of an outlier, in units of that of a calm particle. Handling it costs some 15 of these for as long as it is
-// one; it has not been one for all of a list's life.
+// The work of an outlier beyond that of a calm particle, in units of the latter. Handling it costs some 15 of these for
+// as long as it is one; it has not been one for all of a list's life.
 constexpr double kOutlierWork = 4;
 
 // x and v, which change in every step.
@@ -41,7 +41,9 @@ void CpuBackend<Real>::assign_part(const ParticleSet& own, std::span<const IdRun
 
 template <class Real>
 double CpuBackend<Real>::work() const {
-  return static_cast<double>(particles_.count()) + kOutlierWork * static_cast<double>(list_.outliers().size());
+  const auto outliers = std::count_if(list_.outliers().begin(), list_.outliers().end(),
+                                      [&](std::uint32_t i) { return i < particles_.slots.end(); });  // no ghosts
+  return static_cast<double>(particles_.count()) + kOutlierWork * static_cast<double>(outliers);
 }
 
 // Outliers are few, and so are the places where they are.
