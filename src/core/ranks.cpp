@@ -103,14 +103,16 @@ void Ranks::expect_all([[maybe_unused]] const Place& here) {
   struct Places {
     std::uint64_t least, most;
   };
-  const std::uint64_t place = combine64(std::hash<std::string_view>{}(here.file_name()), here.line());
+  std::string_view file = here.file_name();
+  file.remove_prefix(file.rfind('/') + 1);
+  const std::uint64_t place = combine64(std::hash<std::string_view>{}(file), here.line());
   Places places{place, place};
   communicator_->combine(&places, 1, sizeof places, adding<Places>([](const Places& a, Places& sum) {
     sum = {std::min(sum.least, a.least), std::max(sum.most, a.most)};
   }));
   if (places.least == places.most) return;
-  communicator_->abort(formatted("is at line {} of {}, {}(), while another rank is elsewhere", here.line(),
-                                 here.file_name(), here.function_name()));
+  communicator_->abort(
+      formatted("is at line {} of {}, {}(), while another rank is elsewhere", here.line(), file, here.function_name()));
 #endif
 }
 

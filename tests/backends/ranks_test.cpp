@@ -374,7 +374,7 @@ TEST(RanksDeathTest, ThatDisagreeSaySo) {
                            std::uint64_t one = 1;
                            rank == 0 ? ranks.sum(one) : (void)ranks.first({});
                          }),
-               "is at line [0-9]+ of ranks.cpp.* while other ranks are at lines");
+               "is at line [0-9]+ of ranks.cpp.* while another rank is elsewhere");
 }
 #endif
 

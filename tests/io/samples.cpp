@@ -147,25 +147,6 @@ bool same(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
 
 }  // namespace
 
-std::uint64_t SmallSlices::identity() const {
-  std::uint64_t sum = 0;
-  for (std::size_t first = 0; first < set_.size(); first += rows_) {
-    sum += ParticleSlice(set_, first, std::min(rows_, set_.size() - first)).identity();
-  }
-  return sum;
-}
-
-Expected<void> SmallSlices::visit(std::size_t, const Take& take) const {
-  for (std::size_t first = 0; first < set_.size(); first += rows_) {
-    const std::size_t count = std::min(rows_, set_.size() - first);
-    if (first + count > most_) {
-      return fail(Error::Kind::io, "slices", "ends after " + std::to_string(most_) + " particles");
-    }
-    take(ParticleSlice(set_, first, count));
-  }
-  return {};
-}
-
 bool same(const ParticleSet& a, const ParticleSet& b) {
   return a.id == b.id && a.material == b.material && same(a.position, b.position) && same(a.velocity, b.velocity) &&
          same(a.acceleration, b.acceleration);

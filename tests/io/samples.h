@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "hooke/core/particle_slices.h"
 #include "hooke/io/run_folder.h"
 
 namespace hooke::samples {
@@ -46,24 +45,6 @@ io::RunReader write_run(const std::filesystem::path& folder, const io::RunInfo& 
 /// Exports all snapshots of a run and returns the files. Throws where that fails.
 std::vector<std::filesystem::path> export_all(const io::RunReader& run, const std::filesystem::path& file,
                                               const Scene* scene = nullptr);
-
-/// The particles of a set in slices of `rows`, however many are asked for. Ends with an error before it has handed over
-/// more than `most` particles.
-class SmallSlices final : public ParticleSlices {
- public:
-  SmallSlices(const ParticleSet& set, std::size_t rows, std::size_t most = ~std::size_t{0})
-      : set_(set),
-        rows_(rows),
-        most_(most) {}
-  std::uint64_t size() const override { return set_.size(); }
-  std::uint64_t identity() const override;
-  bool has_accelerations() const override { return !set_.acceleration.empty(); }
-  Expected<void> visit(std::size_t rows, const Take& take) const override;
-
- private:
-  const ParticleSet& set_;
-  std::size_t rows_, most_;
-};
 
 /// Whether ids, materials, positions and velocities (and accelerations) are the same bits.
 bool same(const ParticleSet& a, const ParticleSet& b);
