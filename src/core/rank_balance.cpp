@@ -10,7 +10,6 @@ namespace hooke {
 namespace {
 
 constexpr double kMostUneven = 1.05;    // beyond what the last cut has reached
-constexpr double kLossPerCut = 3;       // what must have been lost, over what a cut takes
 constexpr double kFew = 64;             // units of work that don't matter
 constexpr double kRecentSteps = 100;    // after which a step counts 1/e
 constexpr double kKnownAfter = 50;      // steps: now and then one is interrupted
@@ -52,12 +51,11 @@ void RankBalance::end_interval(const Interval& all) {
   slowness_ = std::clamp(cost / mean_cost_, 1 / kMostSlowness, kMostSlowness);
 }
 
-// A cut pays when as much has been lost since the last one as it costs. The loss is counted by the work at the end of a
-// list's life, when outliers are most: it is some three times too large.
+// A cut pays when what has been lost since the last one is what one costs.
 bool RankBalance::wants_cut(const Spread& loads) {
   const double beyond = loads.most - (loads.sum / ranks_ + kFew) * reached_;
   lost_ += std::max(0.0, beyond) * mean_cost_ * static_cast<double>(interval_steps_);
-  return loads.uneven(ranks_, kFew) > kMostUneven * reached_ && lost_ >= kLossPerCut * mean_cut_seconds_;
+  return loads.uneven(ranks_, kFew) > kMostUneven * reached_ && lost_ >= mean_cut_seconds_;
 }
 
 void RankBalance::begin_anew(const Spread& loads, double slowness, double work, double seconds) {

@@ -71,11 +71,11 @@ Ranks::Ranks(std::shared_ptr<Communicator> communicator) : communicator_(std::mo
 
 double Ranks::computed_seconds() const { return communicator_->processor_seconds() - waited_; }
 
-Ranks::Step::Step(Ranks& ranks, Backend& backend)
+Ranks::ForcePass::ForcePass(Ranks& ranks, Backend& backend)
     : ranks_(ranks),
       backend_(backend),
       start_(ranks.is_serial() ? 0 : ranks.computed_seconds()) {}
-Ranks::Step::~Step() {
+Ranks::ForcePass::~ForcePass() {
   if (ranks_.is_serial()) return;
   ranks_.balance_.add_step(ranks_.computed_seconds() - start_, backend_.shared()->work());
 }

@@ -36,7 +36,7 @@ struct RankCosts {
   std::uint64_t exchanges = 0;  ///< times that all ranks got new ghosts
   std::uint64_t cuts = 0;       ///< times that the ranks' boxes were cut
   double uneven_particles = 1;  ///< the largest count of particles over the mean, on average over the steps
-  double uneven_time = 1;       ///< of the time that a rank computes from one exchange to the next, likewise
+  double uneven_time = 1;       ///< of the time of force passes from one exchange to the next, likewise
 };
 
 /// What all ranks' particles are together.
@@ -60,13 +60,14 @@ class Ranks {
 
   // A step -----------------------------------------------------------------------------------------------------------
 
-  /// Around each step: notes how long this rank computes, for the balance.
-  class Step {
+  /// Around the force pass of each step: notes how long this rank takes for it, for the balance. It is most of a step,
+  /// and right after it ranks wait for each other: what else they do, lists and outliers, they do between other waits.
+  class ForcePass {
    public:
-    Step(Ranks& ranks, Backend& backend);
-    ~Step();
-    Step(const Step&) = delete;
-    Step& operator=(const Step&) = delete;
+    ForcePass(Ranks& ranks, Backend& backend);
+    ~ForcePass();
+    ForcePass(const ForcePass&) = delete;
+    ForcePass& operator=(const ForcePass&) = delete;
 
    private:
     Ranks& ranks_;

@@ -35,7 +35,6 @@ std::int64_t apply_forces_in_a_row(const Scene& scene, Backend& backend, const R
 // Algorithm 3 of the thesis, with what has been added to it since: the cell list is rebuilt when it must be rather than
 // in every step, velocity Verlet has a half step of its own in front, and particles come and go at the end.
 Condition take_step(const Scene& scene, Backend& backend, Ranks& ranks, RunState& run, std::int64_t most) {
-  const Ranks::Step timed(ranks, backend);
   const bool verlet = scene.integrator == Integrator::velocity_verlet;
   const auto finish_motion = [&](const Condition& found) {
     const Condition on_any_rank = ranks.follow_motion(backend, found);
@@ -65,6 +64,7 @@ Condition take_step(const Scene& scene, Backend& backend, Ranks& ranks, RunState
   if (most > 1) {
     run.step += apply_forces_in_a_row(scene, backend, run, now, most, report) - 1;
   } else {
+    const Ranks::ForcePass timed(ranks, backend);
     backend.apply_forces(now, report);
   }
   run.ledger.book_step(report, scene);

@@ -19,10 +19,6 @@ std::vector<std::byte>& parcel_to(int rank, std::vector<Parcel>& out) {
   return begun != out.end() ? begun->bytes : out.emplace_back(Parcel{rank, {}}).bytes;
 }
 
-// The work of an outlier beyond that of a calm particle, in units of the latter. Handling it costs some 15 of these for
-// as long as it is one; it has not been one for all of a list's life.
-constexpr double kOutlierWork = 4;
-
 // x and v, which change in every step.
 template <class Real>
 struct Moving {
@@ -41,21 +37,14 @@ void CpuBackend<Real>::assign_part(const ParticleSet& own, std::span<const IdRun
 
 template <class Real>
 double CpuBackend<Real>::work() const {
-  const auto outliers = std::count_if(list_.outliers().begin(), list_.outliers().end(),
-                                      [&](std::uint32_t i) { return i < particles_.slots.end(); });  // no ghosts
-  return static_cast<double>(particles_.count()) + kOutlierWork * static_cast<double>(outliers);
+  return static_cast<double>(particles_.count());
 }
 
-// Outliers are few, and so are the places where they are.
 template <class Real>
 void CpuBackend<Real>::sample(std::vector<WeightedPoint>& points) const {
   constexpr std::size_t kStride = 16;
-  const auto add = [&](std::size_t i, double weight) {
-    if (!is_vacant(particles_.records[i])) points.push_back({vec_cast<double>(particles_.records[i].x), weight});
-  };
-  for (std::size_t i = 0; i < particles_.slots.end(); i += kStride) add(i, kStride);
-  for (const std::uint32_t i : list_.outliers()) {
-    if (i < particles_.slots.end()) add(i, kOutlierWork);
+  for (std::size_t i = 0; i < particles_.slots.end(); i += kStride) {
+    if (!is_vacant(particles_.records[i])) points.push_back({vec_cast<double>(particles_.records[i].x), kStride});
   }
 }
 
