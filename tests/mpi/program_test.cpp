@@ -257,11 +257,11 @@ TEST_P(RanksOfWhichOneIsKilled, EndAndLeaveACheckpointThatIsGood) {
   Program whole = start_three("whole", ranks);
   const auto begin = Clock::now();
   ASSERT_EQ(whole.wait().status, 0);
-  const auto length = std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - begin).count();
+  auto length = std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - begin).count();
 
   std::mt19937 random(7);
   int killed = 0, resumed = 0;
-  for (int round = 0; round < GetParam(); ++round) {
+  for (int round = 0; (killed < GetParam() || resumed == 0) && round < 10 * GetParam(); ++round) {
     const std::size_t which = random() % 3;
     const auto delay = std::chrono::microseconds(static_cast<std::int64_t>(random() % 900) * length / 1000);
     SCOPED_TRACE(testing::Message() << "round " << round << ": rank " << which << " after " << delay.count() << " us");
@@ -272,6 +272,7 @@ TEST_P(RanksOfWhichOneIsKilled, EndAndLeaveACheckpointThatIsGood) {
     if (exists(part + "/report.json") || kill(ranks[which], SIGKILL) != 0) {  // it was faster than the whole
       EXPECT_EQ(program.wait().status, 0);
       EXPECT_EQ(state_hash(part), state_hash("whole"));
+      length = length * 2 / 3;
       continue;
     }
     const auto start = Clock::now();
@@ -284,7 +285,7 @@ TEST_P(RanksOfWhichOneIsKilled, EndAndLeaveACheckpointThatIsGood) {
     EXPECT_EQ(state_hash(part), state_hash("whole"));
     ++resumed;
   }
-  EXPECT_GT(2 * killed, GetParam());
+  EXPECT_GE(killed, GetParam());
   EXPECT_GT(resumed, 0);
 }
 
