@@ -6,9 +6,9 @@
 
 namespace hooke {
 
-/// How evenly ranks share the work of a scene, and when other boxes pay. How much work a rank's particles make is
-/// estimated as they are now; how long it takes is measured, as a mean over many steps. Each rank has one of these;
-/// what it decides from are sums over all ranks, so that all decide alike.
+/// How evenly ranks share the work of a scene, and when other boxes pay. A unit of work is a particle in the force
+/// pass; how long it takes is measured, as a mean over many steps. Each rank has one of these; what it decides from are
+/// sums over all ranks, so that all decide alike.
 class RankBalance {
  public:
   /// A number of each rank: their sum, and the largest.

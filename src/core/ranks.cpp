@@ -77,7 +77,7 @@ Ranks::ForcePass::ForcePass(Ranks& ranks, Backend& backend)
       start_(ranks.is_serial() ? 0 : ranks.computed_seconds()) {}
 Ranks::ForcePass::~ForcePass() {
   if (ranks_.is_serial()) return;
-  ranks_.balance_.add_step(ranks_.computed_seconds() - start_, backend_.shared()->work());
+  ranks_.balance_.add_step(ranks_.computed_seconds() - start_, static_cast<double>(backend_.shared()->own_count()));
 }
 
 template <class T, class Body>
@@ -163,8 +163,9 @@ void Ranks::exchange_particles(SharedParticles& shared) {
     shared.move_out(space_, communicator_->rank(), out);
     shared.move_in(exchange(std::move(out)));
   };
-  end_interval(shared.own_count());
-  RankBalance::Spread loads = RankBalance::Spread::of(shared.work() * balance_.slowness());
+  const std::uint64_t own = shared.own_count();
+  end_interval(own);
+  RankBalance::Spread loads = RankBalance::Spread::of(static_cast<double>(own) * balance_.slowness());
   combine(loads, [](const RankBalance::Spread& a, RankBalance::Spread& sum) { sum.add(a); });
   // Sums of times may differ between ranks in their last bits.
   bool wanted = balance_.wants_cut(loads);

@@ -97,7 +97,6 @@ class Ranks {
   /// Deals particles out: `particles` are rank 0's, which visits them twice. Where it can't, all ranks return an error,
   /// rank 0 that of the visit, and the back ends' particles are not to be relied on.
   Expected<void> assign(Backend& backend, const Scene& scene, const ParticleSlices& particles);
-  void assign(Backend& backend, const Scene& scene, const ParticleSet& particles);
 
   // What is asked of the whole scene ---------------------------------------------------------------------------------
 

@@ -94,11 +94,6 @@ std::vector<Parcel> dealt(const Decomposition& space, const ParticleSlice& slice
 
 }  // namespace
 
-void Ranks::assign(Backend& backend, const Scene& scene, const ParticleSet& particles) {
-  const auto assigned = assign(backend, scene, SlicesOfSet(particles));
-  HOOKE_ASSERT(assigned.has_value());
-}
-
 Expected<void> Ranks::assign(Backend& backend, const Scene& scene, const ParticleSlices& particles) {
   if (is_serial()) {
     if (const ParticleSet* const set = particles.set()) {

@@ -84,9 +84,7 @@ class SharedParticles {
   /// runs next to each other. There are no ghosts then, and the neighbour list is stale.
   virtual void assign_part(const ParticleSet& own, std::span<const IdRun> all) = 0;
 
-  /// What its particles cost in a step, in units of what a calm particle does: an estimate.
-  virtual double work() const = 0;
-  /// Adds the positions (m) of some of its particles, each with the work of those that it stands for.
+  /// Adds the positions (m) of some of its particles, each with the number of those that it stands for.
   virtual void sample(std::vector<WeightedPoint>& points) const = 0;
 
   // New ghosts, each time before a list is built ---------------------------------------------------------------------

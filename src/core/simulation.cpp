@@ -18,8 +18,6 @@
 namespace hooke {
 namespace {
 
-Unexpected no_backend() { return fail(Error::Kind::bad_input, "backend", "there is none: it is null"); }
-
 template <class Real>
 void copy_columns(const ParticleSet& from, const ParticleColumns<Real>& to) {
   const auto vectors = [](const std::vector<Vec3d>& column, Vec3<Real>* out) {

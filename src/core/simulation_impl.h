@@ -19,6 +19,8 @@
 
 namespace hooke {
 
+inline Unexpected no_backend() { return fail(Error::Kind::bad_input, "backend", "there is none: it is null"); }
+
 struct Simulation::Impl {
   explicit Impl(std::shared_ptr<Communicator> communicator) : ranks(std::move(communicator)) {}
   ~Impl() { lead(Order::end); }

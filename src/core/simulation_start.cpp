@@ -44,7 +44,7 @@ Expected<Simulation> Simulation::create_in_slices(Scene scene, std::shared_ptr<c
     return create(std::move(scene), std::move(*all), std::move(backend), options);
   }
   auto impl = std::make_unique<Impl>(options.communicator);
-  if (backend == nullptr) return fail(Error::Kind::bad_input, "backend", "there is none: it is null");
+  if (backend == nullptr) return no_backend();
   const FloatingPointGuard guard;
   std::uint64_t largest_id = 0;
   std::vector<Finding> findings = validate(scene);
@@ -71,7 +71,7 @@ Expected<Simulation> Simulation::resume_in_slices(Scene scene, SimulationState s
                                                   std::unique_ptr<Backend> backend,
                                                   std::shared_ptr<Communicator> communicator) {
   auto impl = std::make_unique<Impl>(std::move(communicator));
-  if (backend == nullptr) return fail(Error::Kind::bad_input, "backend", "there is none: it is null");
+  if (backend == nullptr) return no_backend();
   const FloatingPointGuard guard;
   std::vector<Finding> findings = validate(scene);
   if (!findings.empty()) return fail(Error{Error::Kind::bad_input, std::move(findings)});

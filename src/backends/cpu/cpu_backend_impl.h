@@ -160,7 +160,6 @@ class CpuBackend final : public Backend, private SharedParticles {
   using Traveller = typename ParticleState<Real>::Traveller;
 
   void assign_part(const ParticleSet& own, std::span<const IdRun> all) override;
-  double work() const override;
   void sample(std::vector<WeightedPoint>& points) const override;
   void move_out(const Decomposition& space, int here, std::vector<Parcel>& out) override;
   void move_in(std::span<const Parcel> in) override;

@@ -36,11 +36,6 @@ void CpuBackend<Real>::assign_part(const ParticleSet& own, std::span<const IdRun
 }
 
 template <class Real>
-double CpuBackend<Real>::work() const {
-  return static_cast<double>(particles_.count());
-}
-
-template <class Real>
 void CpuBackend<Real>::sample(std::vector<WeightedPoint>& points) const {
   constexpr std::size_t kStride = 16;
   for (std::size_t i = 0; i < particles_.slots.end(); i += kStride) {
@@ -375,8 +370,6 @@ template void CpuBackend<float>::assign_part(const ParticleSet& own, std::span<c
 template void CpuBackend<double>::assign_part(const ParticleSet& own, std::span<const IdRun> all);
 template void CpuBackend<float>::sample(std::vector<WeightedPoint>& points) const;
 template void CpuBackend<double>::sample(std::vector<WeightedPoint>& points) const;
-template double CpuBackend<float>::work() const;
-template double CpuBackend<double>::work() const;
 template void CpuBackend<float>::move_out(const Decomposition& space, int here, std::vector<Parcel>& out);
 template void CpuBackend<double>::move_out(const Decomposition& space, int here, std::vector<Parcel>& out);
 template void CpuBackend<float>::move_in(std::span<const Parcel> in);
