@@ -45,3 +45,12 @@ function(hooke_library name)
   endforeach()
   set_property(GLOBAL APPEND PROPERTY HOOKE_EXPORTS ${ARG_COMPONENT})
 endfunction()
+
+# A module that programs load when they need it (run/module_loader.h): it lies where they look.
+function(hooke_module name source library)
+  add_library(${name} MODULE ${source})
+  set_target_properties(${name} PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+  target_link_libraries(${name} PRIVATE hooke_compiler_flags ${library})
+  target_compile_definitions(${name} PRIVATE HOOKE_VERSION="${PROJECT_VERSION}")
+  target_link_options(${name} PRIVATE LINKER:--exclude-libs,ALL)
+endfunction()
