@@ -15,14 +15,6 @@
 namespace hooke {
 namespace {
 
-bool is_inside(const Domain& domain, const Vec3d& x) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const double value = component(x, axis);
-    if (!(value >= component(domain.min, axis) && value <= component(domain.max, axis))) return false;
-  }
-  return true;
-}
-
 bool wants_accelerations(const Scene& scene, bool restored) {
   return restored && scene.integrator == Integrator::velocity_verlet;
 }
@@ -81,6 +73,14 @@ class ParticleCheck {
 };
 
 }  // namespace
+
+bool is_inside(const Domain& domain, const Vec3d& x) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double value = component(x, axis);
+    if (!(value >= component(domain.min, axis) && value <= component(domain.max, axis))) return false;
+  }
+  return true;
+}
 
 bool is_finite(const Vec3d& a, bool single) {
   const auto ok = [single](double v) { return single ? std::isfinite(static_cast<float>(v)) : std::isfinite(v); };

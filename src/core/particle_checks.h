@@ -23,6 +23,9 @@ bool is_finite(const Vec3d& a, bool single);
 
 std::string shown(const Vec3d& a);  ///< "(1, 2, 3)"
 
+/// Whether a place (m) is inside the domain, its faces included.
+bool is_inside(const Domain& domain, const Vec3d& x);
+
 /// What is wrong with one particle that is about to enter `scene` (m, m/s); empty where nothing is.
 std::string particle_fault(const Scene& scene, std::size_t material, const Vec3d& x, const Vec3d& v);
 

@@ -37,7 +37,7 @@ class RankBalance {
 
   explicit RankBalance(int ranks) : ranks_(ranks) {}
 
-  /// A step is done, with so much work; this rank has computed for so long, s, without waiting for others.
+  /// A step is done, with so much work, which has taken this rank so long, s.
   void add_step(double seconds, double work) {
     ++steps_;
     seconds_ += seconds;

@@ -69,15 +69,14 @@ Ranks::Ranks(std::shared_ptr<Communicator> communicator) : communicator_(std::mo
   if (communicator_) balance_ = RankBalance(communicator_->size());
 }
 
-double Ranks::computed_seconds() const { return communicator_->processor_seconds() - waited_; }
-
 Ranks::ForcePass::ForcePass(Ranks& ranks, Backend& backend)
     : ranks_(ranks),
       backend_(backend),
-      start_(ranks.is_serial() ? 0 : ranks.computed_seconds()) {}
+      start_(ranks.is_serial() ? 0 : ranks.communicator_->processor_seconds()) {}
 Ranks::ForcePass::~ForcePass() {
   if (ranks_.is_serial()) return;
-  ranks_.balance_.add_step(ranks_.computed_seconds() - start_, static_cast<double>(backend_.shared()->own_count()));
+  const double seconds = ranks_.communicator_->processor_seconds() - start_;
+  ranks_.balance_.add_step(seconds, static_cast<double>(backend_.shared()->own_count()));
 }
 
 template <class T, class Body>
@@ -158,11 +157,6 @@ void Ranks::end_interval(std::uint64_t particles) {
 
 // Everyone to the owner of its place; new boxes where the work has become uneven, more than a cut can help.
 void Ranks::exchange_particles(SharedParticles& shared) {
-  const auto move = [&] {
-    std::vector<Parcel> out;
-    shared.move_out(space_, communicator_->rank(), out);
-    shared.move_in(exchange(std::move(out)));
-  };
   const std::uint64_t own = shared.own_count();
   end_interval(own);
   RankBalance::Spread loads = RankBalance::Spread::of(static_cast<double>(own) * balance_.slowness());
@@ -171,7 +165,9 @@ void Ranks::exchange_particles(SharedParticles& shared) {
   bool wanted = balance_.wants_cut(loads);
   combine(wanted, [](const bool& a, bool& sum) { sum = sum || a; });
   if (wanted) cut(shared);
-  move();
+  std::vector<Parcel> out;
+  shared.move_out(space_, communicator_->rank(), out);
+  shared.move_in(exchange(std::move(out)));
 }
 
 // New boxes. What their particles are expected to cost is what they have cost where they were.

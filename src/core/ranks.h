@@ -138,7 +138,6 @@ class Ranks {
   void cut(SharedParticles& shared);
   std::vector<std::uint64_t> slice_starts(std::span<const std::uint64_t> own_ids, std::size_t rows);
   void end_interval(std::uint64_t particles);
-  double computed_seconds() const;
   void exchange_particles(SharedParticles& shared);
   void forget_removed_ids(Backend& backend, const Scene& scene);
   void share_torn(SharedParticles& shared);

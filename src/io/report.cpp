@@ -92,7 +92,7 @@ nlohmann::ordered_json costs_of(const RankCosts& c, std::int64_t steps) {
   json["bytes_per_step"] = each(c.bytes, per_step);
   json["exchanges"] = c.exchanges;
   json["cuts"] = c.cuts;
-  json["largest_over_mean"] = {{"particles", c.uneven_particles}, {"computing_seconds", c.uneven_time}};
+  json["largest_over_mean"] = {{"particles", c.uneven_particles}, {"force_seconds", c.uneven_time}};
   return json;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "hooke/core/particle_checks.h"
 #include "hooke/core/scene.h"
 #include "hooke/scene/block_source.h"
 #include "hooke/scene/cluster_source.h"
@@ -40,12 +41,8 @@ inline bool is_on_periodic_face(const Domain& domain, const Vec3d& x) {
 }
 
 /// Whether a particle may start there.
-inline bool is_inside(const Domain& domain, const Vec3d& x) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const double value = component(x, axis);
-    if (!(value >= component(domain.min, axis) && value <= component(domain.max, axis))) return false;
-  }
-  return !is_on_periodic_face(domain, x);
+inline bool can_start_at(const Domain& domain, const Vec3d& x) {
+  return is_inside(domain, x) && !is_on_periodic_face(domain, x);
 }
 
 }  // namespace hooke::scene

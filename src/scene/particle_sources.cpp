@@ -266,7 +266,7 @@ class Loader {
     // A block is one thing to correct, but the rows of a file are many.
     const std::size_t most = span.places.empty() ? 1 : kMostFindings;
     for (std::size_t i = span.begin; i < span.end; ++i) {
-      if (is_inside(scene_.domain, particles_.position[i]) || ++outside > most) continue;
+      if (can_start_at(scene_.domain, particles_.position[i]) || ++outside > most) continue;
       const Vec3d& x = particles_.position[i];
       complain(
           span, span.where(i),

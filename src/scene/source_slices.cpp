@@ -91,7 +91,7 @@ bool SourceSlices::prepare(const LoadOptions& options, std::vector<Finding>& war
   const Take look = [&](const ParticleSlice& slice) {
     identity_ += slice.identity();
     pairs.add(slice.position);
-    for (const Vec3d& x : slice.position) all_inside = all_inside && is_inside(domain_, x);
+    for (const Vec3d& x : slice.position) all_inside = all_inside && can_start_at(domain_, x);
   };
   Slicer slicer(std::size_t{1} << 16U, look);
   for (std::size_t s = 0; s < sources_.size(); ++s) {

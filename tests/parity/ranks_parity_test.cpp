@@ -10,6 +10,7 @@
 #include "parity/scenarios.h"
 #include "support/engines.h"
 #include "support/ranks.h"
+#include "support/same_bits.h"
 
 namespace hooke::test {
 namespace {
@@ -38,14 +39,7 @@ TEST_P(OnRanks, HasTheBitsOfOneRank) {
           EXPECT_EQ(many.particle_count(), one.particle_count());
           EXPECT_EQ(many.ledger(), one.ledger());
           if (!one_steps) return;
-          const Measurements a = measured(one), b = measured(many);
-          EXPECT_EQ(a.contacts, b.contacts);
-          EXPECT_EQ(a.kinetic_energy, b.kinetic_energy);
-          EXPECT_EQ(a.elastic_energy, b.elastic_energy);
-          EXPECT_EQ(a.wall_force, b.wall_force);
-          EXPECT_EQ(a.colliders, b.colliders);
-          EXPECT_EQ(a.max_overlap_ratio, b.max_overlap_ratio);
-          EXPECT_EQ(a.min, b.min);
+          expect_same_bits(one, many);
           EXPECT_EQ(many.neighbour_statistics().missed_contacts, 0U);
         });
       }

@@ -8,31 +8,23 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hooke/scene/load_scene.h"
-#include "support/bundled_scenes.h"
+#include "gallery_scenes.h"
 #include "support/engines.h"
-#include "support/openvdb.h"
 
 namespace hooke::test {
 namespace {
 
-class GalleryLedger : public testing::TestWithParam<std::string> {};
+class GalleryLedger : public GalleryScenes {};
 
 // The gain in kinetic energy is the work of all causes plus the energy that particles bring and take: in double up to
 // rounding, a billionth of the energy that goes through the ledger. Where particles come and go, without gravity: the
 // ledger does not tell their potential energy from the kinetic.
 TEST_P(GalleryLedger, KineticEnergyBalances) {
-  const std::filesystem::path file = bundled_folder() / (GetParam() + ".json");
-  if (has_mesh(file)) HOOKE_NEEDS_OPENVDB();
-  scene::LoadOptions options;
-  options.overrides = bundled_overrides(GetParam());
-  const auto loaded = scene::load_scene(file, options);
-  ASSERT_TRUE(loaded) << loaded.error().text();
-  Scene scene = loaded->scene;
+  Scene scene = loaded_.scene;
   if (!scene.emitters.empty()) scene.gravity = {0, 0, 0};
-  Simulation s = simulate(scene, loaded->particles, {"cpu", Precision::double_precision, 2, ""});
+  Simulation s = simulate(scene, loaded_.particles, {"cpu", Precision::double_precision, 2, ""});
   const double before = measured(s).kinetic_energy;
-  const auto many = static_cast<std::int64_t>(loaded->particles.size());
+  const auto many = static_cast<std::int64_t>(loaded_.particles.size());
   const std::int64_t moves = !scene.attraction ? 4'000'000 : 800'000;  // a sum over all pairs takes its time
   ASSERT_TRUE(advance(s, std::clamp<std::int64_t>(moves / std::max<std::int64_t>(many, 1), 20, 2000)));
   const Ledger& l = s.ledger();

@@ -6,29 +6,21 @@
 
 #include <gtest/gtest.h>
 
-#include "hooke/scene/load_scene.h"
-#include "support/bundled_scenes.h"
+#include "gallery_scenes.h"
 #include "support/engines.h"
-#include "support/openvdb.h"
 #include "support/ranks.h"
 
 namespace hooke::test {
 namespace {
 
-class GalleryOnRanks : public testing::TestWithParam<std::string> {};
+class GalleryOnRanks : public GalleryScenes {};
 
 TEST_P(GalleryOnRanks, HasTheBitsOfOneRank) {
-  const std::filesystem::path file = bundled_folder() / (GetParam() + ".json");
-  if (has_mesh(file)) HOOKE_NEEDS_OPENVDB();
-  scene::LoadOptions options;
-  options.overrides = bundled_overrides(GetParam());
-  const auto loaded = scene::load_scene(file, options);
-  ASSERT_TRUE(loaded) << loaded.error().text();
-  const Engine engine{"cpu", loaded->scene.precision, 1, ""};
+  const Engine engine{"cpu", loaded_.scene.precision, 1, ""};
   constexpr std::int64_t kSteps = 25;
-  Simulation one = simulate(loaded->scene, loaded->particles, engine);
+  Simulation one = simulate(loaded_.scene, loaded_.particles, engine);
   ASSERT_TRUE(advance(one, kSteps));
-  on_ranks(3, loaded->scene, loaded->particles, engine, [&](Simulation& many) {
+  on_ranks(3, loaded_.scene, loaded_.particles, engine, [&](Simulation& many) {
     ASSERT_TRUE(advance(many, kSteps));
     EXPECT_EQ(many.state_hash(), one.state_hash());
     EXPECT_EQ(many.ledger(), one.ledger());
