@@ -26,11 +26,11 @@ class RankBalance {
 
   /// The time between two exchanges of particles. Sums over ranks are made by add().
   struct Interval {
-    Spread seconds;             ///< that the ranks have computed
-    Spread particles;           ///< that they had
+    Spread seconds;  ///< that the ranks have computed
+    Spread particles;  ///< that they had
     double recent_seconds = 0;  ///< of many steps, recent ones above all
-    double recent_work = 0;     ///< in these steps
-    double cut_seconds = 0;     ///< what the last cut took
+    double recent_work = 0;  ///< in these steps
+    double cut_seconds = 0;  ///< what the last cut took
 
     void add(const Interval& other);
   };
