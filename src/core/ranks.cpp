@@ -245,6 +245,7 @@ void Ranks::renew_ghosts(SharedParticles& shared) {
   }
   channel_ = communicator_->open(to, from);
   partners_ = to.size();
+  middle_ = last_middle_ = {0, 0, 0};
   ++statistics_.exchanges;
   statistics_.ghosts += shared.ghost_count();
 }
@@ -263,33 +264,40 @@ void Ranks::refresh(SharedParticles& shared) {
 }
 
 // Two particles that know nothing of each other were further apart than they can touch by a skin and a slack. They
-// don't touch while no two displacements differ by that. Frames differ by less than 0.99 slacks, and particles are
-// within half a skin of theirs, or are outliers, which are looked at one by one: those that are further from the middle
-// of all frames than half of both may touch something unknown in or near another rank's box, moved by that middle. Two
-// such outliers, too: boxes tile space, so that one of them is then in or near a box that is not its own.
+// don't touch while no two displacements differ by that. All frames are within 0.495 slacks of a displacement that all
+// ranks agree upon, and particles are within half a skin of their frames, or are outliers, which are looked at one by
+// one: those that are further from that displacement than half of both may touch something unknown in or near another
+// rank's box, moved by it. Two such outliers, too: boxes tile space, so that one of them is then in or near a box that
+// is not its own. The displacement is the one expected of the middle of all frames, so that all that is found can be
+// told in one message; where it is not good enough, the middle itself, in a second.
 Condition Ranks::decide(Backend& backend, SharedParticles& shared, const Condition& here) {
   struct Decision {
     Condition found;
     FrameDisplacements frames;
     std::int64_t excess;
-    bool stale, leaving, outliers;
+    bool stale, leaving, lost;
   };
-  const bool stale_here = backend.neighbours_stale();
+  constexpr double kNear = 0.495;  // slacks
+  const Vec3d expected = 2 * middle_ - last_middle_;
+  const bool stale_here = stale_ || backend.neighbours_stale();
   Decision all{here,       shared.displacements(),  shared.list_excess(),
-               stale_here, shared.has_departures(), shared.has_outliers()};
+               stale_here, shared.has_departures(), !stale_here && shared.has_lost_outlier(zones(), expected)};
   combine(all, [](const Decision& a, Decision& sum) {
     sum.found = Condition::first(sum.found, a.found);
     for (int k = 0; k < 6; ++k) sum.frames.most[k] = std::max(sum.frames.most[k], a.frames.most[k]);
     sum.excess += a.excess;
     sum.stale = sum.stale || a.stale;
     sum.leaving = sum.leaving || a.leaving;
-    sum.outliers = sum.outliers || a.outliers;
+    sum.lost = sum.lost || a.lost;
   });
-  stale_ = stale_ || all.stale || all.excess > 0 || !(all.frames.across() < 0.99 * width_.slack);
-  if (!stale_ && all.outliers) {
-    stale_ = shared.has_lost_outlier(zones(), all.frames);
-    combine(stale_, [](const bool& a, bool& sum) { sum = sum || a; });
+  last_middle_ = middle_;
+  middle_ = all.frames.middle();
+  stale_ = all.stale || all.excess > 0 || !(all.frames.across() < 2 * kNear * width_.slack);
+  if (!stale_ && !(all.frames.furthest_from(expected) < kNear * width_.slack)) {
+    all.lost = shared.has_lost_outlier(zones(), middle_);
+    combine(all.lost, [](const bool& a, bool& sum) { sum = sum || a; });
   }
+  stale_ = stale_ || all.lost;
   // What leaves takes along the energy of its contacts, which only a good list tells.
   if (stale_ && all.leaving) {
     build_neighbours(backend);

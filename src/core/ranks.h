@@ -152,6 +152,7 @@ class Ranks {
   Decomposition space_;
   std::vector<double> largest_;  // GhostZones::largest
   GhostWidth width_;
+  Vec3d middle_, last_middle_;  // FrameDisplacements::middle() of all ranks, of the last two steps since then
   bool stale_ = true;
   RankBalance balance_{1};
   double waited_ = 0;  // processor time of this thread in messages, s

@@ -40,4 +40,15 @@ double FrameDisplacements::across() const {
   return std::sqrt(sum);
 }
 
+double FrameDisplacements::furthest_from(const Vec3d& displacement) const {
+  if (none()) return 0;
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double at = component(displacement, axis);
+    const double furthest = std::max(most[axis] - at, at + most[axis + 3]);
+    sum += furthest * furthest;
+  }
+  return std::sqrt(sum);
+}
+
 }  // namespace hooke

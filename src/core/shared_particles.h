@@ -71,6 +71,8 @@ struct FrameDisplacements {
     return {0.5 * (most[0] - most[3]), 0.5 * (most[1] - most[4]), 0.5 * (most[2] - most[5])};
   }
   double across() const;  ///< its diagonal, m
+  /// The distance of its furthest point from a displacement, m; 0 where there is none.
+  double furthest_from(const Vec3d& displacement) const;
 };
 
 /// A back end that holds one rank's part of a scene's particles, and ghosts: copies of the other ranks' particles that
@@ -145,11 +147,9 @@ class SharedParticles {
   /// By how much this rank's list costs more than it is worth, in units that are the same on all ranks: where the sum
   /// is above 0, all get a new one.
   virtual std::int64_t list_excess() const = 0;
-  /// Whether it has outliers, which are not near their frames.
-  virtual bool has_outliers() const = 0;
-  /// Whether one of its outliers may touch a particle that this rank does not know,
-  /// or that does not know it. `all`: of all ranks' frames.
-  virtual bool has_lost_outlier(const GhostZones& zones, const FrameDisplacements& all) const = 0;
+  /// Whether one of its outliers, which are not near their frames, may touch a particle that this rank does not know,
+  /// or that does not know it. All ranks' frames are within half a slack of `common`, m, a displacement.
+  virtual bool has_lost_outlier(const GhostZones& zones, const Vec3d& common) const = 0;
   /// Whether particles will leave through open faces.
   virtual bool has_departures() const = 0;
   /// After a new list: finds them again.

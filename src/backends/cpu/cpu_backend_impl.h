@@ -183,8 +183,7 @@ class CpuBackend final : public Backend, private SharedParticles {
   void unpack(std::span<const std::byte> in) override;
   FrameDisplacements displacements() const override;
   std::int64_t list_excess() const override { return list_.excess(); }
-  bool has_outliers() const override { return !list_.outliers().empty(); }
-  bool has_lost_outlier(const GhostZones& zones, const FrameDisplacements& all) const override;
+  bool has_lost_outlier(const GhostZones& zones, const Vec3d& common) const override;
   bool has_departures() const override;
 
   RemovalSums insert_part(const ParticleSet& newborn, const Decomposition& space, int here) override;

@@ -19,11 +19,21 @@ std::vector<std::byte>& parcel_to(int rank, std::vector<Parcel>& out) {
   return begun != out.end() ? begun->bytes : out.emplace_back(Parcel{rank, {}}).bytes;
 }
 
-// x and v, which change in every step.
+// x and v, which change in every step: each is copied by itself, for a processor that has just written two numbers
+// waits before it can load parts of both at once.
 template <class Real>
-struct Moving {
-  Vec3<Real> x, v;
-};
+constexpr std::size_t kMovingBytes = 2 * sizeof(Vec3<Real>);
+
+template <class Real>
+void write_moving(const ParticleRecord<Real>& p, std::byte* to) {
+  std::memcpy(to, &p.x, sizeof p.x);
+  std::memcpy(to + sizeof p.x, &p.v, sizeof p.v);
+}
+template <class Real>
+void read_moving(const std::byte* from, ParticleRecord<Real>& p) {
+  std::memcpy(&p.x, from, sizeof p.x);
+  std::memcpy(&p.v, from + sizeof p.x, sizeof p.v);
+}
 
 }  // namespace
 
@@ -190,36 +200,29 @@ std::size_t CpuBackend<Real>::copy_bytes() const {
 
 template <class Real>
 std::size_t CpuBackend<Real>::packed_bytes() const {
-  return sizeof(Moving<Real>);
+  return kMovingBytes<Real>;
 }
 
 template <class Real>
 void CpuBackend<Real>::pack(std::span<std::byte> out) const {
-  HOOKE_ASSERT(out.size() == copied_.size() * sizeof(Moving<Real>), out.size(), copied_.size());
+  HOOKE_ASSERT(out.size() == copied_.size() * kMovingBytes<Real>, out.size(), copied_.size());
   for_ranges(copied_.size(), kTile, [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k) {
-      const Record& p = particles_.records[copied_[k]];
-      const Moving<Real> moving{p.x, p.v};
-      std::memcpy(out.data() + k * sizeof moving, &moving, sizeof moving);
-    }
+    for (std::size_t k = first; k < last; ++k)
+      write_moving(particles_.records[copied_[k]], out.data() + k * kMovingBytes<Real>);
   });
 }
 
 template <class Real>
 void CpuBackend<Real>::unpack(std::span<const std::byte> in) {
-  HOOKE_ASSERT(in.size() == ghost_slots_.size() * sizeof(Moving<Real>), in.size(), ghost_slots_.size());
+  HOOKE_ASSERT(in.size() == ghost_slots_.size() * kMovingBytes<Real>, in.size(), ghost_slots_.size());
   for_ranges(ghost_slots_.size(), kTile, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
-      Moving<Real> moving;
-      std::memcpy(&moving, in.data() + k * sizeof moving, sizeof moving);
-      const auto put = [&](Record& p) {
-        if (is_vacant(p)) return;
-        p.x = moving.x;
-        p.v = moving.v;
-      };
-      put(particles_.records[ghost_slots_[k]]);
+      const std::size_t slot = ghost_slots_[k];
+      if (is_vacant(particles_.records[slot])) continue;
+      const std::byte* const moving = in.data() + k * kMovingBytes<Real>;
+      read_moving(moving, particles_.records[slot]);
       // Its pass swaps buffers, and moves nobody.
-      if (verlet()) put(particles_.next[ghost_slots_[k]]);
+      if (verlet()) read_moving(moving, particles_.next[slot]);
     }
   });
 }
@@ -236,18 +239,17 @@ FrameDisplacements CpuBackend<Real>::displacements() const {
   return displacements;
 }
 
-// Relative to the middle of all displacements, what is near its frame has moved by half a skin and half a slack at
-// most. What has moved further may touch what is now within that of another rank's moved box.
+// Beside the common displacement, what is near its frame has moved by half a skin and half a slack at most. What has
+// moved further may touch what is now within that of another rank's moved box.
 template <class Real>
-bool CpuBackend<Real>::has_lost_outlier(const GhostZones& zones, const FrameDisplacements& all) const {
+bool CpuBackend<Real>::has_lost_outlier(const GhostZones& zones, const Vec3d& common) const {
   const double most = zones.width.skin + zones.width.slack, tame = 0.49 * most;
-  const Vec3d middle = all.middle();
   for (const std::uint32_t i : list_.outliers()) {
     const Record& p = particles_.records[i];
     if (i >= particles_.slots.interacting_end() || is_vacant(p)) continue;
-    const Vec3d strayed = vec_cast<double>(list_.moved_by(p, i)) - middle;
+    const Vec3d strayed = vec_cast<double>(list_.moved_by(p, i)) - common;
     if (dot(strayed, strayed) < tame * tame) continue;
-    const Vec3d at = vec_cast<double>(p.x) - middle;
+    const Vec3d at = vec_cast<double>(p.x) - common;
     const double radius = rules_.interaction_radius(static_cast<std::size_t>(p.material));
     for (int rank = 0; rank < static_cast<int>(zones.largest.size()); ++rank) {
       if (rank == zones.here) continue;
@@ -398,8 +400,8 @@ template void CpuBackend<float>::unpack(std::span<const std::byte> in);
 template void CpuBackend<double>::unpack(std::span<const std::byte> in);
 template FrameDisplacements CpuBackend<float>::displacements() const;
 template FrameDisplacements CpuBackend<double>::displacements() const;
-template bool CpuBackend<float>::has_lost_outlier(const GhostZones& zones, const FrameDisplacements& all) const;
-template bool CpuBackend<double>::has_lost_outlier(const GhostZones& zones, const FrameDisplacements& all) const;
+template bool CpuBackend<float>::has_lost_outlier(const GhostZones& zones, const Vec3d& common) const;
+template bool CpuBackend<double>::has_lost_outlier(const GhostZones& zones, const Vec3d& common) const;
 template bool CpuBackend<float>::has_departures() const;
 template bool CpuBackend<double>::has_departures() const;
 template RemovalSums CpuBackend<float>::insert_part(const ParticleSet& newborn, const Decomposition& space, int here);

@@ -133,9 +133,18 @@ template <class Real>
 void VerletList<Real>::note_far_ghosts(const Record* records) {
   if (!listed_ || !has_ghosts()) return;
   for (std::size_t first = first_ghost_; first < ghost_end_; first += kLanes) {
+    const Frame& frame = frames_[first / kWindow];
+    const Vec3<Real> expected = frame.at(next_step());
+    const std::size_t count = end_from(first, kLanes) - first;
+    std::array<Real, kLanes> off2;
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const Vec3<Real> off = displacement(records[first + lane], first + lane, expected);
+      off2[lane] = dot(off, off);
+    }
+    const Real limit2 = frame.limit2(next_step());
     unsigned far = 0;
-    for (std::size_t i = first; i < end_from(first, kLanes); ++i) {
-      if (!is_vacant(records[i]) && is_far(records[i], i)) far |= 1U << i % kLanes;
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      if (!(off2[lane] <= limit2) && !is_vacant(records[first + lane])) far |= 1U << lane;
     }
     if (far != 0) note_far(first / kLanes, far);
   }
