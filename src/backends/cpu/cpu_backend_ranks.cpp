@@ -24,6 +24,9 @@ std::vector<std::byte>& parcel_to(int rank, std::vector<Parcel>& out) {
 template <class Real>
 constexpr std::size_t kMovingBytes = 2 * sizeof(Vec3<Real>);
 
+// Records are far apart in memory: this many are on their way at the same time.
+constexpr std::size_t kAhead = 64;
+
 template <class Real>
 void write_moving(const ParticleRecord<Real>& p, std::byte* to) {
   std::memcpy(to, &p.x, sizeof p.x);
@@ -207,8 +210,10 @@ template <class Real>
 void CpuBackend<Real>::pack(std::span<std::byte> out) const {
   HOOKE_ASSERT(out.size() == copied_.size() * kMovingBytes<Real>, out.size(), copied_.size());
   for_ranges(copied_.size(), kTile, [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k)
+    for (std::size_t k = first; k < last; ++k) {
+      if (k + kAhead < last) __builtin_prefetch(&particles_.records[copied_[k + kAhead]]);
       write_moving(particles_.records[copied_[k]], out.data() + k * kMovingBytes<Real>);
+    }
   });
 }
 
@@ -217,6 +222,7 @@ void CpuBackend<Real>::unpack(std::span<const std::byte> in) {
   HOOKE_ASSERT(in.size() == ghost_slots_.size() * kMovingBytes<Real>, in.size(), ghost_slots_.size());
   for_ranges(ghost_slots_.size(), kTile, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
+      if (k + kAhead < last) __builtin_prefetch(&particles_.records[ghost_slots_[k + kAhead]], 1);
       const std::size_t slot = ghost_slots_[k];
       if (is_vacant(particles_.records[slot])) continue;
       const std::byte* const moving = in.data() + k * kMovingBytes<Real>;
