@@ -3,14 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 
 namespace hooke {
 
 /// How evenly ranks share the work of a scene, and when other boxes pay. A unit of work is a particle in the force
-/// pass; what it costs is measured: the least of some 50 to 100 steps, for what else goes on in a machine makes a step
-/// slower, and never faster. Each rank has one of these; what it decides from are sums over all ranks, so that all
-/// decide alike.
+/// pass; how long it takes is measured, as a mean over many steps. Each rank has one of these; what it decides from are
+/// sums over all ranks, so that all decide alike.
 class RankBalance {
  public:
   /// A number of each rank: their sum, and the largest.
@@ -30,8 +28,8 @@ class RankBalance {
   struct Interval {
     Spread seconds;  ///< that the ranks have computed
     Spread particles;  ///< that they had
-    double least_seconds = 0;  ///< of a step in which each unit of work costs the least
-    double work = 0;           ///< of such a step
+    double recent_seconds = 0;  ///< of many steps, recent ones above all
+    double recent_work = 0;  ///< in these steps
     double cut_seconds = 0;  ///< what the last cut took
 
     void add(const Interval& other);
@@ -40,7 +38,11 @@ class RankBalance {
   explicit RankBalance(int ranks) : ranks_(ranks) {}
 
   /// A step is done, with so much work, which has taken this rank so long, s.
-  void add_step(double seconds, double work);
+  void add_step(double seconds, double work) {
+    ++steps_;
+    seconds_ += seconds;
+    work_ += work;
+  }
   std::int64_t steps() const { return steps_; }  ///< since the last exchange
 
   /// This rank's part of the interval that ends with an exchange; and what all ranks' parts, added up, tell.
@@ -51,25 +53,20 @@ class RankBalance {
   double slowness() const { return slowness_; }
   /// Whether boxes are to be cut, now that all ranks have such loads: work times slowness.
   bool wants_cut(const Spread& loads);
-  /// Boxes have been cut. The loads are now expected to be these, the slowness of this rank that, and the cut has taken
-  /// so long here, s.
-  void begin_anew(const Spread& loads, double slowness, double seconds);
+  /// Boxes have been cut. The loads are now expected to be these, the slowness and the work of this rank those, and the
+  /// cut has taken so long here, s.
+  void begin_anew(const Spread& loads, double slowness, double work, double seconds);
   /// All particles have been dealt out anew: nothing is known of them.
   void forget() { *this = RankBalance(ranks_); }
 
  private:
-  static constexpr double kUnknown = std::numeric_limits<double>::infinity();
-
   int ranks_;
   std::int64_t steps_ = 0;  // since the last exchange
-  double seconds_ = 0;  // of them
+  double seconds_ = 0, work_ = 0;  // of them
   std::int64_t interval_steps_ = 0;  // of the last interval
-  // Of a unit of work, s: the least since the last window of steps began, and in the one before.
-  double least_cost_ = kUnknown, last_least_cost_ = kUnknown;
-  std::int64_t steps_in_window_ = 0;
-  bool is_known_ = false;  // a window has passed, on this rank as on all
-  double cost_ = 0, work_ = 0;  // of a unit of work, and how many there are, at the last interval()
-  double mean_cost_ = 0;  // on all ranks
+  double recent_steps_ = 0;  // older ones count less; the same on all ranks
+  double recent_seconds_ = 0, recent_work_ = 0;  // of them
+  double mean_cost_ = 0;  // of a unit of work on any rank, s
   double slowness_ = 1;
   double reached_ = 1;  // the largest load over the mean that the last cut has left
   double lost_ = 0;  // by what has become uneven since then, s

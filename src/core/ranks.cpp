@@ -198,7 +198,8 @@ void Ranks::cut(SharedParticles& shared) {
   RankBalance::Spread loads;
   for (const Share& share : shares) loads.add(RankBalance::Spread::of(share.load));
   const Share& here = shares[static_cast<std::size_t>(communicator_->rank())];
-  balance_.begin_anew(loads, here.work > 0 ? here.load / here.work : 1, communicator_->processor_seconds() - start);
+  balance_.begin_anew(loads, here.work > 0 ? here.load / here.work : 1, here.work,
+                      communicator_->processor_seconds() - start);
 }
 
 // A spring tears on the ranks that own its ends; the others learn of it before they may own one.
