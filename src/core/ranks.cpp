@@ -265,11 +265,10 @@ void Ranks::refresh(SharedParticles& shared) {
 
 // Two particles that know nothing of each other were further apart than they can touch by a skin and a slack. They
 // don't touch while no two displacements differ by that. All frames are within 0.495 slacks of a displacement that all
-// ranks agree upon, and particles are within half a skin of their frames, or are outliers, which are looked at one by
-// one: those that are further from that displacement than half of both may touch something unknown in or near another
-// rank's box, moved by it. Two such outliers, too: boxes tile space, so that one of them is then in or near a box that
-// is not its own. The displacement is the one expected of the middle of all frames, so that all that is found can be
-// told in one message; where it is not good enough, the middle itself, in a second.
+// ranks agree upon beforehand: where the middle of all frames is expected. Particles are within half a skin of their
+// frames, or are outliers, which are looked at one by one: those that are further from that displacement than half of
+// both may touch something unknown in or near another rank's box, moved by it. Two such outliers, too: boxes tile
+// space, so that one of them is then in or near a box that is not its own.
 Condition Ranks::decide(Backend& backend, SharedParticles& shared, const Condition& here) {
   struct Decision {
     Condition found;
@@ -292,12 +291,8 @@ Condition Ranks::decide(Backend& backend, SharedParticles& shared, const Conditi
   });
   last_middle_ = middle_;
   middle_ = all.frames.middle();
-  stale_ = all.stale || all.excess > 0 || !(all.frames.across() < 2 * kNear * width_.slack);
-  if (!stale_ && !(all.frames.furthest_from(expected) < kNear * width_.slack)) {
-    all.lost = shared.has_lost_outlier(zones(), middle_);
-    combine(all.lost, [](const bool& a, bool& sum) { sum = sum || a; });
-  }
-  stale_ = stale_ || all.lost;
+  const bool together = all.frames.furthest_from(expected) < kNear * width_.slack;
+  stale_ = all.stale || all.lost || all.excess > 0 || !together;
   // What leaves takes along the energy of its contacts, which only a good list tells.
   if (stale_ && all.leaving) {
     build_neighbours(backend);

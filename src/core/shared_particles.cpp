@@ -33,13 +33,6 @@ bool Decomposition::is_near(int rank, const Vec3d& x, double reach) const {
   return true;
 }
 
-double FrameDisplacements::across() const {
-  if (none()) return 0;
-  double sum = 0;
-  for (int axis = 0; axis < 3; ++axis) sum += (most[axis] + most[axis + 3]) * (most[axis] + most[axis + 3]);
-  return std::sqrt(sum);
-}
-
 double FrameDisplacements::furthest_from(const Vec3d& displacement) const {
   if (none()) return 0;
   double sum = 0;

@@ -70,7 +70,6 @@ struct FrameDisplacements {
     if (none()) return {0, 0, 0};
     return {0.5 * (most[0] - most[3]), 0.5 * (most[1] - most[4]), 0.5 * (most[2] - most[5])};
   }
-  double across() const;  ///< its diagonal, m
   /// The distance of its furthest point from a displacement, m; 0 where there is none.
   double furthest_from(const Vec3d& displacement) const;
 };
