@@ -19,12 +19,18 @@ namespace hooke::HOOKE_ISA {
 /// each row takes registers.
 inline constexpr std::size_t kRowsAtOnce = 2;
 
-/// One number that is asked for by its lane, as the lanes of a register are.
+/// One number that is asked for by its lane, a number of any type, as the lanes of a register are.
 template <class T>
 struct OneLane {
   T number;
-  HOOKE_HD T& operator[](std::size_t) { return number; }
-  HOOKE_HD const T& operator[](std::size_t) const { return number; }
+  template <class Lane>
+  HOOKE_HD T& operator[](Lane) {
+    return number;
+  }
+  template <class Lane>
+  HOOKE_HD const T& operator[](Lane) const {
+    return number;
+  }
 };
 
 template <class Real>
