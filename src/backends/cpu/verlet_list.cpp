@@ -4,6 +4,7 @@
 #include "hooke/backends/cpu/verlet_list.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -136,6 +137,7 @@ void VerletList<Real>::note_far_ghosts(const Record* records) {
     const Frame& frame = frames_[first / kWindow];
     const Vec3<Real> expected = frame.at(next_step());
     const std::size_t count = end_from(first, kLanes) - first;
+    // The numbers of all lanes first, and the decisions then: a loop without branches runs on several lanes at a time.
     std::array<Real, kLanes> off2;
     for (std::size_t lane = 0; lane < count; ++lane) {
       const Vec3<Real> off = displacement(records[first + lane], first + lane, expected);
